@@ -1,0 +1,95 @@
+"""The motion that drives a specimen: the path between the samples, its rates, and its turning points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.noise import displacement_noise
+
+Array = NDArray[np.float64]
+
+# local polynomials of this half width and degree pass 1-25 Hz at 1 kHz with errors below 1e-5
+HALF_WIDTH, DEGREE = 12, 8
+NOISE_OF_SPAN = 1e-6
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A uniformly sampled path: between two samples the cubic with the given positions and velocities.
+
+    ``displacement`` (n,) m, ``velocity`` (n,) m/s, ``acceleration`` (n,) m/s^2, ``dt`` s. ``turn_step`` (k,) is the
+    index of the sample that ends the step in which the path turns, ``turn_displacement`` (k,) where it turns; both in
+    the order of time.
+    """
+
+    dt: float
+    displacement: Array
+    velocity: Array
+    acceleration: Array
+    turn_step: NDArray[np.int64]
+    turn_displacement: Array
+
+    @property
+    def samples(self) -> int:
+        """How many samples the path has."""
+        return self.displacement.size
+
+
+def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:
+    """The drive of a path whose rates are known."""
+    step, place = find_turns(dt, displacement, velocity)
+    return Drive(dt, displacement, velocity, acceleration, step, place)
+
+
+def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = None) -> Drive:
+    """The drive of a measured displacement.
+
+    Rates come from the interpolating quintic spline where the samples are clean, and from local polynomials, which also
+    replace the displacement, where the sensor is noisy; ``smooth`` decides it by hand.
+    """
+    x = np.ascontiguousarray(displacement, dtype=float)
+    if smooth is None:
+        smooth = displacement_noise(x) > NOISE_OF_SPAN * np.ptp(x)
+    if smooth and x.size > 2 * HALF_WIDTH + 1:
+        return drive_from_path(dt, *_local_polynomials(dt, x))
+    from scipy.interpolate import make_interp_spline
+
+    time = dt * np.arange(x.size)
+    spline = make_interp_spline(time, x, k=5 if x.size > 5 else 1)
+    return drive_from_path(dt, x, spline(time, 1), spline(time, 2))
+
+
+def find_turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
+    """Where the cubic path turns between samples: step (index of its end) and displacement, in the order of time."""
+    rise = np.diff(x) / dt
+    # velocity over u = 0..1: v0 + b u + c u^2
+    v0, v1 = v[:-1], v[1:]
+    c = 3.0 * (v0 + v1) - 6.0 * rise
+    b = v1 - v0 - c
+    roots = _roots(c, b, v0)
+    step, which = np.nonzero((roots > 0.0) & (roots < 1.0))
+    u = roots[step, which]
+    place = x[:-1][step] + dt * u * (v0[step] + u * (b[step] / 2.0 + u * c[step] / 3.0))
+    return step + 1, place
+
+
+def _roots(c: Array, b: Array, a: Array) -> Array:
+    # both real roots of a + b u + c u^2, ascending, NaN where there are none; stable for small c
+    with np.errstate(all="ignore"):
+        root = np.sqrt(b * b - 4.0 * a * c)
+        q = -0.5 * (b + np.where(b < 0.0, -root, root))
+        pair = np.column_stack([q / c, a / q])
+    pair[np.isinf(pair)] = np.nan
+    double = pair[:, 0] == pair[:, 1]
+    pair[double] = np.nan
+    return np.sort(pair, axis=1)
+
+
+def _local_polynomials(dt: float, x: Array) -> tuple[Array, Array, Array]:
+    from scipy.signal import savgol_filter
+
+    window = 2 * HALF_WIDTH + 1
+    return tuple(savgol_filter(x, window, DEGREE, deriv=order, delta=dt, mode="interp") for order in range(3))

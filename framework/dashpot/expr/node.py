@@ -1,0 +1,165 @@
+"""Nodes of the scalar graph, and the operations they may carry.
+
+Nodes are hash-consed: equal expressions are one object, so sharing is free and identity is equality. A node that meets
+numpy records the call instead of computing: ``np.exp(node)`` is a new node.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+_interned: dict[tuple[Any, ...], Node] = {}
+_serial = itertools.count()
+
+# numpy's name of a ufunc -> our name; the two differ only where numpy has aliases
+UFUNCS = {
+    "add": "add", "subtract": "subtract", "multiply": "multiply", "divide": "divide", "true_divide": "divide",
+    "negative": "negative", "absolute": "absolute", "fabs": "absolute", "sqrt": "sqrt", "exp": "exp",
+    "expm1": "expm1", "log": "log", "log1p": "log1p", "tanh": "tanh", "sin": "sin", "cos": "cos",
+    "minimum": "minimum", "maximum": "maximum", "power": "power", "sign": "sign",
+    "less": "less", "less_equal": "less_equal", "greater": "greater", "greater_equal": "greater_equal",
+    "equal": "equal", "not_equal": "not_equal", "logical_and": "logical_and", "logical_or": "logical_or",
+    "bitwise_and": "logical_and", "bitwise_or": "logical_or", "logical_not": "logical_not", "invert": "logical_not",
+    "wrightomega": "wrightomega",
+}  # fmt: skip
+
+
+class TraceError(TypeError):
+    """A law used something that cannot be traced; the message says what to use instead."""
+
+
+class Node(np.lib.mixins.NDArrayOperatorsMixin):
+    """One operation of the graph: ``operation`` on ``arguments``, or a ``constant``, ``symbol`` or ``table``.
+
+    ``payload`` is the value of a constant, the name of a symbol, or the name of the curve of a table. ``serial``
+    grows with creation, so sorting by it is a topological order.
+    """
+
+    __slots__ = ("arguments", "operation", "payload", "serial")
+
+    def __init__(self, operation: str, arguments: tuple[Node, ...], payload: Any) -> None:
+        self.operation, self.arguments, self.payload = operation, arguments, payload
+        self.serial = next(_serial)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Node:
+        operation = UFUNCS.get(ufunc.__name__)
+        if method != "__call__" or kwargs or operation is None:
+            raise TraceError(f"a law may not use numpy.{ufunc.__name__} here; usable are {', '.join(sorted(UFUNCS))}")
+        return apply(operation, *(as_node(value) for value in inputs))
+
+    def __array_function__(self, function: Callable[..., Any], types: Any, args: Any, kwargs: Any) -> Node:
+        if function is np.where and len(args) == 3:
+            return apply("where", *(as_node(value) for value in args))
+        if function is np.clip and len(args) == 3:
+            return np.minimum(np.maximum(args[0], args[1]), args[2])
+        raise TraceError(f"a law may not use numpy.{function.__name__}; of the functions only where and clip are traced")
+
+    def __bool__(self) -> bool:
+        raise TraceError("a law may not branch on a traced value; use np.where(condition, yes, no)")
+
+    def __float__(self) -> float:
+        raise TraceError("a law may not turn a traced value into a float; use numpy functions throughout")
+
+    def __hash__(self) -> int:
+        return self.serial
+
+    def __repr__(self) -> str:
+        if self.operation in ("constant", "symbol"):
+            return str(self.payload)
+        name = self.operation if self.payload is None else f"{self.operation}:{self.payload}"
+        return f"{name}({', '.join(map(repr, self.arguments))})"
+
+
+def constant(value: float | bool) -> Node:
+    """The node of a number. NaN is refused: it would never compare equal to itself."""
+    if isinstance(value, float) and math.isnan(value):
+        raise TraceError("a law holds the constant NaN")
+    plain = bool(value) if isinstance(value, (bool, np.bool_)) else float(value)
+    return _intern("constant", (), plain)
+
+
+def symbol(name: str) -> Node:
+    """The node of a named input."""
+    return _intern("symbol", (), name)
+
+
+def table(curve: str, argument: Node, order: int = 0) -> Node:
+    """The value (or ``order``-th derivative) of a tabulated curve at ``argument``."""
+    return _intern("table", (argument,), (curve, order))
+
+
+def as_node(value: Any) -> Node:
+    """A node as it is, a number as a constant."""
+    return value if isinstance(value, Node) else constant(value)
+
+
+def apply(operation: str, *arguments: Node) -> Node:
+    """The node of an operation, folded where the arguments allow it."""
+    if all(argument.operation == "constant" for argument in arguments):
+        return constant(_fold(operation, arguments))
+    simple = _simplify(operation, arguments)
+    return _intern(operation, arguments, None) if simple is None else simple
+
+
+def compute(operation: str) -> Callable[..., Any]:
+    """The numpy function that computes an operation."""
+    if operation == "wrightomega":
+        from scipy.special import wrightomega
+
+        return wrightomega
+    return np.where if operation == "where" else getattr(np, operation)
+
+
+def walk(roots: list[Node]) -> list[Node]:
+    """Every node that the roots need, arguments first."""
+    seen: dict[int, Node] = {}
+    stack = list(roots)
+    while stack:
+        node = stack.pop()
+        if node.serial not in seen:
+            seen[node.serial] = node
+            stack.extend(node.arguments)
+    return [seen[serial] for serial in sorted(seen)]
+
+
+def _intern(operation: str, arguments: tuple[Node, ...], payload: Any) -> Node:
+    # the type keeps 1.0 and True apart; the sign keeps 0.0 and -0.0 apart
+    mark = (type(payload), math.copysign(1.0, payload)) if isinstance(payload, (float, bool)) else type(payload)
+    key = (operation, tuple(argument.serial for argument in arguments), payload, mark)
+    if key not in _interned:
+        _interned[key] = Node(operation, arguments, payload)
+    return _interned[key]
+
+
+def _fold(operation: str, arguments: tuple[Node, ...]) -> Any:
+    with np.errstate(all="ignore"):
+        return compute(operation)(*(argument.payload for argument in arguments)).item()
+
+
+def _simplify(operation: str, arguments: tuple[Node, ...]) -> Node | None:
+    first, *rest = arguments
+    second = rest[0] if rest else None
+    if operation == "where":
+        if first.operation == "constant":
+            return arguments[1] if first.payload else arguments[2]
+        return arguments[1] if arguments[1] is arguments[2] else None
+    if operation == "multiply":
+        return second if _is(first, 1.0) else first if _is(second, 1.0) else None
+    if operation == "add":
+        return second if _is(first, 0.0) else first if _is(second, 0.0) else None
+    if operation == "subtract" and _is(second, 0.0):
+        return first
+    if operation in ("divide", "power") and _is(second, 1.0):
+        return first
+    if operation == "power" and _is(second, 2.0):
+        return apply("multiply", first, first)
+    return None
+
+
+def _is(node: Node | None, value: float) -> bool:
+    return node is not None and node.operation == "constant" and node.payload == value

@@ -1,0 +1,97 @@
+"""The drive of a run as the kernel wants it: one row per sample and one per turning point."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive
+from dashpot.expr.interpret import interpret
+from dashpot.kernel.curves import segment_of
+from dashpot.kernel.source import SEGMENT
+from dashpot.kernel.tiers import Program
+from dashpot.model.network import Characteristic
+
+Array = NDArray[np.float64]
+REST = ("velocity_old", "velocity_new", "acceleration")
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Arrays of a run for the kernel; see ``source.print_source`` for their shapes."""
+
+    drive: Drive
+    columns: Array
+    index: NDArray[np.int64]
+    local: Array
+    turn_at: NDArray[np.int64]
+    turn_columns: Array
+
+
+def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive) -> Rows:
+    """Everything of a network that depends on the drive alone.
+
+    Before the first sample the specimen was loaded from zero deflection in one go: friction remembers that, relaxing
+    branches have forgotten it.
+    """
+    samples = see_samples(drive)
+    columns = _evaluate(program, samples, drive.samples)
+    turns = _evaluate(program, see_turns(drive), drive.turn_step.size)
+    index = np.empty((drive.samples, len(program.lookups)), dtype=np.int64)
+    local = np.empty((drive.samples, len(program.lookups)))
+    bases = table_bases(program, curves)
+    for number, look in enumerate(program.lookups):
+        argument = np.broadcast_to(interpret([look.argument], samples)[0], (drive.samples,))
+        segment, local[:, number] = segment_of(curves[look.curve], argument)
+        index[:, number] = bases[look.curve] + SEGMENT * segment
+    return Rows(drive, columns, index, local, drive.turn_step, turns)
+
+
+def table_bases(program: Program, curves: Mapping[str, Characteristic]) -> dict[str, int]:
+    """Where each curve's coefficients begin in the tables of a block."""
+    bases, size = {}, 0
+    for curve in dict.fromkeys(look.curve for look in program.lookups):
+        bases[curve] = size
+        size += SEGMENT * (len(curves[curve].at) + 1)
+    return bases
+
+
+def see_samples(drive: Drive) -> dict[str, Array | float]:
+    """The drive at every sample, as branches of each sight see it."""
+    x, v, a = drive.displacement, drive.velocity, drive.acceleration
+    before, v_before = np.concatenate([x[:1], x[:-1]]), np.concatenate([v[:1], v[:-1]])
+    still = {"old": before, "new": x, "velocity_old": v_before, "velocity_new": v, "acceleration": a}
+    # a branch with memory has not moved when the record begins
+    path = dict(still, **{key: np.concatenate([[0.0], still[key][1:]]) for key in REST})
+    since = before.copy()
+    since[:1] = 0.0
+    since[drive.turn_step] = drive.turn_displacement
+    sights = {"still": still, "path": path, "monotone": {"old": since, "new": x}}
+    return {"dt": drive.dt} | {f"{name}.{key}": value for name, sight in sights.items() for key, value in sight.items()}
+
+
+def see_turns(drive: Drive) -> dict[str, Array | float]:
+    """The drive at its turning points; only rate-independent branches move there."""
+    place, step = drive.turn_displacement, drive.turn_step
+    again = np.concatenate([[False], step[1:] == step[:-1]])
+    earlier = np.concatenate([[0.0], place[:-1]]) if place.size else place
+    return {"dt": drive.dt, "monotone.old": np.where(again, earlier, drive.displacement[step - 1]),
+            "monotone.new": place}  # fmt: skip
+
+
+def _evaluate(program: Program, values: Mapping[str, Array | float], count: int) -> Array:
+    rows = np.zeros((count, len(program.columns)))
+    known = [(number, node) for number, node in enumerate(program.columns) if _symbols(node) <= set(values)]
+    found = interpret([node for _, node in known], values)
+    for (number, _), column in zip(known, found, strict=True):
+        rows[:, number] = column
+    return rows
+
+
+def _symbols(node) -> set[str]:  # noqa: ANN001
+    from dashpot.expr.node import walk
+
+    return {inner.payload for inner in walk([node]) if inner.operation == "symbol"}

@@ -1,0 +1,64 @@
+"""Keeping and loading compiled networks.
+
+numba cannot cache functions made from text, so the source is written to a file that carries its digest in its name and
+is never changed again; numba's own cache beside it holds the machine code, guarded by the versions of numba and the
+processor. Equal networks, whatever their numbers, share one file.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import sys
+import tempfile
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Native:
+    """The compiled functions of a network and the file they came from."""
+
+    simulate: Any
+    score: Any
+    file: Path
+
+
+def cache_folder() -> Path:
+    """``DASHPOT_CACHE``, or ``dashpot`` in the user's cache folder."""
+    given = os.environ.get("DASHPOT_CACHE")
+    if given:
+        return Path(given)
+    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
+    return (Path(base) if base else Path.home() / ".cache") / "dashpot"
+
+
+def load_native(source: str) -> Native:
+    """The compiled functions of a source text, from the cache where they are known."""
+    return _load(source, str(cache_folder()))
+
+
+@lru_cache(maxsize=256)
+def _load(source: str, folder: str) -> Native:
+    digest = hashlib.sha256(source.encode()).hexdigest()[:16]
+    name = f"network_{digest}"
+    file = Path(folder) / "kernels" / f"{name}.py"
+    _write_once(file, source)
+    loader = importlib.util.spec_from_file_location(name, file)
+    module = importlib.util.module_from_spec(loader)
+    sys.modules[name] = module
+    loader.loader.exec_module(module)
+    return Native(module.simulate, module.score, file)
+
+
+def _write_once(file: Path, text: str) -> None:
+    if file.is_file() and file.read_text(encoding="utf-8") == text:
+        return
+    file.parent.mkdir(parents=True, exist_ok=True)
+    handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
+    with os.fdopen(handle, "w", encoding="utf-8") as stream:
+        stream.write(text)
+    os.replace(temporary, file)

@@ -1,0 +1,131 @@
+"""A compiled network: simulate and score whole blocks of lanes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive
+from dashpot.expr.interpret import interpret
+from dashpot.kernel.columns import Rows, prepare_rows
+from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.native import Native, load_native
+from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.source import WIDTH, print_source, rows
+from dashpot.kernel.tiers import Program, sort_tiers
+from dashpot.kernel.trace import trace_network
+from dashpot.model.network import Characteristic, NetworkSpec
+
+Array = NDArray[np.float64]
+VECTOR = 16
+
+
+@dataclass(frozen=True)
+class CompiledNetwork:
+    """A network that is constant: one per topology and number of knots, never per parameter value.
+
+    ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
+    """
+
+    spec: NetworkSpec
+    program: Program
+    native: Native
+
+    @cached_property
+    def paths(self) -> tuple[str, ...]:
+        """The paths of the slots."""
+        return tuple(slot.path for slot in self.spec.slots())
+
+    @cached_property
+    def start(self) -> Array:
+        """The values of the file as a single lane (slots,)."""
+        return np.array([slot.value.number for slot in self.spec.slots()])
+
+    @cached_property
+    def curves(self) -> dict[str, Characteristic]:
+        """Every curve of the network by path."""
+        return {f"{branch.name}.{key}": curve for branch in self.spec.leaves()
+                for key, curve in branch.characteristics().items()}  # fmt: skip
+
+    def prepare(self, drive: Drive) -> Rows:
+        """The part of the work that depends on the drive alone."""
+        return prepare_rows(self.program, self.curves, drive)
+
+    def observation(self, values: Array) -> Observation:
+        """How the load cell sees each lane."""
+        return read_observation(self.paths, np.atleast_2d(values))
+
+    def simulate(self, run: Rows, values: Array | None = None) -> Array:
+        """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
+        block = np.atleast_2d(self.start if values is None else values)
+        out = np.empty((block.shape[0], run.drive.samples))
+        for first, lanes, tables, workspace in self._blocks(run, block):
+            buffer = np.empty((run.drive.samples, lanes))
+            self.native.simulate(*_arguments(run, tables, workspace, lanes), buffer)
+            count = min(WIDTH, block.shape[0] - first)
+            out[first : first + count] = buffer.T[:count]
+        return out[0] if values is None or np.ndim(values) == 1 else out
+
+    def score(self, runs: Sequence[Rows], measured: Sequence[Array], weights: Sequence[Array], values: Array,
+              jobs: int = 1) -> Array:  # fmt: skip
+        """Weighted sums of squared errors (runs, lanes) against ``measured``, without storing any force.
+
+        A lane whose force is not finite scores NaN.
+        """
+        tasks = [(run, *rest, np.atleast_2d(values)) for run, *rest in zip(runs, measured, weights, strict=True)]
+        if jobs == 1:
+            return np.array([self._score(task) for task in tasks])
+        with ThreadPoolExecutor(jobs) as pool:
+            return np.array(list(pool.map(self._score, tasks)))
+
+    def _score(self, task: tuple[Rows, Array, Array, Array]) -> Array:
+        run, measured, weight, block = task
+        out = np.empty(block.shape[0])
+        last = WIDTH * rows(self.program)
+        for first, lanes, tables, workspace in self._blocks(run, block):
+            self.native.score(*_arguments(run, tables, workspace, lanes), measured, weight)
+            count = min(WIDTH, block.shape[0] - first)
+            out[first : first + count] = workspace[last : last + count]
+        return out
+
+    def _blocks(self, run: Rows, block: Array) -> Iterable[tuple[int, int, Array, Array]]:
+        for first in range(0, block.shape[0], WIDTH):
+            part = block[first : first + WIDTH]
+            lanes = min(WIDTH, -(-part.shape[0] // VECTOR) * VECTOR)
+            padded = np.concatenate([part, np.repeat(part[-1:], lanes - part.shape[0], axis=0)])
+            yield first, lanes, self._tables(padded), self._workspace(run.drive.dt, padded)
+
+    def _workspace(self, dt: float, lanes: Array) -> Array:
+        space = np.zeros((rows(self.program) + 1, WIDTH))
+        found = interpret(list(self.program.constants), {"dt": dt, **dict(zip(self.paths, lanes.T, strict=True))})
+        for row, constant in zip(space, found, strict=False):
+            row[: lanes.shape[0]] = constant
+        return space.ravel()
+
+    def _tables(self, lanes: Array) -> Array:
+        parts = []
+        for path in dict.fromkeys(look.curve for look in self.program.lookups):
+            numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
+            coefficients = cubic_coefficients(self.curves[path], lanes[:, numbers].T)
+            wide = np.zeros((*coefficients.shape[:2], WIDTH))
+            wide[..., : lanes.shape[0]] = coefficients
+            parts.append(wide.ravel())
+        return np.concatenate(parts) if parts else np.empty(0)
+
+
+def compile_network(spec: NetworkSpec) -> CompiledNetwork:
+    """Trace, sort, print, compile. Curves that come from data must have been filled in.
+
+    Raises InputError for a network that cannot be compiled and says what to do.
+    """
+    program = sort_tiers(trace_network(spec))
+    return CompiledNetwork(spec, program, load_native(print_source(program)))
+
+
+def _arguments(run: Rows, tables: Array, workspace: Array, lanes: int) -> tuple:
+    return run.columns, run.index, run.local, run.turn_at, run.turn_columns, tables, workspace, lanes

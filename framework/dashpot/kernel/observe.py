@@ -1,0 +1,56 @@
+"""How a load cell sees the force of a specimen: late, with a gain, with an offset."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Observation:
+    """Gain, offset (N) and delay (s) of the force channel, one of each per lane."""
+
+    gain: Array
+    offset: Array
+    delay: Array
+
+    @property
+    def plain(self) -> bool:
+        """Whether the channel shows the force as it is."""
+        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0))
+
+    def see(self, force: Array, dt: float) -> Array:
+        """What the channel shows of ``force`` (lanes, samples).
+
+        The delay is a shift along the interpolating cubic spline; before the first sample the force is held.
+        """
+        if self.plain:
+            return force
+        late = np.array([_shift(row, delay / dt) for row, delay in zip(force, self.delay, strict=True)])
+        return self.gain[:, None] * late + self.offset[:, None]
+
+
+def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
+    """The observation in a block of values (lanes, slots)."""
+
+    def column(path: str, default: float) -> Array:
+        return values[:, paths.index(path)] if path in paths else np.full(values.shape[0], default)
+
+    return Observation(
+        column("measurement.force.gain", 1.0),
+        column("measurement.force.offset", 0.0),
+        column("measurement.force.delay", 0.0),
+    )
+
+
+def _shift(force: Array, samples: float) -> Array:
+    if samples == 0.0:
+        return force
+    from scipy.interpolate import CubicSpline
+
+    at = np.arange(force.size)
+    return CubicSpline(at, force)(np.clip(at - samples, 0.0, force.size - 1.0))

@@ -1,0 +1,211 @@
+"""Sorting a graph by what it depends on, so that the inner loop holds only what must be in it.
+
+A node that depends on the drive alone is computed once per sample for all lanes, one that depends on parameters alone
+once per lane; both by the numpy interpreter. Products and sums are regrouped first, so that in k * |dx| / F_c the
+quotient k / F_c leaves the loop and the division with it.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from enum import IntFlag
+
+from dashpot.expr.node import Node, apply, constant, table, walk
+from dashpot.kernel.trace import RATES, TracedBranch
+
+ONE, ZERO = constant(1.0), constant(0.0)
+DRIVE_SYMBOLS = {f"{sight}.{key}" for sight in ("still", "path", "monotone") for key in ("old", "new", *RATES)}
+
+
+class Tier(IntFlag):
+    """What a node depends on. ``NOTHING`` is a constant or the step; both ``LANE`` and ``DRIVE`` means the inner loop."""
+
+    NOTHING = 0
+    LANE = 1
+    DRIVE = 2
+    STATE = 7
+
+
+@dataclass(frozen=True)
+class Lookup:
+    """A tabulated curve at an argument that depends on the drive alone."""
+
+    curve: str
+    argument: Node
+
+
+@dataclass(frozen=True)
+class Program:
+    """A network ready to be printed: what is hoisted, and the roots of the inner loop."""
+
+    columns: tuple[Node, ...]
+    constants: tuple[Node, ...]
+    lookups: tuple[Lookup, ...]
+    states: tuple[str, ...]
+    force: Node
+    updates: dict[str, Node]
+    turning: tuple[str, ...]
+    tiers: dict[int, Tier]
+
+    def roots(self, turning: bool) -> list[Node]:
+        """What the loop computes: at a turning point the states of rate-independent branches only."""
+        if turning:
+            return [self.updates[name] for name in self.turning]
+        return [self.force, *self.updates.values()]
+
+
+def sort_tiers(branches: tuple[TracedBranch, ...]) -> Program:
+    """Regroup the laws of a network and decide what leaves the inner loop."""
+    states = tuple(name for branch in branches for name in branch.states)
+    total = ZERO
+    for branch in branches:
+        total = total + branch.force
+    laws = {name: node for branch in branches for name, node in branch.states.items()}
+    regroup = _Regrouping(set(states), _shared([total, *laws.values()]))
+    force = regroup(total)
+    updates = {name: regroup(node) for name, node in laws.items()}
+    turning = tuple(name for branch in branches if branch.sight == "monotone" for name in branch.states)
+    tiers = regroup.tiers
+    inner = [node for node in walk([force, *updates.values()]) if _is_inner(tiers[node.serial])]
+    edges = [argument for node in inner if node.operation != "table" for argument in node.arguments]
+    edges += [root for root in (force, *updates.values()) if not _is_inner(tiers[root.serial])]
+    return Program(
+        columns=_unique(node for node in edges if tiers[node.serial] == Tier.DRIVE),
+        constants=_unique(node for node in edges if _is_lane(node, tiers[node.serial])),
+        lookups=tuple(Lookup(node.payload[0], node.arguments[0]) for node in inner if node.operation == "table"),
+        states=states, force=force, updates=updates, turning=turning, tiers=tiers,
+    )  # fmt: skip
+
+
+def _shared(roots: list[Node]) -> set[int]:
+    # nodes with more than one use: regrouping must not dissolve them, or their work would be done twice
+    uses = Counter(root.serial for root in roots)
+    for node in walk(roots):
+        uses.update(argument.serial for argument in node.arguments)
+    return {serial for serial, count in uses.items() if count > 1}
+
+
+def _is_inner(tier: Tier) -> bool:
+    return tier in (Tier.LANE | Tier.DRIVE, Tier.STATE)
+
+
+def _is_lane(node: Node, tier: Tier) -> bool:
+    return node.operation != "constant" and tier in (Tier.LANE, Tier.NOTHING)
+
+
+def _unique(nodes) -> tuple[Node, ...]:  # noqa: ANN001
+    return tuple({node.serial: node for node in nodes}.values())
+
+
+class _Regrouping:
+    """Rebuilds a graph bottom up with the factors and terms of each tier together."""
+
+    def __init__(self, states: set[str], shared: set[int]) -> None:
+        self.states = states
+        self.shared = shared
+        self.kept: set[int] = set()
+        self.tiers: dict[int, Tier] = {}
+        self.done: dict[int, Node] = {}
+
+    def __call__(self, root: Node) -> Node:
+        for node in walk([root]):
+            if node.serial not in self.done:
+                self.done[node.serial] = self.settle(self.rebuild(node))
+                if node.serial in self.shared:
+                    self.kept.add(self.done[node.serial].serial)
+        return self.done[root.serial]
+
+    def settle(self, node: Node) -> Node:
+        """Note the tiers of a node and everything below it."""
+        for inner in walk([node]):
+            if inner.serial not in self.tiers:
+                self.tiers[inner.serial] = self.tier(inner)
+        return node
+
+    def tier(self, node: Node) -> Tier:
+        if node.operation == "symbol":
+            if node.payload in self.states:
+                return Tier.STATE
+            return Tier.NOTHING if node.payload == "dt" else Tier.DRIVE if node.payload in DRIVE_SYMBOLS else Tier.LANE
+        found = Tier.LANE if node.operation == "table" else Tier.NOTHING
+        for argument in node.arguments:
+            found |= self.tiers[argument.serial]
+        return found
+
+    def rebuild(self, node: Node) -> Node:
+        arguments = tuple(self.done[argument.serial] for argument in node.arguments)
+        if node.operation == "table":
+            return table(node.payload[0], arguments[0], node.payload[1])
+        if not arguments:
+            return node
+        plain = apply(node.operation, *arguments)
+        if plain.serial in self.kept:
+            return plain
+        if node.operation in ("multiply", "divide", "negative"):
+            return self.product(plain)
+        return self.sum(plain) if node.operation in ("add", "subtract") else plain
+
+    def product(self, node: Node) -> Node:
+        above: dict[Tier, Node] = {}
+        below: dict[Tier, Node] = {}
+        self.collect_factors(node, above, below)
+        hoisted = [tier for tier in (Tier.NOTHING, Tier.LANE, Tier.DRIVE) if tier in above or tier in below]
+        groups = [_quotient(above.pop(tier, ONE), below.pop(tier, ONE)) for tier in hoisted]
+        for group in groups:
+            self.settle(group)
+        inner = [part for part in above.values() if part is not ONE]
+        total = groups[0] if groups else ONE
+        for part in (*groups[1:], *inner):
+            total = apply("multiply", total, part)
+        for part in below.values():
+            total = apply("divide", total, part)
+        return total
+
+    def collect_factors(self, node: Node, above: dict[Tier, Node], below: dict[Tier, Node]) -> None:
+        self.settle(node)
+        if node.serial in self.kept and _is_inner(self.tiers[node.serial]):
+            self.count_factor(node, above)
+        elif node.operation == "negative":
+            above[Tier.NOTHING] = apply("multiply", above.get(Tier.NOTHING, ONE), constant(-1.0))
+            self.collect_factors(node.arguments[0], above, below)
+        elif node.operation == "multiply":
+            for argument in node.arguments:
+                self.collect_factors(argument, above, below)
+        elif node.operation == "divide":
+            self.collect_factors(node.arguments[0], above, below)
+            self.collect_factors(node.arguments[1], below, above)
+        else:
+            self.count_factor(node, above)
+
+    def count_factor(self, node: Node, above: dict[Tier, Node]) -> None:
+        tier = self.tiers[node.serial]
+        above[tier] = apply("multiply", above.get(tier, ONE), node)
+
+    def sum(self, node: Node) -> Node:
+        terms: dict[Tier, Node] = {}
+        self.collect_terms(node, 1.0, terms)
+        groups = [terms[tier] for tier in sorted(terms)]
+        total = groups[0]
+        for group in groups[1:]:
+            self.settle(group)
+            total = apply("add", total, group)
+        return total
+
+    def collect_terms(self, node: Node, side: float, terms: dict[Tier, Node]) -> None:
+        self.settle(node)
+        kept = node.serial in self.kept and _is_inner(self.tiers[node.serial])
+        if node.operation in ("add", "subtract") and not kept:
+            first, second = node.arguments
+            self.collect_terms(first, side, terms)
+            self.collect_terms(second, side if node.operation == "add" else -side, terms)
+            return
+        tier = self.tiers[node.serial]
+        if tier in terms:
+            terms[tier] = apply("add" if side > 0.0 else "subtract", terms[tier], node)
+        else:
+            terms[tier] = node if side > 0.0 else apply("negative", node)
+
+
+def _quotient(above: Node, below: Node) -> Node:
+    return apply("divide", above, below)

@@ -1,0 +1,171 @@
+"""A network as it is declared: a tree of named branches between two ends, and how the rig sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+from dashpot.model.element import Curve, Element, Scale
+from dashpot.text.document import Document
+from dashpot.text.node import Node
+from dashpot.text.problem import Place
+
+Role = Literal["fixed", "free", "identified"]
+Form = Literal["constant", "polynomial", "table", "data"]
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of a file: fixed, free (``start``) or identified earlier (``value`` with ``bounds``). SI throughout."""
+
+    number: float
+    unit: str
+    role: Role = "fixed"
+    bounds: tuple[float, float] | None = None
+    scale: Scale = "log"
+    interval: tuple[float, float] | None = None
+    node: Node | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def searched(self) -> bool:
+        """Whether an identification may move the number."""
+        return self.role != "fixed"
+
+
+@dataclass(frozen=True)
+class Characteristic:
+    """A curve of a file. ``at`` holds the knots of a table; ``data`` names the runs a curve is to be taken from."""
+
+    curve: Curve
+    form: Form
+    values: tuple[Value, ...]
+    at: tuple[float, ...] = ()
+    data: str = ""
+    knots: int = 0
+    node: Node | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True)
+class Branch:
+    """One element between two ends, with its numbers; ``scale`` multiplies its force, over its deflection."""
+
+    name: str
+    element: type[Element]
+    values: Mapping[str, Value]
+    curves: Mapping[str, Characteristic]
+    scale: Characteristic | None = None
+    place: Place = field(default_factory=Place, compare=False)
+
+    def characteristics(self) -> dict[str, Characteristic]:
+        """All curves of the branch, the scaling among them."""
+        return {**self.curves, "scale": self.scale} if self.scale else dict(self.curves)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Branches in parallel or in series."""
+
+    name: str
+    kind: Literal["parallel", "series"]
+    members: tuple[Branch | Group, ...]
+    place: Place = field(default_factory=Place, compare=False)
+
+    def leaves(self) -> Iterator[Branch]:
+        """Every branch that holds an element, in the order of the file."""
+        for member in self.members:
+            if isinstance(member, Group):
+                yield from member.leaves()
+            else:
+                yield member
+
+
+@dataclass(frozen=True)
+class Slot:
+    """One number of a network with the path by which everybody calls it, e.g. ``maxwell_1.stiffness``."""
+
+    path: str
+    value: Value
+
+
+@dataclass(frozen=True)
+class NetworkSpec:
+    """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset, delay)."""
+
+    name: str
+    root: Group
+    measurement: Mapping[str, Value] = field(default_factory=dict)
+    about: str = ""
+    source: str = ""
+    document: Document | None = field(default=None, compare=False, repr=False)
+
+    def leaves(self) -> tuple[Branch, ...]:
+        """Every branch that holds an element, in the order of the file."""
+        return tuple(self.root.leaves())
+
+    def slots(self) -> tuple[Slot, ...]:
+        """Every number of the network: branch by branch, then the measurement."""
+        found = [slot for branch in self.leaves() for slot in _branch_slots(branch)]
+        return (*found, *(Slot(f"measurement.{key}", value) for key, value in self.measurement.items()))
+
+    def with_values(self, values: Mapping[str, Value]) -> NetworkSpec:
+        """The same network with the values of some slots replaced, by path."""
+        measurement = {key: values.get(f"measurement.{key}", value) for key, value in self.measurement.items()}
+        return replace(self, root=_regroup(self.root, lambda branch: _revalue(branch, values)), measurement=measurement)
+
+    def with_curve(self, path: str, characteristic: Characteristic) -> NetworkSpec:
+        """The same network with the curve at ``branch.curve`` replaced."""
+        name, _, key = path.rpartition(".")
+
+        def swap(branch: Branch) -> Branch:
+            if branch.name != name:
+                return branch
+            if key == "scale":
+                return replace(branch, scale=characteristic)
+            return replace(branch, curves={**branch.curves, key: characteristic})
+
+        return replace(self, root=_regroup(self.root, swap))
+
+    def data_curves(self) -> dict[str, Characteristic]:
+        """The curves that are to be taken from data, by path."""
+        return {
+            f"{branch.name}.{key}": curve
+            for branch in self.leaves()
+            for key, curve in branch.characteristics().items()
+            if curve.data
+        }
+
+
+def _branch_slots(branch: Branch) -> Iterator[Slot]:
+    for key in (*branch.element.declares.curves, *branch.element.declares.parameters):
+        if key in branch.curves:
+            yield from _curve_slots(f"{branch.name}.{key}", branch.curves[key])
+        elif key in branch.values:
+            yield Slot(f"{branch.name}.{key}", branch.values[key])
+    if branch.scale:
+        yield from _curve_slots(f"{branch.name}.scale", branch.scale)
+
+
+def _curve_slots(path: str, curve: Characteristic) -> Iterator[Slot]:
+    if curve.form == "constant":
+        yield Slot(path, curve.values[0])
+        return
+    for number, value in enumerate(curve.values):
+        yield Slot(f"{path}[{number}]", value)
+
+
+def _regroup(group: Group, change) -> Group:  # noqa: ANN001
+    members = tuple(_regroup(m, change) if isinstance(m, Group) else change(m) for m in group.members)
+    return replace(group, members=members)
+
+
+def _revalue(branch: Branch, values: Mapping[str, Value]) -> Branch:
+    plain = {key: values.get(f"{branch.name}.{key}", value) for key, value in branch.values.items()}
+    curves = {key: _recurve(f"{branch.name}.{key}", curve, values) for key, curve in branch.curves.items()}
+    scale = _recurve(f"{branch.name}.scale", branch.scale, values) if branch.scale else None
+    return replace(branch, values=plain, curves=curves, scale=scale)
+
+
+def _recurve(path: str, curve: Characteristic, values: Mapping[str, Value]) -> Characteristic:
+    paths = [slot.path for slot in _curve_slots(path, curve)]
+    return replace(curve, values=tuple(values.get(p, v) for p, v in zip(paths, curve.values, strict=True)))

@@ -1,0 +1,33 @@
+"""Where the shipped specifications lie: beside the package when installed, at the top of a source checkout."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from dashpot.text.problem import InputError, Place, nearest
+
+SUFFIXES = (".yaml", ".yml")
+
+
+def spec_folder() -> Path:
+    """The folder that holds ``networks/`` and whatever else is declared rather than programmed."""
+    package = Path(__file__).resolve().parents[1]
+    installed = package / "specs"
+    return installed if installed.is_dir() else package.parents[1] / "specs"
+
+
+def shipped_networks() -> dict[str, Path]:
+    """The shipped networks by name."""
+    return {path.stem: path for path in sorted((spec_folder() / "networks").glob("*.yaml"))}
+
+
+def find_network(path_or_name: str | Path) -> Path:
+    """The file of a network given by path or by shipped name. Raises InputError when there is none."""
+    path = Path(path_or_name)
+    if path.suffix in SUFFIXES or path.is_file():
+        return path
+    shipped = shipped_networks()
+    if str(path_or_name) in shipped:
+        return shipped[str(path_or_name)]
+    hint = nearest(str(path_or_name), shipped) or f"shipped networks: {', '.join(shipped)}"
+    raise InputError.at(Place(str(path_or_name)), "there is no such file and no shipped network of that name", hint)

@@ -1,0 +1,23 @@
+"""Viscous characteristic."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dashpot.model.element import Curve, Element, Motion, Response
+
+
+class Damper(Element):
+    """A dashpot, linear or along a characteristic: F = f(v).
+
+    A table over negative and positive velocities gives rebound and compression their own shapes.
+    """
+
+    damping = Curve(
+        ("force", "N"), ("velocity", "m/s"), "force over velocity, or its constant slope",
+        bounds=(1e-2, 1e7), symbol="d",
+    )  # fmt: skip
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The characteristic at the velocity at the end of the step."""
+        return Response(p.damping(x.velocity_new))

@@ -1,0 +1,20 @@
+"""Inertia between two ends."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dashpot.model.element import Element, Motion, Parameter, Response
+
+
+class Inerter(Element):
+    """A force that follows the relative acceleration: F = b a.
+
+    It stands for the part of a fixture that moves between the driven end and the load cell.
+    """
+
+    inertance = Parameter("kg", "moving mass", bounds=(-50.0, 50.0), scale="linear", symbol="b")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The law at the acceleration at the end of the step."""
+        return Response(p.inertance * x.acceleration)

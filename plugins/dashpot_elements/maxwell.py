@@ -1,0 +1,27 @@
+"""Relaxation with one time constant."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.path import fading_travel
+
+
+class Maxwell(Element):
+    """A spring in series with a dashpot: dF/dt = k v - F/T, solved exactly along the cubic path.
+
+    Dynamic stiffness k j w T/(1 + j w T); the loss stiffness peaks with k/2 at w = 1/T.
+    """
+
+    stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k")
+    relaxation_time = Parameter("s", "damping over stiffness", bounds=(1e-5, 1e4), symbol="T")
+    force = State("N", "force in the branch")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The old force fades, the travel of the step adds what is remembered of it."""
+        fading = np.exp(-dt / p.relaxation_time)
+        force = fading * z.force + p.stiffness * fading_travel(x, dt, p.relaxation_time)
+        return Response(force, force=force)

@@ -1,0 +1,19 @@
+"""Turbulent flow through an orifice."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response
+
+
+class QuadraticDamper(Element):
+    """A dashpot whose force grows with the square of the velocity: F = d v |v|."""
+
+    damping = Parameter("N*s^2/m^2", "force at 1 m/s", bounds=(1e-2, 1e8), symbol="d_2")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The law at the velocity at the end of the step."""
+        return Response(p.damping * (x.velocity_new * np.abs(x.velocity_new)))
