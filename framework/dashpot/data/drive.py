@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.noise import displacement_noise
+from dashpot.data.white_noise import white_noise
 
 Array = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = Non
     """
     x = np.ascontiguousarray(displacement, dtype=float)
     if smooth is None:
-        smooth = displacement_noise(x) > NOISE_OF_SPAN * np.ptp(x)
+        smooth = white_noise(x) > NOISE_OF_SPAN * np.ptp(x)
     if smooth and x.size > 2 * HALF_WIDTH + 1:
         return drive_from_path(dt, *_local_polynomials(dt, x))
     from scipy.interpolate import make_interp_spline

@@ -32,11 +32,7 @@ class Rows:
 
 
 def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive) -> Rows:
-    """Everything of a network that depends on the drive alone.
-
-    Before the first sample the specimen was loaded from zero deflection in one go: friction remembers that, relaxing
-    branches have forgotten it.
-    """
+    """Everything of a network that depends on the drive alone. At the first sample no branch has a memory yet."""
     samples = see_samples(drive)
     columns = _evaluate(program, samples, drive.samples)
     turns = _evaluate(program, see_turns(drive), drive.turn_step.size)
@@ -67,7 +63,6 @@ def see_samples(drive: Drive) -> dict[str, Array | float]:
     # a branch with memory has not moved when the record begins
     path = dict(still, **{key: np.concatenate([[0.0], still[key][1:]]) for key in REST})
     since = before.copy()
-    since[:1] = 0.0
     since[drive.turn_step] = drive.turn_displacement
     sights = {"still": still, "path": path, "monotone": {"old": since, "new": x}}
     return {"dt": drive.dt} | {f"{name}.{key}": value for name, sight in sights.items() for key, value in sight.items()}

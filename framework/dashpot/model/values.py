@@ -45,20 +45,11 @@ def read_value(node: Node, kind: Kind, problems: list[Problem], what: str, copy:
     form.close()
     if number is None:
         return None
-    value = Value(number, kind.unit, "identified" if key == "value" else "free", bounds or default_bounds(number, kind),
-                  scale, interval, node)  # fmt: skip
+    role = "identified" if key == "value" else "free"
+    value = Value(number, kind.unit, role, bounds, scale, interval, node)
     for complaint in _complaints(value, kind, what):
         problems.append(Problem(form.place_of(key), complaint))
     return value
-
-
-def default_bounds(number: float, kind: Kind) -> tuple[float, float]:
-    """A factor of 300 to both sides of a log-scaled start, the sensible range of the parameter otherwise."""
-    low, high = kind.bounds
-    if kind.scale == "log" and number > 0.0:
-        return max(low, number / 300.0), min(high, number * 300.0)
-    span = 10.0 * abs(number) or 1.0
-    return max(low, number - span), min(high, number + span)
 
 
 def read_curve(node: Node, curve: Curve, problems: list[Problem], what: str, copy: int = 0) -> Characteristic | None:
@@ -122,10 +113,9 @@ def _complaints(value: Value, kind: Kind, what: str) -> list[str]:
     found = []
     if not low <= value.number <= high:
         found.append(f"{what}: expected a start inside its bounds {low:g} to {high:g} {kind.unit}, got {value.number:g}")
-    if value.scale == "log" and low <= 0.0:
-        found.append(f"{what}: expected positive bounds for a log scale, got {low:g} {kind.unit}; write scale: linear")
-    if not (math.isfinite(low) and math.isfinite(high)):
-        found.append(f"{what}: expected bounds, got none; write bounds: [low, high]")
+    if value.scale == "log" and (low <= 0.0 or value.number <= 0.0):
+        found.append(f"{what}: expected positive numbers for a log scale, got {min(low, value.number):g} {kind.unit}; "
+                     "write scale: linear")  # fmt: skip
     return found
 
 

@@ -1,0 +1,60 @@
+"""The colour of the noise of each run, and residuals made white by it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+ORDER = 8
+
+
+@dataclass(frozen=True, eq=False)
+class NoiseModel:
+    """For every run the prediction filter (order + 1,) of its noise, scaled so that filtered noise has variance one."""
+
+    filters: Mapping[str, Array]
+
+    def whiten(self, run: str, signals: Array) -> Array:
+        """Signals (..., n) of a run in units of their noise; the first samples miss their past and are set to zero."""
+        from scipy.signal import lfilter
+
+        white = lfilter(self.filters[run], [1.0], signals, axis=-1)
+        white[..., :ORDER] = 0.0
+        return white
+
+
+def flat_noise(deviations: Mapping[str, float]) -> NoiseModel:
+    """White noise of the given standard deviations."""
+    return NoiseModel({run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
+
+
+def learn_noise(residuals: Mapping[str, Array]) -> NoiseModel:
+    """Autoregressive noise of order 8 of each run by Burg's method.
+
+    Source: Burg, Maximum entropy spectral analysis, 37th SEG meeting (1967).
+    """
+    return NoiseModel({run: _scaled(residual) for run, residual in residuals.items()})
+
+
+def _scaled(residual: Array) -> Array:
+    filter_ = burg(residual, ORDER)
+    deviation = np.sqrt(np.mean(np.convolve(residual, filter_, mode="valid") ** 2))
+    return filter_ / max(float(deviation), 1e-12 * max(float(np.max(np.abs(residual), initial=0.0)), 1e-300))
+
+
+def burg(signal: Sequence[float] | Array, order: int) -> Array:
+    """The prediction-error filter (order + 1,), first coefficient one, of a stationary signal."""
+    forward = backward = np.asarray(signal, dtype=float)
+    found = np.ones(1)
+    for _ in range(order):
+        forward, backward = forward[1:], backward[:-1]
+        power = forward @ forward + backward @ backward
+        reflection = -2.0 * (forward @ backward) / power if power > 0.0 else 0.0
+        found = np.append(found, 0.0) + reflection * np.append(0.0, found[::-1])
+        forward, backward = forward + reflection * backward, backward + reflection * forward
+    return found

@@ -1,0 +1,215 @@
+"""Every suspect against the residual of the fitted model, without a refit.
+
+Each run gives whitened columns [residual | tangents of the fitted parameters | sensor errors | all suspects]. Their Gram
+matrix, summed over runs, holds all there is to know: what a refit of the present model could absorb is projected out
+(Neyman's C(alpha) test), so a suspect may claim only what the model cannot explain by other numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.assess.noise import NoiseModel
+from dashpot.assess.view import ModelView
+from dashpot.contract.cause import Atom, Cause, Suspect
+
+Array = NDArray[np.float64]
+
+FALSE_ALARMS = 0.01
+DRAWS = 400
+KEPT = 1e-7  # share of a column that must be left after projection
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A suspect of a cause with its columns' place among all columns."""
+
+    cause: type[Cause]
+    suspect: Suspect
+    columns: slice
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """Columns of all runs: ``tangents`` (p, n), ``nuisance`` (q, n) and ``bank`` (m, n) by run, warm-up cut off.
+
+    ``priors`` (q,) are the standard deviations of the nuisance strengths.
+    """
+
+    residual: Mapping[str, Array]
+    tangents: Mapping[str, Array]
+    nuisance: Mapping[str, Array]
+    bank: Mapping[str, Array]
+    priors: Array
+    candidates: tuple[Candidate, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """What the screen says of a candidate: ``gain`` is the fall of chi square, ``merit`` that less its penalty."""
+
+    candidate: Candidate
+    atoms: tuple[Atom, ...]
+    gain: float
+    merit: float
+    strengths: Array
+    chosen: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Screen:
+    """All findings, best first; a merit above ``threshold`` is significant. ``scores`` and ``spread`` are projected."""
+
+    findings: tuple[Finding, ...]
+    threshold: float
+    samples: int
+
+    @property
+    def best(self) -> Finding | None:
+        """The best significant finding."""
+        return self.findings[0] if self.findings and self.findings[0].merit > self.threshold else None
+
+
+def collect_columns(view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array],
+                    candidates: Sequence[Candidate], nuisance: Mapping[str, Array], priors: Array) -> Columns:  # fmt: skip
+    """Evaluate the bank of all candidates on every run."""
+    bank = {}
+    for run in view.runs:
+        first = view.scored[run].first
+        rows = [np.atleast_2d(candidate.suspect.columns(view, run))[:, first:] for candidate in candidates]
+        bank[run] = np.concatenate(rows) if rows else np.empty((0, residual[run].size))
+    return Columns(residual, tangents, nuisance, bank, priors, tuple(candidates))
+
+
+def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
+    """What is left of each run after tangents, nuisance and the whole bank: the noise, whatever is hidden."""
+    runs = list(columns.residual)
+    stacks = {run: np.concatenate([columns.tangents[run], columns.nuisance[run], columns.bank[run]]) for run in runs}
+    gram, right = 0.0, 0.0
+    for run in runs:
+        white = noise.whiten(run, stacks[run])
+        gram = gram + white @ white.T
+        right = right + white @ noise.whiten(run, columns.residual[run])
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    ridge = 1e-9 * np.eye(scale.size)
+    strengths = np.linalg.lstsq(gram / np.outer(scale, scale) + ridge, right / scale, rcond=1e-12)[0] / scale
+    return {run: columns.residual[run] - strengths @ stacks[run] for run in runs}
+
+
+def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
+    """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
+    scores, spread, original, samples = _project(columns, noise)
+    findings = [_judge(c, scores, spread, original, samples) for c in columns.candidates]
+    ordered = sorted((f for f in findings if f is not None), key=lambda finding: -finding.merit)
+    threshold = max(0.0, _null_quantile(columns.candidates, spread, original, samples, seed))
+    return Screen(tuple(ordered), threshold, samples)
+
+
+def _project(columns: Columns, noise: NoiseModel) -> tuple[Array, Array, Array, int]:
+    fixed = next(iter(columns.tangents.values())).shape[0] + columns.priors.size
+    gram, right, samples = 0.0, 0.0, 0
+    for run, residual in columns.residual.items():
+        stack = np.concatenate([columns.tangents[run], columns.nuisance[run], columns.bank[run]])
+        white = noise.whiten(run, stack)
+        gram, right = gram + white @ white.T, right + white @ noise.whiten(run, residual)
+        samples += residual.size
+    prior = np.zeros(len(gram))
+    prior[fixed - columns.priors.size : fixed] = 1.0 / columns.priors**2
+    gram = gram + np.diag(prior)
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    inside = gram / np.outer(scale, scale)
+    solve = np.linalg.pinv(inside[:fixed, :fixed], rcond=1e-11, hermitian=True) @ inside[:fixed]
+    spread = inside[fixed:, fixed:] - inside[fixed:, :fixed] @ solve[:, fixed:]
+    scores = right[fixed:] / scale[fixed:] - solve[:, fixed:].T @ (right[:fixed] / scale[:fixed])
+    outer = np.outer(scale[fixed:], scale[fixed:])
+    return scores * scale[fixed:], spread * outer, np.diag(gram)[fixed:], samples
+
+
+def _judge(candidate: Candidate, scores: Array, spread: Array, original: Array, samples: int) -> Finding | None:
+    where = candidate.columns
+    s, matrix, before = scores[where], spread[where, where], original[where]
+    usable = np.diag(matrix) > KEPT * before
+    if not usable.any():
+        return None
+    if candidate.suspect.joint:
+        return _judge_joint(candidate, s, matrix, usable, samples)
+    return _judge_greedy(candidate, s, matrix, usable, samples)
+
+
+def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Array, samples: int) -> Finding:
+    inverse, rank = _inverse(matrix[np.ix_(usable, usable)])
+    strengths = np.zeros(s.size)
+    strengths[usable] = inverse @ s[usable]
+    gain = float(s @ strengths)
+    atoms = tuple(zip(strengths.tolist(), candidate.suspect.grid, strict=True))
+    merit = gain - (rank + candidate.suspect.unknowns) * np.log(samples)
+    return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)))
+
+
+def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Array, samples: int) -> Finding:
+    """Add places of the grid one after the other, strengths of one sign, as long as the merit grows."""
+    suspect, best = candidate.suspect, None
+    chosen: list[int] = []
+    for _ in range(suspect.most):
+        options = [(*_solve(s, matrix, (*chosen, k), suspect.sign), k) for k in np.flatnonzero(usable) if k not in chosen]
+        if not options:
+            break
+        gain, strengths, k = max(options, key=lambda option: option[0])
+        chosen = [*chosen, int(k)]
+        merit = gain - len(chosen) * (1 + suspect.unknowns) * np.log(samples)
+        if best is not None and merit <= best.merit:
+            break
+        atoms = tuple((float(b), suspect.grid[j]) for b, j in zip(strengths, chosen, strict=True) if b != 0.0)
+        best = Finding(candidate, atoms, float(gain), float(merit), strengths, tuple(chosen))
+    return best
+
+
+def _solve(s: Array, matrix: Array, chosen: tuple[int, ...], sign: int) -> tuple[float, Array]:
+    index = np.array(chosen)
+    part = matrix[np.ix_(index, index)]
+    strengths = np.linalg.lstsq(part, s[index], rcond=1e-10)[0]
+    if sign and (strengths < 0.0).any():
+        keep = strengths > 0.0
+        inner = np.zeros(index.size)
+        if keep.any():
+            inner[keep] = np.maximum(np.linalg.lstsq(part[np.ix_(keep, keep)], s[index][keep], rcond=1e-10)[0], 0.0)
+        strengths = inner
+    return float(2.0 * s[index] @ strengths - strengths @ part @ strengths), strengths
+
+
+def _inverse(matrix: Array) -> tuple[Array, int]:
+    scale = np.sqrt(np.diag(matrix))
+    values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
+    keep = values > 1e-6 * values[-1]
+    inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
+    return inverse / np.outer(scale, scale), int(keep.sum())
+
+
+def _null_quantile(candidates: Sequence[Candidate], spread: Array, original: Array, samples: int, seed: int) -> float:
+    # the score vector of pure noise is normal with covariance `spread`; nothing is known of it but the largest merit
+    rng = np.random.default_rng(seed)
+    scale = np.sqrt(np.maximum(original, 1e-300))
+    values, vectors = np.linalg.eigh(spread / np.outer(scale, scale))
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    draws = (rng.standard_normal((DRAWS, values.size)) @ root.T) * scale
+    best = np.full(DRAWS, -np.inf)
+    for candidate in candidates:
+        where = candidate.columns
+        matrix = spread[where, where]
+        usable = np.diag(matrix) > KEPT * original[where]
+        if usable.any():
+            best = np.maximum(best, _null_merits(candidate.suspect, draws[:, where][:, usable],
+                                                 matrix[np.ix_(usable, usable)], samples))  # fmt: skip
+    return float(np.quantile(best, 1.0 - FALSE_ALARMS)) if np.isfinite(best).any() else 0.0
+
+
+def _null_merits(suspect: Suspect, draws: Array, matrix: Array, samples: int) -> Array:
+    if suspect.joint:
+        inverse, rank = _inverse(matrix)
+        return np.einsum("ij,jk,ik->i", draws, inverse, draws) - (rank + suspect.unknowns) * np.log(samples)
+    admitted = np.maximum(draws, 0.0) if suspect.sign else draws
+    return np.max(admitted**2 / np.diag(matrix), axis=1) - (1 + suspect.unknowns) * np.log(samples)

@@ -1,0 +1,96 @@
+"""The present model on all runs, as suspected causes may look at it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.model.element import Element
+from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.text.problem import InputError, Place, nearest
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ModelView:
+    """A fitted network on scored runs; see ``contract.cause.View`` for what the members mean."""
+
+    scored: Mapping[str, ScoredRun]
+    forces: Mapping[str, Array]
+    elements: Mapping[str, type[Element]]
+
+    @property
+    def runs(self) -> tuple[str, ...]:
+        """Names of the runs."""
+        return tuple(self.scored)
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        """Smallest and largest deflection in m."""
+        paths = [run.drive.displacement for run in self.scored.values()]
+        return float(min(x.min() for x in paths)), float(max(x.max() for x in paths))
+
+    @cached_property
+    def speed(self) -> float:
+        """Largest speed in m/s."""
+        return float(max(np.abs(run.drive.velocity).max() for run in self.scored.values()))
+
+    @cached_property
+    def stroke(self) -> float:
+        """The largest stroke of a single dynamic run in m, of any run if there is no dynamic one."""
+        dynamic = [run for run in self.scored.values() if run.kind not in ("quasi_static", "hold")]
+        return float(max(np.ptp(run.drive.displacement) for run in dynamic or self.scored.values()))
+
+    @cached_property
+    def duration(self) -> float:
+        """Median length of a run in s."""
+        return float(np.median([run.drive.dt * run.drive.samples for run in self.scored.values()]))
+
+    @cached_property
+    def dt(self) -> float:
+        """Smallest sample time in s."""
+        return min(run.drive.dt for run in self.scored.values())
+
+    def displacement(self, run: str) -> Array:
+        """The deflection (n,) in m."""
+        return self.scored[run].drive.displacement
+
+    def velocity(self, run: str) -> Array:
+        """The velocity (n,) in m/s."""
+        return self.scored[run].drive.velocity
+
+    def force(self, run: str) -> Array:
+        """The force of the present model (n,) in N."""
+        return self.forces[run]
+
+    def step(self, run: str) -> float:
+        """The sample time in s."""
+        return self.scored[run].drive.dt
+
+    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
+        """The forces (m, n) of an element with each of m sets of values.
+
+        Raises InputError for an element that no plugin provides.
+        """
+        if element not in self.elements:
+            raise InputError.at(Place(), f"there is no element '{element}'", nearest(element, self.elements))
+        probe = _probe(self.elements[element], tuple(values[0]))
+        lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in values])
+        return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
+
+
+@lru_cache(maxsize=64)
+def _probe(element: type[Element], keys: tuple[str, ...]) -> CompiledNetwork:
+    declared = element.declares
+    values = {key: Value(1.0, declared.parameters[key].unit) for key in keys if key in declared.parameters}
+    curves = {key: Characteristic(declared.curves[key], "constant", (Value(1.0, declared.curves[key].slope_unit),))
+              for key in keys if key in declared.curves}  # fmt: skip
+    branch = Branch("probe", element, values, curves)
+    return compile_network(NetworkSpec("probe", Group("", "parallel", (branch,))))

@@ -1,0 +1,71 @@
+"""``dashpot demo``: the whole story on a virtual specimen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from dashpot.cli.results import (
+    COMPARISON_FILES,
+    comparison_text,
+    diagnosis_files,
+    diagnosis_text,
+    write_comparison,
+    write_diagnosis,
+)
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, output_option, switches
+from dashpot.text.problem import nearest
+
+if TYPE_CHECKING:
+    from dashpot.contract.registry import Registry
+    from dashpot.contract.specimen import Specimen
+
+
+@click.command("demo")
+@click.option("--specimen", metavar="NAME", help="See `dashpot list specimens`.")
+@output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
+@switches("seed", "jobs", "json", "quiet", "force")
+def verb(specimen: str | None, output: Path, switches: Switches) -> None:
+    """Measure a virtual specimen, compare the shipped networks on it, and find what the simplest one lacks.
+
+    The specimen is a program of its own and richer than any network, as reality is.
+
+    \b
+    Example:
+      dashpot demo -o dashpot-demo
+    """
+    from dashpot.assess.compare import compare
+    from dashpot.assess.diagnose import diagnose
+
+    session = Session(switches)
+    chosen = choose_specimen(specimen, session.registry)
+    tables = session.claim(output / "comparison", *COMPARISON_FILES)
+    causes = session.claim(output / "diagnosis", *diagnosis_files(chosen.suspect))
+    session.talk.say(f"{chosen.word}: {chosen.about}")
+    data = chosen().measure(output / "data" / f"{chosen.word}-{switches.seed}", switches.seed)
+    measured = session.dataset(data)
+
+    comparison = session.run(compare, [session.network(name) for name in chosen.networks], measured)
+    first_report = write_comparison(comparison, tables)
+    diagnosis = session.run(diagnose, session.network(chosen.suspect), measured)
+    second_report = write_diagnosis(diagnosis, causes)
+
+    content = {"format": "dashpot-demo/1", "comparison": comparison.as_dict(), "diagnosis": diagnosis.as_dict()}
+    session.talk.result(f"{comparison_text(comparison)}\n\n{diagnosis_text(diagnosis)}", content)
+    session.talk.say(f"\nOpen in a browser:\n  {first_report.resolve()}\n  {second_report.resolve()}")
+
+
+def choose_specimen(word: str | None, registry: Registry) -> type[Specimen]:
+    """The specimen of that word, or the first one offered for demonstrations."""
+    offered = {name: made for name, made in registry.specimens.items() if made.demo}
+    if word is None and offered:
+        return next(iter(offered.values()))
+    if word in offered:
+        return offered[word]
+    hint = nearest(word or "", offered) or f"there are: {', '.join(offered) or 'none'}"
+    raise click.UsageError(
+        f"No specimen '{word}' to demonstrate with, {hint}" if word else "No plugin gives a specimen"
+    )

@@ -1,0 +1,40 @@
+"""``dashpot diagnose``: what is wrong with a network, why, and what mends it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from dashpot.cli.results import diagnosis_files, diagnosis_text, write_diagnosis
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
+
+
+@click.command("diagnose")
+@click.argument("spec")
+@click.argument("dataset")
+@output_option("Folder for diagnosis.json, the extended network and report.html.")
+@optimizer_options
+@switches("seed", "jobs", "json", "quiet", "force")
+def verb(
+    spec: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
+) -> None:
+    """Say what a network gets wrong, name the cause, extend the network and measure the gain.
+
+    SPEC is a network file or a shipped name. The gain is measured on runs that took no part in the fit. That nothing is
+    missing, or that no known cause fits, are ordinary answers.
+
+    \b
+    Example:
+      dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
+    """
+    from dashpot.assess.diagnose import diagnose
+
+    session = Session(switches, optimizer, settings)
+    network, measured = session.network(spec), session.dataset(dataset)
+    folder = session.claim(output, *diagnosis_files(network.name))
+    diagnosis = session.run(diagnose, network, measured)
+    report = write_diagnosis(diagnosis, folder)
+    session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
+    session.talk.say(f"report: {report}")

@@ -1,0 +1,42 @@
+"""``dashpot fit``: identify the parameters of a network."""
+
+from __future__ import annotations
+
+from glob import escape
+from pathlib import Path
+
+import click
+
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
+
+
+@click.command("fit")
+@click.argument("spec")
+@click.argument("dataset")
+@output_option("Folder for the identified network NAME.yaml and fit.json.")
+@optimizer_options
+@switches("seed", "jobs", "json", "quiet", "force")
+def verb(
+    spec: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
+) -> None:
+    """Identify the parameters of a network from measurements.
+
+    SPEC is a network file or a shipped name. The identified network is the same file with its numbers filled in, their
+    uncertainty and where they come from.
+
+    \b
+    Example:
+      dashpot fit tire_model_1 my/dataset.yaml --seed 7 -o identified
+    """
+    from dashpot.fit.api import fit_network
+    from dashpot.report.json_text import json_text
+
+    session = Session(switches, optimizer, settings)
+    network, measured = session.network(spec), session.dataset(dataset)
+    folder = session.claim(output, "fit.json", f"{escape(network.name)}.yaml")
+    found = session.run(fit_network, network, measured)
+    folder.write("fit.json", json_text(found.as_dict()))
+    identified = folder.write(f"{network.name}.yaml", found.identified_text)
+    session.talk.result(found.summary(), found.as_dict())
+    session.talk.say(f"identified network: {identified}")

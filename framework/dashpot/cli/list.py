@@ -1,0 +1,115 @@
+"""``dashpot list``: what is there, and where each thing comes from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dashpot import __version__
+from dashpot.cli.columns import in_columns
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, switches
+from dashpot.contract.origin import Origin
+from dashpot.text.problem import InputError, nearest
+
+if TYPE_CHECKING:
+    from dashpot.contract.registry import Registry
+
+KINDS = ("elements", "networks", "optimizers", "causes", "formats", "specimens", "rigs", "exports", "plugins")
+NOT_YET = ("rigs", "exports")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of a list."""
+
+    word: str
+    origin: Origin
+    about: str
+
+    def cells(self) -> tuple[str, str, str]:
+        """The line in columns."""
+        return self.word, f"{self.origin.distribution} {self.origin.version}, {self.origin.plugin}", self.about
+
+
+@click.command("list")
+@click.argument("kind", required=False, metavar="[KIND]")
+@switches("json")
+def verb(kind: str | None, switches: Switches) -> None:
+    """List what is installed: each thing with the distribution and the plugin that brought it.
+
+    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, exports or plugins; without it, everything
+    is listed.
+
+    \b
+    Example:
+      dashpot list elements
+    """
+    if kind is not None and kind not in KINDS:
+        hint = nearest(kind, KINDS) or f"there are: {', '.join(KINDS)}"
+        raise click.UsageError(f"No list of '{kind}', {hint}")
+    session = Session(switches)
+    shown = {name: entries_of(name, session) for name in ([kind] if kind else KINDS)}
+    session.talk.result(as_text(shown), {"format": "dashpot-list/1", **shown})
+
+
+def entries_of(kind: str, session: Session) -> list[Entry]:
+    """The list of one kind."""
+    if kind in NOT_YET:
+        return []
+    if kind == "networks":
+        return networks(session)
+    return plugins(session.registry) if kind == "plugins" else things(kind, session.registry)
+
+
+def things(kind: str, registry: Registry) -> list[Entry]:
+    """Things from plugins, each with what it says about itself."""
+    return [Entry(word, registry.origin(kind, word), about_thing(made)) for word, made in registry.of(kind).items()]
+
+
+def networks(session: Session) -> list[Entry]:
+    """The shipped networks."""
+    from dashpot.model.shipped import shipped_networks
+
+    origin = Origin("specs", "dashpot", __version__)
+    return [Entry(name, origin, about_network(name, session)) for name in shipped_networks()]
+
+
+def about_network(name: str, session: Session) -> str:
+    """What a network says about itself, or why it cannot be used with the plugins at hand."""
+    try:
+        return session.network(name).about
+    except InputError as error:
+        return f"cannot be used: {error.problems[0]}"
+
+
+def plugins(registry: Registry) -> list[Entry]:
+    """The installed plugins, each with what is wrong with it and what it brings."""
+    entries = []
+    for origin in registry.plugins:
+        words = ", ".join(word for (_, word), holder in registry.origins.items() if holder == origin)
+        faults = [f"set aside: {fault.message}" for fault in registry.faults if fault.origin == origin]
+        entries.append(Entry(origin.plugin, origin, "; ".join([*faults, *filter(None, [words])]) or "brings nothing"))
+    return entries
+
+
+def about_thing(made: type[Any]) -> str:
+    """What a class says about itself: its ``about``, or the first line of its docstring."""
+    return getattr(made, "about", "") or (made.__doc__ or "").strip().partition("\n")[0]
+
+
+def as_text(shown: dict[str, list[Entry]]) -> str:
+    """A block of lines for each kind, with headings when there are several."""
+    blocks = {
+        kind: in_columns([entry.cells() for entry in entries]) or none_of(kind) for kind, entries in shown.items()
+    }
+    if len(blocks) == 1:
+        return "".join(blocks.values())
+    return "\n\n".join(f"{kind}\n{block}" for kind, block in blocks.items())
+
+
+def none_of(kind: str) -> str:
+    """Why a list is empty."""
+    return f"There are no {kind}{' in this version of dashpot yet' if kind in NOT_YET else ': no plugin gives any'}."

@@ -1,0 +1,69 @@
+"""The result files of a comparison and of a diagnosis."""
+
+from __future__ import annotations
+
+from glob import escape
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dashpot.cli.output import OutputFolder
+
+if TYPE_CHECKING:
+    from dashpot.assess.compare import Comparison
+    from dashpot.assess.diagnose import Diagnosis
+
+COMPARISON_FILES = ("compare.json", "compare.csv", "report.html")
+
+
+def diagnosis_files(network: str) -> tuple[str, ...]:
+    """Patterns of the files that the diagnosis of a network may write."""
+    return "diagnosis.json", "report.html", f"{escape(network)}+*.yaml"
+
+
+def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
+    """Write the comparison as JSON, CSV and report; the path of the report."""
+    from dashpot.report.comparison import comparison_page
+    from dashpot.report.grids import comparison_grid
+    from dashpot.report.json_text import json_text
+    from dashpot.report.page import render
+    from dashpot.report.tables import to_csv
+
+    content = comparison.as_dict()
+    grid = comparison_grid(content)
+    folder.write("compare.json", json_text(content))
+    folder.write("compare.csv", to_csv(grid.rows, grid.columns))
+    return folder.write("report.html", render(comparison_page(content, comparison.evidence())))
+
+
+def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
+    """Write the diagnosis as JSON and report, and the extended network if there is one; the path of the report."""
+    from dashpot.report.diagnosis import diagnosis_page
+    from dashpot.report.json_text import json_text
+    from dashpot.report.page import render
+
+    content = diagnosis.as_dict()
+    folder.write("diagnosis.json", json_text(content))
+    if diagnosis.extended_text is not None:
+        folder.write(diagnosis.extended_name, diagnosis.extended_text)
+    return folder.write("report.html", render(diagnosis_page(content, diagnosis.evidence())))
+
+
+def comparison_text(comparison: Comparison) -> str:
+    """The comparison for the terminal: the answer in a sentence, then the table."""
+    from dashpot.report.comparison import comparison_headline
+    from dashpot.report.grids import comparison_grid
+    from dashpot.report.tables import plain_table
+
+    content = comparison.as_dict()
+    return f"{plain_table(comparison_grid(content))}\n{comparison_headline(content)}"
+
+
+def diagnosis_text(diagnosis: Diagnosis) -> str:
+    """The diagnosis for the terminal: the answer in a sentence, then the causes."""
+    from dashpot.report.grids import cause_grid
+    from dashpot.report.headline import headline
+    from dashpot.report.tables import plain_table
+
+    content = diagnosis.as_dict()
+    causes = f"{plain_table(cause_grid(content))}\n" if content["causes"] else ""
+    return causes + headline(content)

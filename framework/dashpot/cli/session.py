@@ -1,0 +1,99 @@
+"""What every verb needs: the plugins, what was named on the command line, the result folder and the progress."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from dashpot.cli.output import OutputFolder
+from dashpot.cli.progress import ProgressBar
+from dashpot.cli.switches import Switches
+from dashpot.cli.talk import Talk
+from dashpot.text.problem import nearest
+
+if TYPE_CHECKING:
+    from dashpot.contract.registry import Registry
+    from dashpot.data.dataset import Dataset
+    from dashpot.model.network import NetworkSpec
+
+Result = TypeVar("Result")
+
+
+class Session:
+    """One call of a verb. Opening it loads the plugins; those set aside are mentioned in one line."""
+
+    def __init__(self, switches: Switches, optimizer: str | None = None, settings: Iterable[str] = ()) -> None:
+        from dashpot.contract.registry import load_registry
+
+        self.switches = switches
+        self.talk = Talk(switches)
+        self.registry = load_registry()
+        if self.registry.faults:
+            names = sorted({str(fault.origin) for fault in self.registry.faults})
+            self.talk.warn(f"set aside, at least in part: plugin {', '.join(names)}. `dashpot list plugins` says why")
+        self.optimizer = optimizer
+        self.options = read_options_of(optimizer, settings, self.registry)
+
+    def network(self, spec: str) -> NetworkSpec:
+        """The network of a file or of a shipped name."""
+        from dashpot.model.reading import read_network
+
+        return read_network(spec, self.registry.elements)
+
+    def dataset(self, path: str | Path) -> Dataset:
+        """The dataset at ``path``; what is wrong with single runs is warned of."""
+        from dashpot.data.dataset import read_dataset
+
+        dataset = read_dataset(path, {word: reader() for word, reader in self.registry.formats.items()})
+        for problem in dataset.problems:
+            self.talk.warn(str(problem))
+        return dataset
+
+    def claim(self, output: Path, *patterns: str) -> OutputFolder:
+        """The folder ``output``, into which files of these names may be written."""
+        folder = OutputFolder(output, self.switches.force)
+        folder.claim(*patterns)
+        return folder
+
+    def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
+        """Do the work of a verb on a network (or several) and a dataset, showing its progress."""
+        with ProgressBar(self.switches.quiet) as progress:
+            return work(
+                subject,
+                dataset,
+                optimizer=self.optimizer,
+                options=self.options,
+                seed=self.switches.seed,
+                jobs=self.switches.jobs,
+                registry=self.registry,
+                progress=progress,
+            )
+
+
+def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Registry) -> dict[str, Any]:
+    """The options given with ``--set`` in the types of the optimizer; click.UsageError if they do not fit it."""
+    from dashpot.contract.options import read_options
+
+    known = registry.optimizers
+    if optimizer is not None and optimizer not in known:
+        hint = nearest(optimizer, known) or f"there are: {', '.join(known) or 'none'}"
+        raise click.UsageError(f"No such optimizer '{optimizer}', {hint}")
+    texts = dict(_split(setting) for setting in settings)
+    if not texts:
+        return {}
+    if optimizer is None:
+        raise click.UsageError("--set gives an option of an optimizer: name it with --optimizer")
+    try:
+        return read_options(known[optimizer], texts)
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
+
+
+def _split(setting: str) -> tuple[str, str]:
+    key, equals, value = setting.partition("=")
+    if not (key and equals):
+        raise click.UsageError(f"--set expected KEY=VALUE, got '{setting}'")
+    return key.strip(), value.strip()

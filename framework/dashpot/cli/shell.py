@@ -1,0 +1,54 @@
+"""The group of verbs. Each verb is imported when it is called for, so that the command starts at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import click
+
+from dashpot import __version__
+from dashpot.cli.outcome import exit_code_of
+from dashpot.text.problem import nearest
+
+VERBS = ("demo", "list", "check", "simulate", "fit", "compare", "diagnose")
+
+
+class Verbs(click.Group):
+    """Finds the verb ``fit`` in the module ``dashpot.cli.fit``."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All verbs, in the order in which one meets them."""
+        return list(VERBS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The verb's command, imported now."""
+        return import_module(f"dashpot.cli.{cmd_name}").verb if cmd_name in VERBS else None
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[Any, ...]:
+        """As click does, with the nearest verb for one that is unknown."""
+        word = args[0]
+        if word not in VERBS and not word.startswith("-"):
+            ctx.fail(f"No such verb '{word}', {nearest(word, VERBS) or 'there are: ' + ', '.join(VERBS)}")
+        return super().resolve_command(ctx, args)
+
+
+@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="dashpot")
+def dashpot() -> None:
+    """Rheological models: fit them to measurements, compare them, and find what is missing.
+
+    \b
+    First steps:
+      dashpot demo                                the whole story on a virtual test tire
+      dashpot compare kelvin_voigt gehmann --data my/dataset.yaml -o comparison
+      dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
+
+    `dashpot VERB --help` explains a verb. SPEC is a YAML file or the name of a shipped network.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; 0 done, 1 the input is wrong, 2 usage, 3 interrupted, 70 a fault of dashpot itself."""
+    return exit_code_of(lambda: dashpot.main(args=arguments, prog_name="dashpot", standalone_mode=False))

@@ -1,0 +1,78 @@
+"""Options that several verbs share."""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+
+@dataclass(frozen=True)
+class Switches:
+    """The common switches as given, or their defaults where a verb does not have them."""
+
+    seed: int = 0
+    jobs: int = 1
+    json: bool = False
+    quiet: bool = False
+    force: bool = False
+
+
+def available_cores() -> int:
+    """How many cores there are."""
+    return os.cpu_count() or 1
+
+
+SWITCHES = {
+    "seed": click.option(
+        "--seed",
+        metavar="N",
+        type=click.IntRange(min=0),
+        default=0,
+        show_default=True,
+        help="Same seed, same result files.",
+    ),
+    "jobs": click.option(
+        "--jobs",
+        metavar="N",
+        type=click.IntRange(min=1),
+        default=available_cores,
+        help="Workers; all cores by default.",
+    ),
+    "json": click.option("--json", is_flag=True, help="Result on standard output as JSON, talk on standard error."),
+    "quiet": click.option("--quiet", is_flag=True, help="Say nothing but warnings and errors."),
+    "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
+}
+
+
+def switches(*names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Give a verb the named switches; it receives them as one argument ``switches``."""
+
+    def decorate(verb: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(verb)
+        def gathered(**given: Any) -> Any:
+            return verb(switches=Switches(**{name: given.pop(name) for name in names}), **given)
+
+        return functools.reduce(lambda inner, name: SWITCHES[name](inner), reversed(names), gathered)
+
+    return decorate
+
+
+def optimizer_options(verb: Callable[..., Any]) -> Callable[..., Any]:
+    """``--optimizer NAME`` and ``--set KEY=VALUE`` (any number of times)."""
+    settings = click.option(
+        "--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the optimizer, e.g. iterations=50."
+    )
+    optimizer = click.option("--optimizer", metavar="NAME", help="See `dashpot list optimizers`.")
+    return optimizer(settings(verb))
+
+
+def output_option(about: str, **more: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """``-o OUT``, required unless there is a default."""
+    more.setdefault("required", "default" not in more)
+    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about, **more)

@@ -1,0 +1,115 @@
+"""What a suspected cause promises: how it would show in every run, and what to add to the network if it is there."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import add_branch
+
+Array = NDArray[np.float64]
+Atom = tuple[float, float]  # strength and place on the grid
+
+
+class View(Protocol):
+    """What a cause may look at. Arrays of a run have its samples; a cause never sees noise, thresholds or labels."""
+
+    runs: Sequence[str]
+    reach: tuple[float, float]
+    speed: float
+    duration: float
+    stroke: float
+    dt: float
+
+    def displacement(self, run: str) -> Array:
+        """The deflection (n,) in m."""
+
+    def velocity(self, run: str) -> Array:
+        """The velocity (n,) in m/s."""
+
+    def force(self, run: str) -> Array:
+        """The force of the present model (n,) in N."""
+
+    def step(self, run: str) -> float:
+        """The sample time in s."""
+
+    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
+        """The forces (m, n) of an element with each of m sets of values, moved like the specimen."""
+
+
+@dataclass(frozen=True)
+class Suspect:
+    """One form of a cause.
+
+    ``columns(view, run)`` answers its force (m, n) at unit strength for each place of ``grid`` (m,); with ``joint`` all
+    columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts what the
+    cure leaves to be found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with
+    start values; at most ``most`` atoms of the grid act together.
+    """
+
+    form: str
+    grid: tuple[float, ...]
+    columns: Callable[[View, str], Array]
+    extend: Callable[[str, Sequence[Atom]], str]
+    joint: bool = False
+    sign: Literal[0, 1] = 1
+    unknowns: int = 1
+    most: int = 1
+
+
+class Cause(ABC):
+    """A suspected cause of misfit.
+
+    ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
+    other words to the measurement that tells the two apart. ``equation`` is the added force in words of the field.
+    """
+
+    word: ClassVar[str]
+    kind: ClassVar[Literal["specimen", "measurement"]]
+    about: ClassVar[str]
+    shows: ClassVar[str]
+    confused_with: ClassVar[Mapping[str, str]] = {}
+
+    @abstractmethod
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """The forms to try on a network."""
+
+
+def added_branch(
+    element: str, branch: str, grid: Sequence[float], values: Callable[[float, float], Mapping[str, float]],
+    units: Mapping[str, str], sign: Literal[0, 1] = 1, most: int = 1, unknowns: int = 1, bounds: bool = True,
+) -> Suspect:  # fmt: skip
+    """The suspect that an element is missing in parallel: ``values(strength, place)`` are its parameters in ``units``."""
+
+    def columns(view: View, run: str) -> Array:
+        return view.respond(run, element, [values(1.0, place) for place in grid])
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        for strength, place in atoms:
+            text = add_branch(text, branch_lines(free_name(text, branch), element, values(strength, place), units))
+        return text
+
+    return Suspect(element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns)
+
+
+def branch_lines(name: str, element: str, values: Mapping[str, float], units: Mapping[str, str]) -> str:
+    """A branch with free parameters as lines of YAML."""
+    from dashpot.text.quantity import pretty
+
+    numbers = [f"  {key}: {{start: {pretty(value, units[key], 6)}}}" for key, value in values.items()]
+    return "\n".join([f"{name}:", f"  element: {element}", *numbers])
+
+
+def free_name(text: str, wanted: str) -> str:
+    """``wanted``, or with a number if the network has a branch of that name."""
+    from dashpot.text.document import Document
+
+    taken = set(Document.parse(text).root.entries["branches"].entries)
+    names = [wanted, *(f"{wanted}_{number}" for number in range(2, len(taken) + 3))]
+    return next(name for name in names if name not in taken)

@@ -1,0 +1,53 @@
+"""Everything a plugin can give to dashpot.
+
+A plugin is an installed module (or package) under the entry-point group ``dashpot``:
+
+    [project.entry-points.dashpot]
+    my_plugin = "my_package"
+
+It implements any of the functions below under the same name, marked with ``hookimpl``, and returns *classes*. Each
+class has a ``word``, by which files and commands name it. The built-in plugins come in the same way.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pluggy
+
+if TYPE_CHECKING:
+    from dashpot.contract.cause import Cause
+    from dashpot.contract.optimizer import Optimizer
+    from dashpot.contract.reader import Reader
+    from dashpot.contract.specimen import Specimen
+    from dashpot.model.element import Element
+
+PROJECT = "dashpot"
+
+hookspec = pluggy.HookspecMarker(PROJECT)
+hookimpl = pluggy.HookimplMarker(PROJECT)
+
+
+@hookspec
+def dashpot_elements() -> list[type[Element]]:  # type: ignore[empty-body]
+    """Laws of force between two ends, used as branches of a network."""
+
+
+@hookspec
+def dashpot_optimizers() -> list[type[Optimizer]]:  # type: ignore[empty-body]
+    """Methods that search the unit cube for the best parameters, by asking for blocks of points."""
+
+
+@hookspec
+def dashpot_formats() -> list[type[Reader]]:  # type: ignore[empty-body]
+    """Readers of measurement files."""
+
+
+@hookspec
+def dashpot_causes() -> list[type[Cause]]:  # type: ignore[empty-body]
+    """Suspected causes of a misfit: how each shows in the measurements, and what to add to the network."""
+
+
+@hookspec
+def dashpot_specimens() -> list[type[Specimen]]:  # type: ignore[empty-body]
+    """Virtual test specimens that write a dataset of their own, for demonstrations and trials."""

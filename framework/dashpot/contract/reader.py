@@ -1,0 +1,29 @@
+"""Readers of measurement files: what a plugin provides for one file format."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import ClassVar
+
+from dashpot.data.table import ReadingError, Table
+
+__all__ = ["Reader", "ReadingError", "Table"]
+
+
+class Reader(ABC):
+    """Reads the files of one format into columns. It never changes a file, and never unpickles.
+
+    `word` names the format in a dataset (`reader: csv`); `suffixes` are the file names it reads unasked (`.csv`).
+    """
+
+    word: ClassVar[str]
+    suffixes: ClassVar[tuple[str, ...]]
+
+    @abstractmethod
+    def read(self, path: Path, options: Mapping[str, object]) -> Table:
+        """The columns of a file; `options` is what stands under `file_options` in the dataset.
+
+        Raises ReadingError, with a line where there is one, when the file or an option is not as it should be.
+        """

@@ -1,0 +1,191 @@
+"""What a dataset file says about a run, before any measurement is read."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from dashpot.data.channel import Channel, read_channels, unit_of_channel
+from dashpot.data.inherit import inherit
+from dashpot.data.run import KINDS
+from dashpot.text.form import Form, read_integer, read_items, read_text
+from dashpot.text.node import Mapping as MappingNode
+from dashpot.text.node import Node, Scalar
+from dashpot.text.problem import Place, Problem
+from dashpot.text.quantity import measure
+
+SETTING_UNITS = {"amplitude": "m", "preload": "m", "start": "Hz", "stop": "Hz", "frequency": "Hz"}
+
+# what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
+ACCEPTABLE = ("clipping", "units")
+
+# names of runs become names of files
+_SAFE_NAME = re.compile(r"[^./\\:*?\"<>|\x00-\x1f\x7f][^/\\:*?\"<>|\x00-\x1f\x7f]{0,119}")
+
+
+@dataclass(frozen=True)
+class RunDeclaration:
+    """Everything said about one run. `rows` counts from 1, both ends included; `start` and `stop` are in s."""
+
+    name: str
+    file: str
+    kind: str
+    time: Channel | None
+    sampling: float | None
+    channels: tuple[Channel, ...]
+    settings: Mapping[str, float]
+    notes: Mapping[str, str]
+    repeats: str | None
+    held_out: bool | None
+    sensors: Mapping[str, Mapping[str, float]]
+    rows: tuple[int, int | None]
+    start: float | None
+    stop: float | None
+    decimate: int
+    reader: str | None
+    file_options: Mapping[str, object]
+    accept: tuple[str, ...]
+    order: int
+    places: Mapping[str, Place]
+
+    def place(self, key: str) -> Place:
+        """Where the value of a key stands; the run itself when it has no such key."""
+        return self.places.get(key, self.places[""])
+
+
+def read_declaration(
+    node: Node, defaults: MappingNode | None, file: str | None, order: int
+) -> tuple[RunDeclaration | None, list[Problem]]:
+    """The declaration of a run and the problems of its text; None when there are any.
+
+    `file` is the measurement file when the run names none.
+    """
+    problems: list[Problem] = []
+    form = Form(inherit(node, defaults), problems, _title(node, file, order))
+    if not isinstance(node, MappingNode):
+        return None, problems
+    declaration = _read(form, file, order)
+    form.close()
+    return (None if problems else declaration), problems
+
+
+def name_of(node: Node, file: str | None) -> str | None:
+    """The name of the run that a node declares, right or wrong; None when it says nothing of the kind."""
+    entries = node.entries if isinstance(node, MappingNode) else {}
+    for key in ("name", "file"):
+        named = entries.get(key)
+        if isinstance(named, Scalar) and named.written:
+            return named.written if key == "name" else stem_of(named.written)
+    return stem_of(file) if file else None
+
+
+def _title(node: Node, file: str | None, order: int) -> str:
+    name = name_of(node, file)
+    return f"the run number {order + 1}" if name is None else f"the run '{name}'"
+
+
+def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
+    path = form.text("file") if file is None else form.text("file", file)
+    time, sampling, channels = read_channels(form)
+    settings, notes = _read_settings(form)
+    return RunDeclaration(
+        name=_read_name(form, path),
+        file=path,
+        kind=form.choice("kind", KINDS),
+        time=time,
+        sampling=sampling,
+        channels=channels,
+        settings=settings,
+        notes=notes,
+        repeats=form.text("repeats", None),
+        held_out=form.flag("held_out", None),
+        sensors=_read_sensors(form),
+        rows=form.take("rows", _read_rows, (1, None)),
+        start=form.quantity("start", "s", None),
+        stop=form.quantity("stop", "s", None),
+        decimate=form.take("decimate", _read_decimation, 1),
+        reader=form.text("reader", None),
+        file_options=form.take("file_options", _read_options, {}),
+        accept=form.take("accept", _read_accepted, ()),
+        order=order,
+        places={key: form.place_of(key) for key in form.keys} | {"": form.place},
+    )
+
+
+def _read_name(form: Form, path: str | None) -> str:
+    name = form.text("name", stem_of(path or "run"))
+    if not _SAFE_NAME.fullmatch(name):
+        hint = "leave out / \\ : * ? \" < > | and a leading '.'"
+        form.complain("name", f"'{name}' cannot be the name of a run", hint)
+    return name
+
+
+def stem_of(file: str) -> str:
+    """The name of a file without folders and endings: the name of a run that has none."""
+    return file.replace("\\", "/").rpartition("/")[2].partition(".")[0] or "run"
+
+
+def _read_settings(form: Form) -> tuple[dict[str, float], dict[str, str]]:
+    below = form.form("settings", default=None)
+    settings: dict[str, float] = {}
+    notes: dict[str, str] = {}
+    for key in below.keys if below else ():
+        if key in SETTING_UNITS:
+            settings[key] = below.quantity(key, SETTING_UNITS[key])
+        else:
+            value = below.take(key, _read_free_setting)
+            (notes if isinstance(value, str) else settings)[key] = value
+    return settings, notes
+
+
+def _read_free_setting(node: Node) -> float | str:
+    text = read_text(node)
+    try:
+        return measure(text)
+    except ValueError:
+        return text
+
+
+def _read_sensors(form: Form) -> dict[str, dict[str, float]]:
+    return {channel: _read_sensor(sensor, channel) for channel, sensor in form.named("sensors", {}).items()}
+
+
+def _read_sensor(form: Form, channel: str) -> dict[str, float]:
+    unit = unit_of_channel(channel) or "1"
+    units = {"gain": "1", "zero": unit, "delay": "s", "noise": unit}
+    read = {key: form.quantity(key, unit, None) for key, unit in units.items()}
+    form.close()
+    return {key: value for key, value in read.items() if value is not None}
+
+
+def _read_rows(node: Node) -> tuple[int, int | None]:
+    items = read_items(node)
+    if len(items) != 2:
+        raise ValueError(f"expected [first, last], got {node.describe()}")
+    first = read_integer(items[0])
+    last = None if isinstance(items[1], Scalar) and items[1].value is None else read_integer(items[1])
+    if first < 1 or (last is not None and last <= first):
+        raise ValueError(f"expected [first, last] counted from 1, got [{first}, {last}]")
+    return first, last
+
+
+def _read_decimation(node: Node) -> int:
+    number = read_integer(node)
+    if not 1 <= number <= 1000:
+        raise ValueError(f"expected a whole number from 1 to 1000, got {number}")
+    return number
+
+
+def _read_accepted(node: Node) -> tuple[str, ...]:
+    words = tuple(read_text(item) for item in read_items(node))
+    for word in words:
+        if word not in ACCEPTABLE:
+            raise ValueError(f"expected some of {', '.join(ACCEPTABLE)}, got '{word}'")
+    return words
+
+
+def _read_options(node: Node) -> dict[str, object]:
+    if not isinstance(node, MappingNode):
+        raise ValueError(f"expected options as 'key: value', got {node.describe()}")
+    return node.plain()

@@ -1,0 +1,100 @@
+"""What a dataset file says as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from dashpot.data.declaration import RunDeclaration, name_of, read_declaration, stem_of
+from dashpot.data.inherit import inherit
+from dashpot.data.source import Source
+from dashpot.text.document import Document
+from dashpot.text.form import Form, read_items
+from dashpot.text.node import Mapping, Node, Sequence
+from dashpot.text.problem import InputError, Place, Problem
+
+FORMAT = "dashpot-dataset/1"
+
+# keys of a dataset that are no keys of a run, also where dataset and run are one
+_OWN_KEYS = ("format", "allow_outside")
+
+
+@dataclass(frozen=True)
+class Description:
+    """The sound declarations of a dataset, the names of all its runs, and the problems found in its text."""
+
+    name: str
+    allow_outside: bool
+    declarations: tuple[RunDeclaration, ...]
+    names: tuple[str, ...]
+    problems: tuple[Problem, ...]
+
+
+def read_description(document: Document, source: Source) -> Description:
+    """Everything a dataset file says. Raises InputError when it is no dataset file."""
+    problems: list[Problem] = []
+    form = Form(document.root, problems, "the dataset")
+    form.choice("format", (FORMAT,))
+    if problems:
+        raise InputError(problems)
+    name = form.text("name", stem_of(source.file or source.folder.resolve().name))
+    allow_outside = form.flag("allow_outside", False)
+    nodes, defaults = _many_runs(form) if "runs" in form or not source.file else _single_run(form)
+    form.close()
+    declarations = tuple(_declare(nodes, defaults, source.file, problems))
+    names = tuple(filter(None, (name_of(node, source.file) for node in nodes)))
+    return Description(name, allow_outside, declarations, names, tuple(problems))
+
+
+def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
+    defaults = form.node("defaults")
+    if defaults is not None and not isinstance(defaults, Mapping):
+        form.complain("defaults", f"expected the defaults as 'key: value' lines, got {defaults.describe()}")
+        defaults = None
+    sensors = form.node("sensors")
+    if sensors is not None:
+        given = Mapping(form.place, 0, 0, {"sensors": sensors}, {"sensors": sensors})
+        defaults = inherit(defaults, given) if defaults else given
+    return form.take("runs", read_items) or (), defaults
+
+
+def _single_run(form: Form) -> tuple[tuple[Node, ...], None]:
+    """The whole text declares one run."""
+    entries = {key: form.node(key) for key in form.keys if key not in _OWN_KEYS}
+    keys = {key: node for key, node in form.origin.keys.items() if key in entries}
+    return (Mapping(form.place, form.origin.start, form.origin.end, entries, keys),), None
+
+
+def _declare(
+    nodes: tuple[Node, ...], defaults: Mapping | None, file: str | None, problems: list[Problem]
+) -> Iterator[RunDeclaration]:
+    """The sound declarations. What is wrong in the defaults is told once, not for every run."""
+    given = set(_places(defaults)) if defaults else set()
+    told: set[tuple[Place, str]] = set()
+    names: dict[str, RunDeclaration] = {}
+    for order, node in enumerate(nodes):
+        declaration, found = read_declaration(node, defaults, file, order)
+        problems += [p for p in found if p.place not in given or (p.place, p.hint) not in told]
+        told.update((problem.place, problem.hint) for problem in found)
+        if declaration and declaration.name in names:
+            problems.append(_same_name(declaration, names[declaration.name]))
+        elif declaration:
+            names[declaration.name] = declaration
+            yield declaration
+
+
+def _same_name(declaration: RunDeclaration, first: RunDeclaration) -> Problem:
+    line = first.place("").line
+    message = f"run '{declaration.name}' is set aside: a run in line {line} has the same name"
+    return Problem(declaration.place("name"), message, "rename one of them")
+
+
+def _places(node: Node) -> Iterator[Place]:
+    yield node.place
+    if isinstance(node, Mapping):
+        for key, value in node.entries.items():
+            yield node.keys[key].place
+            yield from _places(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from _places(item)

@@ -1,0 +1,51 @@
+"""One measured run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+KINDS = ("quasi_static", "sweep", "harmonic", "random", "hold", "transient")
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Channels of one run on a uniform time grid that starts at 0; SI, compression positive, read-only.
+
+    time (n,) s; channels: "displacement", "force", "velocity", "force@platform_left", ... -> (n,).
+    settings: numbers of the test procedure in SI ("amplitude", "preload", "start", "stop", ...); notes: its words.
+    group: the name of the original; all repeats of a run share it. repeats: the original, None for an original.
+    held_out: what the dataset says about it, None when it says nothing.
+    sensors: channel -> its specification in SI (gain, zero, delay, noise).
+    source: the file it came from; order: its number in the dataset, from 0, as it was measured.
+    """
+
+    name: str
+    kind: str
+    time: np.ndarray
+    channels: Mapping[str, np.ndarray]
+    settings: Mapping[str, float] = field(default_factory=dict)
+    repeats: str | None = None
+    group: str = ""
+    held_out: bool | None = None
+    sensors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    source: str = ""
+    order: int = 0
+    notes: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def sample_time(self) -> float:
+        """Seconds between two samples."""
+        return float(self.time[1] - self.time[0])
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """The deflection (n,) in m. KeyError when the run has only channels at nodes."""
+        return self.channels["displacement"]
+
+    @property
+    def force(self) -> np.ndarray:
+        """The force (n,) in N. KeyError when the run has only channels at nodes."""
+        return self.channels["force"]

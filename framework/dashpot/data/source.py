@@ -1,0 +1,88 @@
+"""Where a dataset is: its description, its folder, and the measurement files it may read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dashpot.data.trouble import Trouble, Unusable
+from dashpot.text.problem import InputError, Place, nearest
+
+if TYPE_CHECKING:
+    from dashpot.contract.reader import Reader
+
+DESCRIPTIONS = ("dataset.yaml", "dataset.yml")
+
+
+@dataclass(frozen=True)
+class Source:
+    """The description of a dataset, its folder, and the measurement file when there is only that one."""
+
+    description: Path
+    folder: Path
+    file: str | None = None
+
+
+def locate(path: Path) -> Source:
+    """The dataset at a path: a description, a folder with one, or a data file with a sidecar `<file>.yaml`.
+
+    Raises InputError when there is none.
+    """
+    if path.is_dir():
+        return _in_folder(path)
+    if path.suffix in (".yaml", ".yml"):
+        measured = path.with_suffix("")
+        only = measured.name if measured.suffix and measured.is_file() else None
+        return Source(path, path.parent, only)
+    sidecar = path.with_name(path.name + ".yaml")
+    if not path.exists():
+        raise InputError.at(Place(str(path)), "there is no such file or folder", _neighbour(path))
+    if not sidecar.exists():
+        hint = f"write '{sidecar.name}' beside it, with its kind and its channels"
+        raise InputError.at(Place(str(path)), "nothing says what this file holds", hint)
+    return Source(sidecar, path.parent, path.name)
+
+
+def _in_folder(folder: Path) -> Source:
+    for name in DESCRIPTIONS:
+        if (folder / name).is_file():
+            return Source(folder / name, folder)
+    raise InputError.at(Place(str(folder)), "the folder holds no dataset.yaml", "write one that names its runs")
+
+
+def _neighbour(path: Path) -> str:
+    names = [other.name for other in path.parent.iterdir()] if path.parent.is_dir() else []
+    return nearest(path.name, names) or "check the name and the folder"
+
+
+def find_file(file: str, folder: Path, allow_outside: bool, place: Place) -> Path:
+    """The path of a measurement file, below the folder unless said otherwise. Raises Unusable."""
+    path = folder / file
+    if not allow_outside and not path.resolve().is_relative_to(folder.resolve()):
+        hint = "move it there, or write 'allow_outside: true' at the top of the dataset"
+        raise Unusable([Trouble("it lies outside the folder of the dataset", hint, place)])
+    if not path.is_file():
+        raise Unusable([Trouble("there is no such file", _neighbour(path), place)])
+    return path
+
+
+def choose_reader(file: str, word: str | None, readers: Mapping[str, Reader], place: Place) -> Reader:
+    """The reader asked for, or the one for the ending of the file's name. Raises Unusable when there is none."""
+    if word is not None and word in readers:
+        return readers[word]
+    if word is not None:
+        hint = nearest(word, readers) or _known(readers)
+        raise Unusable([Trouble(f"there is no reader '{word}'", hint, place)])
+    ending = Path(file).suffix.lower()
+    for reader in readers.values():
+        if ending in reader.suffixes:
+            return reader
+    raise Unusable(
+        [Trouble(f"no reader takes files ending in '{ending}'", f"say 'reader: ...'; {_known(readers)}", place)]
+    )
+
+
+def _known(readers: Iterable[str]) -> str:
+    return "there are: " + (", ".join(sorted(readers)) or "none")

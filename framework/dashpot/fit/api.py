@@ -1,0 +1,163 @@
+"""Identifying a network on a dataset, in stages.
+
+1  curves     the elastic curve from the quasi-static loop
+2  parameters everything else on the dynamic training runs, by the chosen optimizer
+3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.optimizer import Optimizer, Space
+from dashpot.contract.registry import Registry
+from dashpot.data.dataset import Dataset
+from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.floor import noise_floor
+from dashpot.fit.grounding import correct_ends, ground_curves
+from dashpot.fit.holdout import Split, split_runs
+from dashpot.fit.objective import Objective
+from dashpot.fit.ranges import natural_sizes, with_ranges
+from dashpot.fit.refine import refine
+from dashpot.fit.result import Errors, FitResult, with_intervals
+from dashpot.fit.scored import ScoredRun, score_run
+from dashpot.fit.search import run_search
+from dashpot.fit.starts import Best, refine_from_starts
+from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.kernel.network import compile_network
+from dashpot.model.network import NetworkSpec, Slot, Value
+
+Array = NDArray[np.float64]
+Progress = Callable[..., None]
+
+OWN_METHOD = "gauss_newton"
+
+
+def silent(*_: Any, **__: Any) -> None:
+    """Progress that nobody watches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """A dataset made ready: scored runs by name, which of them train, the noise floor."""
+
+    dataset: Dataset
+    scored: Mapping[str, ScoredRun]
+    split: Split
+    floor: Any
+
+    @property
+    def train(self) -> list[ScoredRun]:
+        """The training runs."""
+        return [self.scored[name] for name in self.split.train]
+
+    @property
+    def held_out(self) -> list[ScoredRun]:
+        """The held-out runs."""
+        return [self.scored[name] for name in self.split.held_out]
+
+
+def prepare(dataset: Dataset, seed: int = 0) -> Setting:
+    """Score the runs, split them, find the noise floor."""
+    return Setting(dataset, {run.name: score_run(run) for run in dataset.runs}, split_runs(dataset, seed),
+                   noise_floor(dataset))  # fmt: skip
+
+
+def fit_network(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = None,
+                options: Mapping[str, Any] | None = None, seed: int = 0, jobs: int = 1, registry: Registry | None = None,
+                progress: Progress | None = None) -> FitResult:  # fmt: skip
+    """Identify the searched numbers of a network; see the module for the stages.
+
+    ``optimizer`` is a plugged-in method for stage 2; without one the framework's own Gauss-Newton from several starts.
+    Raises InputError for a network that does not compile.
+    """
+    method = registry.optimizers[optimizer](**(options or {})) if optimizer else None
+    return fit_prepared(spec, prepare(dataset, seed), method, seed, jobs, progress or silent)
+
+
+def fit_prepared(spec: NetworkSpec, setting: Setting, method: Optimizer | None, seed: int, jobs: int,
+                 progress: Progress) -> FitResult:  # fmt: skip
+    """Identify a network on a dataset made ready."""
+    watch = _Watch(progress, spec.name, setting.floor.value)
+    grounded = with_ranges(ground_curves(spec, setting.train), natural_sizes(setting.train))
+    curves = set(grounded.data_curves())
+    fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
+    staged, best = _search(grounded, fast, lambda slot: _curve_of(slot) not in curves, method, seed, jobs, watch)
+    corrected = correct_ends(staged, setting.train)
+    objective = Objective(compile_network(corrected), setting.train, jobs)
+    coordinates = search_coordinates(corrected)
+    watch.stage("polish", 0.0)
+    polished = refine(objective, coordinates, coordinates.start, watch=lambda loss: watch.stage("polish", None, loss))
+    known = assess_uncertainty(objective, coordinates, polished.point)
+    fitted = with_point(corrected, coordinates, polished.point)
+    intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
+    return FitResult(
+        declared=spec, fitted=with_intervals(fitted, intervals), errors=measure_errors(fitted, setting, jobs),
+        noise_floor=setting.floor, split=setting.split, dataset=setting.dataset,
+        optimizer=method.word if method else OWN_METHOD, seed=seed, ending=polished.outcome.value,
+        evaluations=best.evaluations + polished.evaluations, at_bound=known.at_bound, idle=known.idle,
+        spread=best.spread, history=best.history,
+    )  # fmt: skip
+
+
+def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors:
+    """The errors of a network with given numbers on all runs."""
+    network = compile_network(spec)
+    runs = list(setting.scored.values())
+    per_run = dict(zip(setting.scored, Objective(network, runs, jobs).rmse(network.start)[:, 0].tolist(), strict=True))
+
+    def pooled(names: Sequence[str]) -> float | None:
+        return float(np.sqrt(np.mean([per_run[name] ** 2 for name in names]))) if names else None
+
+    return Errors(pooled(setting.split.train), pooled(setting.split.held_out), pooled(tuple(per_run)), per_run)
+
+
+def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
+    """The network with the numbers of a point in coordinates."""
+    values = coordinates.to_values(point)[0]
+    slots = spec.slots()
+    return spec.with_values({slots[k].path: _numbered(slots[k].value, float(values[k])) for k in coordinates.which})
+
+
+def _search(spec: NetworkSpec, runs: Sequence[ScoredRun], chosen: Callable[[Slot], bool], method: Optimizer | None,
+            seed: int, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Best]:  # fmt: skip
+    objective = Objective(compile_network(spec), runs, jobs)
+    coordinates = search_coordinates(spec, chosen)
+    if method is None or not coordinates.paths:
+        best = refine_from_starts(objective, coordinates, seed, lambda done, loss: watch.stage("search", done, loss))
+        return with_point(spec, coordinates, best.refined.point), best
+    space = Space(coordinates.paths, coordinates.to_cube(coordinates.start))
+    found = run_search(
+        method,
+        lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
+        lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
+        space, seed, progress=lambda standing: watch.stage(method.word, None, standing.loss),
+    )  # fmt: skip
+    point = coordinates.from_cube(found.best)
+    history = tuple((standing.evaluations, standing.loss) for standing in found.history)
+    refined = refine(objective, coordinates, point, steps=0)
+    best = Best(refined, (found.loss,), found.evaluations, history)
+    return with_point(spec, coordinates, point), best
+
+
+def _curve_of(slot: Slot) -> str:
+    return slot.path.partition("[")[0]
+
+
+def _numbered(value: Value, number: float) -> Value:
+    return Value(number, value.unit, value.role, value.bounds, value.scale, value.interval, value.node)
+
+
+@dataclass(frozen=True)
+class _Watch:
+    progress: Progress
+    name: str
+    floor: float | None
+
+    def stage(self, what: str, done: float | None, loss: float | None = None) -> None:
+        self.progress(f"{self.name}: {what}", done, loss, self.floor)

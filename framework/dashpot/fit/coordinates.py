@@ -1,0 +1,84 @@
+"""The coordinates in which parameters are searched: logarithms where the scale is one, straight numbers elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.model.network import NetworkSpec, Slot
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinates:
+    """The searched slots of a network.
+
+    ``which`` (p,) are their numbers among all slots, ``log`` (p,) says which are searched by logarithm, ``low`` and
+    ``high`` (p,) are bounds in coordinates, ``unit`` (p,) is the size of a natural step in coordinates.
+    """
+
+    paths: tuple[str, ...]
+    which: NDArray[np.int64]
+    log: NDArray[np.bool_]
+    low: Array
+    high: Array
+    unit: Array
+    base: Array
+
+    def to_values(self, points: Array) -> Array:
+        """All slots (lanes, slots) in SI for points (lanes, p) in coordinates."""
+        points = np.atleast_2d(points)
+        values = np.repeat(self.base[None], points.shape[0], axis=0)
+        values[:, self.which] = np.where(self.log, np.exp(np.where(self.log, points, 0.0)), points)
+        return values
+
+    def of_values(self, values: Array) -> Array:
+        """The point (p,) of a single lane of slots in SI."""
+        chosen = values[self.which]
+        return np.where(self.log, np.log(np.where(self.log, chosen, 1.0)), chosen)
+
+    @property
+    def start(self) -> Array:
+        """The point of the file."""
+        return np.clip(self.of_values(self.base), self.low, self.high)
+
+    def from_cube(self, cube: Array) -> Array:
+        """Coordinates of points in the unit cube."""
+        return self.low + cube * (self.high - self.low)
+
+    def to_cube(self, points: Array) -> Array:
+        """Points in the unit cube of coordinates."""
+        return (points - self.low) / (self.high - self.low)
+
+
+def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambda slot: True) -> Coordinates:
+    """The coordinates of the searched slots of a network that ``chosen`` accepts."""
+    slots = spec.slots()
+    which = [number for number, slot in enumerate(slots) if slot.value.searched and chosen(slot)]
+    values = [slots[number].value for number in which]
+    log = np.array([value.scale == "log" for value in values], dtype=bool)
+    bounds = np.array([value.bounds for value in values], dtype=float).reshape(-1, 2)
+    low, high = (np.where(log, np.log(np.where(log, side, 1.0)), side) for side in bounds.T)
+    return Coordinates(
+        tuple(slots[number].path for number in which), np.array(which, dtype=np.int64), log, low, high,
+        _units(slots, which), np.array([slot.value.number for slot in slots]),
+    )  # fmt: skip
+
+
+def _units(slots: Sequence[Slot], which: Sequence[int]) -> Array:
+    # a knot of a table moves on the scale of its whole table
+    largest: dict[str, float] = {}
+    for slot in slots:
+        curve = slot.path.partition("[")[0]
+        largest[curve] = max(largest.get(curve, 0.0), abs(slot.value.number))
+    units = []
+    for number in which:
+        value = slots[number].value
+        size = largest[slots[number].path.partition("[")[0]]
+        width = value.bounds[1] - value.bounds[0] if value.bounds else 1.0
+        units.append(1.0 if value.scale == "log" else min(size or width, width))
+    return np.array(units)

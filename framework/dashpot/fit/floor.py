@@ -1,0 +1,35 @@
+"""The noise floor of a dataset: what no model can explain."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from dashpot.data.dataset import Dataset
+from dashpot.data.noise import NoiseFloor, noise_above_motion, noise_from_orders, noise_from_repeats, pool_noise
+from dashpot.data.order_tracking import follow
+from dashpot.data.phase import NotOscillatingError
+from dashpot.data.repeats import NotRepeatsError
+from dashpot.data.run import Run
+
+
+def noise_floor(dataset: Dataset) -> NoiseFloor:
+    """From repeated runs where there are any, else from what lies between and above the orders of the motion."""
+    groups = [list(runs) for _, runs in groupby(sorted(dataset.runs, key=lambda run: run.group), lambda run: run.group)]
+    floors = [floor for group in groups if len(group) > 1 for floor in _repeated(group)]
+    return pool_noise(floors or [_single(run) for run in dataset.runs])
+
+
+def _repeated(group: list[Run]) -> list[NoiseFloor]:
+    try:
+        return [noise_from_repeats([(run.displacement, run.force) for run in group], group[0].sample_time)]
+    except NotRepeatsError:
+        return []
+
+
+def _single(run: Run) -> NoiseFloor:
+    if run.kind in ("sweep", "harmonic"):
+        try:
+            return noise_from_orders(run.force, follow(run.displacement, run.sample_time))
+        except NotOscillatingError:
+            pass
+    return noise_above_motion(run.displacement, run.force, run.sample_time)

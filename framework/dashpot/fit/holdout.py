@@ -1,0 +1,80 @@
+"""Which runs a fit may see, and which ones only judge it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+
+SHARE = 0.25
+FEWEST_GROUPS = 3
+ALWAYS_TRAIN = ("quasi_static", "hold")
+
+
+@dataclass(frozen=True)
+class Split:
+    """Names of the runs that are fitted and of those held out; ``reason`` says why none are, if so."""
+
+    train: tuple[str, ...]
+    held_out: tuple[str, ...]
+    reason: str = ""
+
+
+def split_runs(dataset: Dataset, seed: int = 0) -> Split:
+    """Hold out about a quarter of the dynamic runs, a run with its repeats; a dataset that says ``held_out`` decides.
+
+    Only runs are held out whose motion lies inside what the others cover and whose settings (amplitude, preload ...)
+    the others still have, so that the held-out error tests the model and not its extrapolation.
+    """
+    if any(run.held_out is not None for run in dataset.runs):
+        return _split(dataset, {run.group for run in dataset.runs if run.held_out})
+    groups = list(dict.fromkeys(run.group for run in dataset.runs if run.kind not in ALWAYS_TRAIN))
+    if len(groups) < FEWEST_GROUPS:
+        return Split(tuple(run.name for run in dataset.runs), (), f"{len(groups)} independent dynamic runs are too few "
+                     f"to hold one out; {FEWEST_GROUPS} would do")  # fmt: skip
+    wanted = max(1, round(SHARE * len(groups)))
+    chosen: set[str] = set()
+    for strict in (True, False):
+        for group in np.random.default_rng(seed).permutation(groups):
+            if len(chosen) < wanted and group not in chosen and _can_go(dataset, chosen | {str(group)}, strict):
+                chosen.add(str(group))
+    return _split(dataset, chosen)
+
+
+def _split(dataset: Dataset, held_out: set[str]) -> Split:
+    names = {flag: tuple(run.name for run in dataset.runs if (run.group in held_out) is flag) for flag in (True, False)}
+    return Split(names[False], names[True])
+
+
+def _can_go(dataset: Dataset, held_out: set[str], strict: bool) -> bool:
+    kept = [run for run in dataset.runs if run.group not in held_out]
+    gone = [run for run in dataset.runs if run.group in held_out]
+    if not any(run.kind not in ALWAYS_TRAIN for run in kept):
+        return False
+    if not strict:
+        return True
+    return _covers(kept, gone) and _levels(gone) <= _levels(kept)
+
+
+def _levels(runs: Iterable[Run]) -> set[tuple[str, float]]:
+    return {(key, round(value, 9)) for run in runs for key, value in run.settings.items()}
+
+
+def _covers(kept: list[Run], gone: list[Run]) -> bool:
+    dynamic = [run for run in kept if run.kind not in ALWAYS_TRAIN]
+    low, high = _reach(dynamic)
+    low_gone, high_gone = _reach(gone)
+    slack = 0.02 * (high - low)
+    return low_gone >= low - slack and high_gone <= high + slack and _speed(gone) <= 1.02 * _speed(dynamic)
+
+
+def _reach(runs: list[Run]) -> tuple[float, float]:
+    return min(run.displacement.min() for run in runs), max(run.displacement.max() for run in runs)
+
+
+def _speed(runs: list[Run]) -> float:
+    return max(float(np.max(np.abs(np.gradient(run.displacement, run.sample_time)))) for run in runs)

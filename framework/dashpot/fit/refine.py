@@ -1,0 +1,97 @@
+"""Damped Gauss-Newton with bounds, the whole Jacobian as one block of lanes: the framework's own polish."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.objective import Objective
+
+Array = NDArray[np.float64]
+
+STEP = 1e-5
+DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
+
+
+class Outcome(Enum):
+    """How a refinement ended; the value is the message."""
+
+    CONVERGED = "no step improves the fit any more"
+    STEPS_SPENT = "the largest number of steps was reached before the fit stood still; allow more steps"
+    FAILED = "the simulation is not finite at the start; check the start values"
+
+
+@dataclass(frozen=True, eq=False)
+class Refined:
+    """The end of a refinement: ``point`` (p,) in coordinates, its loss in N, parameter vectors spent."""
+
+    point: Array
+    loss: float
+    outcome: Outcome
+    evaluations: int
+
+
+def refine(objective: Objective, coordinates: Coordinates, start: Array, steps: int = 40, tolerance: float = 1e-7,
+           watch: Callable[[float], None] = lambda loss: None) -> Refined:  # fmt: skip
+    """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
+
+    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block.
+    """
+    point = np.clip(start, coordinates.low, coordinates.high)
+    loss = float(objective.losses(coordinates.to_values(point))[0])
+    spent, slack = 1, 1.0
+    if not np.isfinite(loss) or point.size == 0:
+        return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
+    for _ in range(steps):
+        residual, jacobian = linearise(objective, coordinates, point)
+        tries = _candidates(residual, jacobian, coordinates, point, slack)
+        losses = objective.losses(coordinates.to_values(tries))
+        spent += 1 + point.size + len(tries)
+        best = int(np.argmin(losses))
+        watch(min(loss, float(losses[best])))
+        if not losses[best] < loss:
+            if slack >= 1e4:
+                return Refined(point, loss, Outcome.CONVERGED, spent)
+            slack *= 100.0
+            continue
+        gain, loss, point = 1.0 - losses[best] / loss, float(losses[best]), tries[best]
+        slack = max(DAMPINGS[best] / 10.0, 1e-3)
+        if gain < tolerance:
+            return Refined(point, loss, Outcome.CONVERGED, spent)
+    return Refined(point, loss, Outcome.STEPS_SPENT, spent)
+
+
+def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
+    """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates."""
+    shifts = STEP * coordinates.unit
+    shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
+    block = np.concatenate([point[None], point + np.diag(shifts)])
+    residuals = objective.residuals(coordinates.to_values(block))
+    return residuals[0], (residuals[1:] - residuals[0]) * (coordinates.unit / shifts)[:, None]
+
+
+def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:
+    normal, gradient = jacobian @ jacobian.T, jacobian @ residual
+    downhill = -gradient
+    stuck = ((point <= coordinates.low) & (downhill < 0.0)) | ((point >= coordinates.high) & (downhill > 0.0))
+    free = ~stuck & (np.diag(normal) > 0.0)
+    scale = np.sqrt(np.diag(normal)[free])
+    matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
+    right = downhill[free] / scale
+    tries = []
+    for damping in DAMPINGS * slack:
+        step = np.zeros(point.size)
+        step[free] = np.linalg.lstsq(matrix + damping * np.eye(free.sum()), right, rcond=1e-12)[0] / scale
+        tries.append(np.clip(point + _limited(step, coordinates) * coordinates.unit, coordinates.low, coordinates.high))
+    return np.array(tries)
+
+
+def _limited(step: Array, coordinates: Coordinates) -> Array:
+    # a logarithm moves by no more than a factor of ten a step
+    largest = np.max(np.abs(step[coordinates.log]), initial=0.0)
+    return step * min(1.0, 2.3 / largest) if largest > 0.0 else step

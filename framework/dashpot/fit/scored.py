@@ -1,0 +1,47 @@
+"""A run as a fit sees it: its drive, its measured force, and the samples that count."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive, drive_from_samples
+from dashpot.data.reversals import noise_threshold, turning_points
+from dashpot.data.run import Run
+
+Array = NDArray[np.float64]
+
+LARGEST_WARM_UP = 0.15
+
+
+@dataclass(frozen=True, eq=False)
+class ScoredRun:
+    """``force`` (n,) in N is measured; samples before ``first`` are the warm-up, in which friction finds its state."""
+
+    name: str
+    kind: str
+    drive: Drive
+    force: Array
+    first: int
+
+    @property
+    def samples(self) -> int:
+        """How many samples count."""
+        return self.force.size - self.first
+
+
+def score_run(run: Run) -> ScoredRun:
+    """The run with its path; the first whole cycle warms up, but never more than 15 % of the record."""
+    drive = drive_from_samples(run.sample_time, np.array(run.displacement))
+    return ScoredRun(run.name, run.kind, drive, np.array(run.force), warm_up(run))
+
+
+def warm_up(run: Run) -> int:
+    """Samples until the motion has been through one cycle; ``settings: {warm_up: 2 s}`` decides it by hand."""
+    if "warm_up" in run.settings:
+        return min(int(run.settings["warm_up"] / run.sample_time), run.displacement.size // 2)
+    points = turning_points(run.displacement, max(noise_threshold(run.displacement), 1e-2 * np.ptp(run.displacement)))
+    cycle = int(points[1]) if points.size > 1 else 0
+    return min(cycle, int(LARGEST_WARM_UP * run.displacement.size))

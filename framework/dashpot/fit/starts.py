@@ -1,0 +1,63 @@
+"""Refining from several starts: a screening block, then the best of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import Refined, refine
+
+Array = NDArray[np.float64]
+
+LANES = 96
+KEPT = 4
+FIRST_STEPS, LAST_STEPS = 10, 60
+NEAR = 1.0  # scatter of starts around the file's, in natural steps: a factor of e
+
+
+@dataclass(frozen=True, eq=False)
+class Best:
+    """The best refinement, the losses of all starts (best first), parameter vectors spent, best loss on the way."""
+
+    refined: Refined
+    spread: tuple[float, ...]
+    evaluations: int
+    history: tuple[tuple[int, float], ...]
+
+
+def refine_from_starts(objective: Objective, coordinates: Coordinates, seed: int,
+                       watch: Callable[[float, float], None]) -> Best:  # fmt: skip
+    """The file's start and the best of a block of random ones, a few steps each; the best of them to its end.
+
+    ``watch(done, loss)`` hears of the progress.
+    """
+    start = coordinates.start
+    if start.size == 0:
+        loss = float(objective.losses(coordinates.to_values(start))[0])
+        return Best(refine(objective, coordinates, start), (loss,), 1, ((1, loss),))
+    points = _scatter(coordinates, start, np.random.default_rng(seed))
+    losses = objective.losses(coordinates.to_values(points))
+    order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
+    spent, history = len(points), [(len(points), float(losses.min()))]
+    ends = []
+    for number, k in enumerate(order):
+        ends.append(refine(objective, coordinates, points[k], FIRST_STEPS))
+        spent += ends[-1].evaluations
+        history.append((spent, min(end.loss for end in ends)))
+        watch((number + 1) / (len(order) + 1), history[-1][1])
+    ends.sort(key=lambda end: end.loss)
+    best = refine(objective, coordinates, ends[0].point, LAST_STEPS)
+    spent += best.evaluations
+    history.append((spent, best.loss))
+    return Best(best, tuple(end.loss for end in ends), spent, tuple(history))
+
+
+def _scatter(coordinates: Coordinates, start: Array, rng: np.random.Generator) -> Array:
+    near = start + NEAR * coordinates.unit * rng.standard_normal((LANES // 2, start.size))
+    far = coordinates.from_cube(rng.random((LANES - len(near) - 1, start.size)))
+    return np.clip(np.concatenate([start[None], near, far]), coordinates.low, coordinates.high)

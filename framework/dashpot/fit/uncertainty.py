@@ -1,0 +1,70 @@
+"""How well a fit knows its parameters, from the scatter of its gradient between blocks of the record."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import linearise
+
+Array = NDArray[np.float64]
+
+NORMAL_95 = 1.959963984540054
+BLOCK_SECONDS = 0.25
+FEWEST_BLOCKS = 8
+WEAK = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Uncertainty:
+    """``covariance`` (p, p) in natural steps of the coordinates; ``idle`` names parameters the data do not feel."""
+
+    covariance: Array
+    intervals: tuple[tuple[float, float], ...]
+    at_bound: tuple[str, ...]
+    idle: tuple[str, ...]
+
+
+def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Array) -> Uncertainty:
+    """Sandwich covariance with blocks of a quarter of a second, so that coloured noise and small model errors count.
+
+    Source: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters.
+    """
+    residual, jacobian = linearise(objective, coordinates, point)
+    normal = jacobian @ jacobian.T
+    scale = np.sqrt(np.diag(normal))
+    loss = np.sqrt(np.mean(residual**2))
+    idle = scale / np.sqrt(residual.size) < WEAK * max(loss, 1e-300)
+    safe = np.where(idle, 1.0, scale)
+    inverse = np.linalg.pinv(normal / np.outer(safe, safe), rcond=1e-12)
+    scores = np.array([jacobian[:, block] @ residual[block] for block in _blocks(objective)]) / safe
+    count = len(scores)
+    middle = scores.T @ scores * (count / max(count - len(point), 1))
+    covariance = inverse @ middle @ inverse / np.outer(safe, safe)
+    width = NORMAL_95 * np.sqrt(np.diag(covariance)) * coordinates.unit
+    near = 1e-6 * (coordinates.high - coordinates.low)
+    bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
+    return Uncertainty(
+        covariance, tuple(_interval(coordinates, k, point[k], width[k]) for k in range(point.size)),
+        tuple(np.array(coordinates.paths)[bound]), tuple(np.array(coordinates.paths)[idle]),
+    )  # fmt: skip
+
+
+def _blocks(objective: Objective) -> list[slice]:
+    found = []
+    for run, piece in zip(objective.runs, objective.pieces, strict=True):
+        length = max(1, min(round(BLOCK_SECONDS / run.drive.dt), run.samples // FEWEST_BLOCKS))
+        edges = range(piece.start, piece.stop, length)
+        found += [slice(first, min(first + length, piece.stop)) for first in edges]
+    return found
+
+
+def _interval(coordinates: Coordinates, number: int, middle: float, width: float) -> tuple[float, float]:
+    low, high = middle - width, middle + width
+    if coordinates.log[number]:
+        return float(np.exp(np.clip(low, -700, 700))), float(np.exp(np.clip(high, -700, 700)))
+    return float(low), float(high)

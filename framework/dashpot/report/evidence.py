@@ -1,0 +1,102 @@
+"""What a report shows besides its result file: arrays and texts, all optional; what is missing is left out.
+
+All numbers are SI. *Labels* are "before" and "after" in a diagnosis, names of models in a comparison.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, TypedDict
+
+import numpy as np
+
+Signals = Mapping[str, np.ndarray]
+ByRun = Mapping[str, np.ndarray]
+
+
+class Loops(TypedDict):
+    """Force over displacement: `measured[run]` has `time` s, `displacement` m, `force` N, each (n,)."""
+
+    measured: Mapping[str, Signals]
+    simulated: Mapping[str, ByRun]  # label -> run -> force (n,) N
+
+
+class Residuals(TypedDict):
+    """Measured minus simulated force: `time[run]` (n,) s, `residuals[label][run]` (n,) N."""
+
+    time: ByRun
+    residuals: Mapping[str, ByRun]
+
+
+class Curve(TypedDict, total=False):
+    """Dynamic stiffness of one run: `frequency` (n,) Hz; a response has `stiffness` N/m and `loss_angle` rad, (n,)."""
+
+    run: str
+    amplitude: float | None  # m
+    preload: float | None  # m
+    frequency: np.ndarray
+    measured: Signals
+    simulated: Mapping[str, Signals]  # label -> response
+
+
+class MisfitRow(TypedDict):
+    """RMS residual of one run in one frequency band: `band` (low, high) Hz or a text, `rmse[label]` N."""
+
+    run: str
+    band: tuple[float, float] | str
+    rmse: Mapping[str, float]
+
+
+class Progress(TypedDict):
+    """How a fit went: `evaluations` (n,) and the `best` RMSE so far (n,) N."""
+
+    evaluations: Sequence[float]
+    best: Sequence[float]
+
+
+class Patch(TypedDict, total=False):
+    """The YAML of the model before and after, and the names of the files."""
+
+    before: str
+    after: str
+    before_name: str
+    after_name: str
+
+
+class Rejected(TypedDict, total=False):
+    """A candidate that did not hold: `cause` (word), `title` (words), `reason`, gains as shares of one."""
+
+    cause: str
+    title: str
+    reason: str
+    expected_gain: float | None
+    gain: float | None
+
+
+class Limit(TypedDict, total=False):
+    """The smallest effect that would have been found: of which `quantity`, `value` in the SI `unit`."""
+
+    cause: str
+    title: str
+    quantity: str
+    value: float
+    unit: str
+
+
+class Evidence(TypedDict, total=False):
+    """The evidence of a diagnosis or comparison."""
+
+    loops: Loops
+    residuals: Residuals
+    dynamic_stiffness: Sequence[Curve]
+    harmonics: Mapping[str, Mapping[str, Sequence[float]]]  # label -> group -> harmonics 1, 2, ... (N)
+    misfit_map: Sequence[MisfitRow]
+    history: Mapping[str, Progress]  # fit -> progress
+    patch: Patch
+    schematic: Mapping[str, str]  # title -> drawing in SVG
+    rejected: Sequence[Rejected]
+    tried: int  # how many candidates were looked at
+    limits: Sequence[Limit]
+    next_measurement: Sequence[str]  # sentences
+    warnings: Sequence[str]  # what the reader must know before believing the rest
+    provenance: Mapping[str, Any]  # versions, seed, digests, command: the colophon

@@ -1,0 +1,26 @@
+"""The figures of a report, one a file: plain arrays in SI units in, a `Figure` in rig units out.
+
+Simulations come under a *label*: "before", "after", or the name of a model; a label has the same colour everywhere.
+"""
+
+from __future__ import annotations
+
+from dashpot.report.figures.convergence import convergence_history
+from dashpot.report.figures.gain import gain_intervals
+from dashpot.report.figures.harmonics import harmonic_bars
+from dashpot.report.figures.loop import loops
+from dashpot.report.figures.misfit import misfit_map
+from dashpot.report.figures.residuals import residual_traces
+from dashpot.report.figures.rmse import rmse_bars
+from dashpot.report.figures.stiffness import dynamic_stiffness
+
+__all__ = [
+    "convergence_history",
+    "dynamic_stiffness",
+    "gain_intervals",
+    "harmonic_bars",
+    "loops",
+    "misfit_map",
+    "residual_traces",
+    "rmse_bars",
+]

@@ -1,0 +1,199 @@
+"""The tables of the result files, ready for page, terminal and CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from dashpot.report.parts import Column, Grid
+from dashpot.report.readable import join, percent_interval, rig_unit, with_interval
+
+Json = Mapping[str, Any]
+
+ERROR_COLUMNS = (
+    Column("train", "RMSE train", "N", 3),
+    Column("held_out", "RMSE held-out", "N", 3),
+    Column("all", "RMSE all", "N", 3),
+    Column("nrmse", "NRMSE held-out", "%", 3),
+    Column("ratio", "held-out / noise floor", "", 3),
+)
+UNIT = Column("unit", "unit")
+
+
+def comparison_grid(comparison: Json) -> Grid:
+    """Every model of a `dashpot-comparison/1` on training and held-out runs, next to the noise floor."""
+    floor = floor_value(comparison)
+    rows = [_model_row(model, floor) for model in comparison["models"]]
+    if floor is not None:
+        rows.append({"name": "noise floor", "train": floor, "held_out": floor, "all": floor, "ratio": 1.0})
+    columns = [Column("name", "model"), Column("free", "free parameters", "", 3), *ERROR_COLUMNS]
+    if any(row.get("status") not in (None, "ok") for row in rows):
+        columns.append(Column("status", "status"))
+    used = [column for column in columns if any(row.get(column.key) is not None for row in rows)]
+    return Grid("Models against the measurement", used, rows, floor_origin(comparison), "models.csv")
+
+
+def runs_grid(comparison: Json) -> Grid:
+    """RMSE of every model on every run of a `dashpot-comparison/1`."""
+    models = comparison["models"]
+    runs = list(dict.fromkeys(run for model in models for run in model.get("per_run", {})))
+    columns = [Column("run", "run")] + [Column(f"model {i}", m["name"], "N", 3) for i, m in enumerate(models)]
+    rows = [
+        {"run": run} | {f"model {i}": model.get("per_run", {}).get(run) for i, model in enumerate(models)}
+        for run in runs
+    ]
+    return Grid("RMSE run by run", columns, rows, csv_name="runs.csv")
+
+
+def parameters_grid(comparison: Json) -> Grid:
+    """The identified parameters of every model, in rig units where the file says the unit."""
+    rows = [
+        _parameter_row(model["name"], name, entry)
+        for model in comparison["models"]
+        for name, entry in (model.get("parameters") or {}).items()
+    ]
+    columns = [Column("model", "model"), Column("parameter", "parameter"), Column("value", "value", "", 4), UNIT]
+    return Grid("Identified parameters", columns, rows, csv_name="parameters.csv")
+
+
+def cause_grid(diagnosis: Json) -> Grid:
+    """The suspected causes of a `dashpot-diagnosis/1`, ranked, with evidence, expected and realised gain."""
+    columns = [
+        Column("rank", "rank", "", 1),
+        Column("cause", "cause"),
+        Column("found", "verdict"),
+        Column("evidence", "evidence"),
+        Column("expected", "expected gain", "%", 2),
+        Column("gain", "gain held-out", "%", 2),
+        Column("interval", "interval", "%"),
+        Column("parameters", "parameters"),
+        Column("confused", "not to be told from"),
+    ]
+    rows = [_cause_row(cause, diagnosis) for cause in diagnosis["causes"]]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    return Grid("Suspected causes", used, rows, csv_name="causes.csv")
+
+
+def misfit_grid(diagnosis: Json) -> Grid:
+    """What the simulation gets wrong, in words, with its share of the error and where it is."""
+    columns = [Column("what", "what"), Column("share", "share of the error", "%", 2), Column("where", "where")]
+    rows = [
+        {"what": item["what"], "share": _percent(item.get("share")), "where": _where(item.get("where"))}
+        for item in diagnosis["misfit"]
+    ]
+    return Grid("What the simulation gets wrong", columns, rows, csv_name="misfit.csv")
+
+
+def limits_grid(limits: Sequence[Json]) -> Grid:
+    """The smallest amplitude of each cause that would have been found; see `Evidence.limits`."""
+    columns = [Column("cause", "cause"), Column("quantity", "smallest"), Column("value", "value", "", 3), UNIT]
+    rows = [
+        {"cause": cause_title(limit), "quantity": limit["quantity"], **_in_rig_units(limit["value"], limit["unit"])}
+        for limit in limits
+    ]
+    return Grid("What would have been found", columns, rows, csv_name="limits.csv")
+
+
+def rejected_grid(rejected: Sequence[Json]) -> Grid:
+    """What was tried and did not hold, with the reason; see `Evidence.rejected`."""
+    columns = [
+        Column("cause", "tried"),
+        Column("reason", "rejected because"),
+        Column("expected", "expected gain", "%", 2),
+        Column("gain", "gain held-out", "%", 2),
+    ]
+    rows = [
+        {
+            "cause": cause_title(item),
+            "reason": item["reason"],
+            "expected": _percent(item.get("expected_gain")),
+            "gain": _percent(item.get("gain")),
+        }
+        for item in rejected
+    ]
+    return Grid("Tried and rejected", columns, rows, csv_name="rejected.csv")
+
+
+def cause_title(cause: Json) -> str:
+    """The cause in the engineer's words: its `title` where its plugin gave one, else its word."""
+    return cause.get("title") or cause["cause"].replace("_", " ")
+
+
+def parameter_texts(cause: Json) -> list[str]:
+    """Every parameter of the cause with its interval, in rig units where the file says the unit."""
+    return [
+        f"{name.replace('_', ' ')} {with_interval(entry['value'], entry.get('interval'), entry.get('unit') or '')}"
+        for name, entry in (cause.get("parameters") or {}).items()
+    ]
+
+
+def floor_value(result: Json) -> float | None:
+    """The noise floor of a result file in N, None where it has none."""
+    return (result.get("noise_floor") or {}).get("value")
+
+
+def floor_origin(result: Json) -> str:
+    """Where the noise floor comes from, as a sentence; empty without one."""
+    origins = {
+        "repeats": "The noise floor is what repeated runs differ by.",
+        "residual": "The noise floor is estimated from the residual: there are no repeated runs.",
+    }
+    return origins.get((result.get("noise_floor") or {}).get("from") or "", "")
+
+
+def _model_row(model: Json, floor: float | None) -> dict[str, Any]:
+    rmse, nrmse = model["rmse"], model.get("nrmse") or {}
+    held_out = rmse.get("held_out")
+    return {
+        "name": model["name"],
+        "free": len(model["parameters"]) if model.get("parameters") else None,
+        **{key: rmse.get(key) for key in ("train", "held_out", "all")},
+        "nrmse": _percent(nrmse.get("held_out")),
+        "ratio": held_out / floor if held_out is not None and floor else None,
+        "status": model.get("status"),
+    }
+
+
+def _parameter_row(model: str, name: str, entry: Any) -> dict[str, Any]:
+    described = entry if isinstance(entry, Mapping) else {"value": entry}
+    return {"model": model, "parameter": name, **_in_rig_units(described["value"], described.get("unit") or "")}
+
+
+def _in_rig_units(value: float, unit: str) -> dict[str, Any]:
+    factor, name = rig_unit(unit, value)
+    return {"value": value * factor, "unit": name or None}
+
+
+def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
+    others = cause.get("indistinguishable_from")
+    return {
+        "rank": cause.get("rank"),
+        "cause": cause_title(cause) + (" (measurement)" if cause.get("class") == "measurement" else ""),
+        "found": _found(cause),
+        "evidence": cause.get("evidence"),
+        "expected": _percent(cause.get("expected_gain")),
+        "gain": _percent(cause.get("gain")),
+        "interval": percent_interval(cause.get("gain_interval")),
+        "parameters": join(parameter_texts(cause)) if cause.get("parameters") else None,
+        "confused": join([_title_of(word, diagnosis) for word in others]) if others else None,
+    }
+
+
+def _found(cause: Json) -> str:
+    if cause.get("accepted"):
+        return "accepted"
+    return "possible, not alone" if cause.get("indistinguishable_from") else "not supported by the data"
+
+
+def _title_of(word: str, diagnosis: Json) -> str:
+    return cause_title(next((cause for cause in diagnosis["causes"] if cause["cause"] == word), {"cause": word}))
+
+
+def _where(where: Any) -> str | None:
+    if isinstance(where, Mapping):
+        return "; ".join(f"{key.replace('_', ' ')}: {value}" for key, value in where.items()) or None
+    return where
+
+
+def _percent(share: float | None) -> float | None:
+    return None if share is None else 100.0 * share

@@ -1,0 +1,137 @@
+"""The answer in one sentence, in the engineer's words: how large the error is, what it is, what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from dashpot.report.grids import cause_title, floor_value
+from dashpot.report.readable import join, number, percent, with_interval
+
+Json = Mapping[str, Any]
+
+# where an error is taken from, best first
+RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"}
+
+
+@dataclass(frozen=True)
+class Errors:
+    """RMSE before and after the extension and the noise floor, N; on held-out runs wherever there are any."""
+
+    before: float | None
+    after: float | None
+    floor: float | None
+    runs: str
+
+    @property
+    def gain(self) -> float | None:
+        return 1.0 - self.after / self.before if self.before and self.after is not None else None
+
+
+def read_errors(diagnosis: Json) -> Errors:
+    """The errors of a `dashpot-diagnosis/1` on its held-out runs, else on the training runs."""
+    rmse = diagnosis.get("rmse") or {}
+    before, after = rmse.get("before") or {}, rmse.get("after") or {}
+    for key, runs in RUNS.items():
+        if before.get(key) is not None:
+            return Errors(before[key], after.get(key), floor_value(diagnosis), runs)
+    return Errors(None, None, floor_value(diagnosis), "")
+
+
+def headline(diagnosis: Json) -> str:
+    """The verdict of a `dashpot-diagnosis/1` as one sentence. Raises ValueError for a verdict it does not know."""
+    verdict = diagnosis["verdict"]
+    if verdict not in SENTENCES:
+        raise ValueError(f"verdict: expected one of {', '.join(SENTENCES)}, got {verdict!r}")
+    return SENTENCES[verdict](diagnosis, read_errors(diagnosis))
+
+
+def cause_phrase(cause: Json) -> str:
+    """The cause with its first parameter: what, how much, how sure."""
+    parameters = list((cause.get("parameters") or {}).values())
+    if not parameters or parameters[0].get("value") is None:
+        return cause_title(cause)
+    first = parameters[0]
+    return f"{cause_title(cause)} of {with_interval(first['value'], first.get('interval'), first.get('unit') or '')}"
+
+
+def error_phrase(errors: Errors) -> str:
+    """The size of the error against what the measurement can resolve."""
+    if errors.before is None:
+        return "The error is unknown"
+    if not errors.floor:
+        return f"{number(errors.before)} N of error (noise floor unknown)"
+    ratio = number(errors.before / errors.floor, 2)
+    return f"{number(errors.before)} N of error is {ratio} × the noise floor ({number(errors.floor)} N)"
+
+
+def accepted_causes(diagnosis: Json) -> list[Json]:
+    """The causes that the data support, in their order."""
+    return [cause for cause in diagnosis["causes"] if cause.get("accepted")]
+
+
+def _explained(diagnosis: Json, errors: Errors) -> str:
+    causes = accepted_causes(diagnosis)
+    if not causes:
+        return f"{error_phrase(errors)}."
+    return f"{error_phrase(errors)}; {percent(errors.gain)} of it is {_named(causes)}."
+
+
+def _nothing_missing(_: Json, errors: Errors) -> str:
+    if errors.before is None or not errors.floor:
+        return "Nothing is missing: no suspected cause is supported by the data."
+    error, floor = number(errors.before), number(errors.floor)
+    return f"Nothing is missing: the error of {error} N is at the noise floor ({floor} N)."
+
+
+def _partly_explained(diagnosis: Json, errors: Errors) -> str:
+    causes = accepted_causes(diagnosis)
+    left = f"{number(errors.after)} N remain unexplained"
+    if errors.floor and errors.after is not None:
+        left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
+    named = f"only {percent(errors.gain)} of it is {_named(causes)}" if causes else "it is only partly explained"
+    return f"{error_phrase(errors)}; {named}; {left}."
+
+
+def _unexplained(_: Json, errors: Errors) -> str:
+    return f"{error_phrase(errors)}: something is missing in the model, and no known cause fits it."
+
+
+def _ambiguous(diagnosis: Json, errors: Errors) -> str:
+    rivals = _rivals(diagnosis)
+    if len(rivals) < 2:
+        return f"{error_phrase(errors)}: these data cannot tell its cause."
+    names = join([cause_phrase(cause) for cause in rivals])
+    return f"{error_phrase(errors)}: {names} explain it alike, and these data cannot tell them apart."
+
+
+def _bad_data(diagnosis: Json, errors: Errors) -> str:
+    faults = [cause for cause in accepted_causes(diagnosis) if cause.get("class") == "measurement"]
+    what = join([cause_phrase(cause) for cause in faults]) if faults else "see the findings below"
+    return f"The measurement is at fault first: {what}. {error_phrase(errors)}, but says little about the model."
+
+
+def _named(causes: list[Json]) -> str:
+    specimen = [cause_phrase(cause) for cause in causes if cause.get("class") != "measurement"]
+    faults = [cause_phrase(cause) for cause in causes if cause.get("class") == "measurement"]
+    named = [f"{join(specimen)}, missing in the model"] if specimen else []
+    return "; and ".join(named + ([f"{join(faults)}, a fault of the measurement"] if faults else []))
+
+
+def _rivals(diagnosis: Json) -> list[Json]:
+    causes = diagnosis["causes"]
+    words = {cause["cause"] for cause in causes if cause.get("indistinguishable_from")}
+    words |= {other for cause in causes for other in cause.get("indistinguishable_from") or []}
+    known = {cause["cause"]: cause for cause in causes}
+    return [known.get(word, {"cause": word}) for word in [*known, *sorted(words - set(known))] if word in words]
+
+
+SENTENCES = {
+    "explained": _explained,
+    "nothing_missing": _nothing_missing,
+    "partly_explained": _partly_explained,
+    "unexplained": _unexplained,
+    "ambiguous": _ambiguous,
+    "bad_data": _bad_data,
+}

@@ -1,0 +1,36 @@
+"""Dry friction that the network lacks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.model.network import NetworkSpec
+
+UNITS = {"limit": "N", "stiffness": "N/m"}
+PLACES = 14
+MOST = 3
+
+
+class Friction(Cause):
+    """Sliders of one or several yield travels: a single dry contact, or the spread of them in a filled rubber."""
+
+    word = "friction"
+    kind = "specimen"
+    about = "dry friction"
+    shows = "a loop that keeps its area when the test is slow; loss stiffness falls like 1/amplitude; a third harmonic"
+    confused_with = {
+        "relaxation": "a triangle at 0.1, 1 and 10 mm/s: the width of a friction loop does not change with speed",
+        "quadratic_damping": "a slow triangle: quadratic damping disappears, friction stays",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """Smooth sliders, and sliders behind a spring, on a grid of yield travels."""
+        grid = np.geomspace(2e-3 * view.stroke, 0.6 * view.stroke, PLACES)
+        for element in ("dahl", "prandtl"):
+            yield added_branch(
+                element, "friction", tuple(grid), lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
+                UNITS, most=MOST,
+            )  # fmt: skip

@@ -1,0 +1,53 @@
+"""A spring characteristic of another shape than the network's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import add_branch
+from dashpot.text.quantity import pretty
+
+Array = NDArray[np.float64]
+KNOTS = (6, 11)
+
+
+class StiffnessCurve(Cause):
+    """An elastic force over deflection that the network's own curve cannot follow."""
+
+    word = "stiffness_curve"
+    kind = "specimen"
+    about = "shape of the stiffness curve"
+    shows = "storage stiffness is wrong at some preloads at every frequency; even harmonics in phase with deflection"
+    confused_with = {
+        "preload_dependent_damping": "the quasi-static curve: damping does not show in it",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """A correction curve through few or through many knots over the covered deflections."""
+        for count in KNOTS:
+            knots = tuple(np.linspace(*view.reach, count))
+            yield Suspect(f"{count} knots", knots, lambda view, run, knots=knots: hats(knots, view.displacement(run)),
+                          _extend, joint=True, sign=0, unknowns=0)  # fmt: skip
+
+
+def hats(knots: Sequence[float], x: Array) -> Array:
+    """The monotone cubics (knots, n) that are one at a knot and zero at all others."""
+    from scipy.interpolate import PchipInterpolator
+
+    at = np.clip(x, knots[0], knots[-1])
+    return np.ascontiguousarray(PchipInterpolator(knots, np.eye(len(knots)), axis=0)(at).T)
+
+
+def _extend(text: str, atoms: Sequence[Atom]) -> str:
+    at = ", ".join(pretty(place, "m", 6) for _, place in atoms)
+    span = 20.0 * max(max(abs(strength) for strength, _ in atoms), 1.0)
+    bounds = f"bounds: [{pretty(-span, 'N')}, {pretty(span, 'N')}]"
+    forces = ", ".join(f"{{start: {pretty(strength, 'N', 6)}, {bounds}}}" for strength, _ in atoms)
+    lines = [f"{free_name(text, 'stiffness_correction')}:", "  element: spring", "  stiffness:",
+             f"    deflection: [{at}]", f"    force: [{forces}]"]  # fmt: skip
+    return add_branch(text, "\n".join(lines))

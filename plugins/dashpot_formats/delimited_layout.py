@@ -1,0 +1,110 @@
+"""Where the numbers of a text table are: delimiter, decimal sign, first row."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from dashpot.contract.reader import ReadingError
+
+# in the order of preference where several read a file alike; None stands for any white space
+DELIMITERS: tuple[str | None, ...] = ("\t", ";", ",", None)
+DECIMALS = (".", ",")
+
+_NUMBER = {
+    ".": re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?"),
+    ",": re.compile(r"[-+]?(\d+|\d*,\d+)([eE][-+]?\d+)?"),
+}
+_NO_VALUE = {"", "nan", "na", "n/a", "inf", "-inf", "+inf", "null"}
+_COMMENT_SIGNS = ("#", "%", "//", "!", ";")
+_SAMPLE = 60
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the rows of a table are written; `first` is the line (from 0) of the first row, `width` the usual length."""
+
+    delimiter: str | None
+    decimal: str
+    first: int
+    width: int
+
+
+def is_comment(line: str, delimiter: str | None) -> bool:
+    """Whether a line is a remark."""
+    start = line.lstrip()
+    return start.startswith(_COMMENT_SIGNS) and not (delimiter == ";" and start.startswith(";"))
+
+
+def uncomment(line: str) -> str:
+    """A line without the signs that make it a remark."""
+    return line.lstrip().lstrip("#%/!;").strip()
+
+
+def split_row(line: str, delimiter: str | None) -> list[str]:
+    """The values of a line, without quotes and white space around them."""
+    if delimiter is None:
+        return line.split()
+    if '"' in line:
+        return [part.strip() for part in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))]
+    return [part.strip() for part in line.split(delimiter)]
+
+
+def is_number(text: str, decimal: str) -> bool:
+    """Whether a value is a number with this decimal sign."""
+    return _NUMBER[decimal].fullmatch(text) is not None
+
+
+def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals: Sequence[str]) -> Layout:
+    """The layout under which the rows hold most numbers. Raises ReadingError when there is no table of numbers."""
+    sample = _sample(lines)
+    choices = [(delimiter, decimal) for delimiter in delimiters for decimal in decimals]
+    if not sample:
+        raise ReadingError("it holds no rows", "check that this is the file of the measurement")
+    delimiter, decimal = max(choices, key=lambda choice: _score(sample, *choice))
+    rows = [split_row(line, delimiter) for line in sample if not is_comment(line, delimiter)]
+    if not any(is_number(cell, decimal) for row in rows for cell in row):
+        raise ReadingError("it holds no table of numbers", "check that this is the file of the measurement")
+    columns = _number_columns(rows, decimal)
+    width = Counter(_filled(row) for row in rows).most_common(1)[0][0]
+    return Layout(delimiter, decimal, _first_row(lines, delimiter, decimal, columns), width)
+
+
+def _sample(lines: Sequence[str]) -> list[str]:
+    """Lines spread over the second half of the file, where headers are past."""
+    filled = [line for line in lines if line.strip()]
+    half = filled[len(filled) // 2 :]
+    return half[:: max(1, len(half) // _SAMPLE)]
+
+
+def _score(sample: Sequence[str], delimiter: str | None, decimal: str) -> float:
+    score = 0.0
+    for line in sample:
+        for cell in split_row(line, delimiter):
+            score += 1.0 if is_number(cell, decimal) else -0.2 * bool(cell)
+    return score
+
+
+def _number_columns(rows: Sequence[list[str]], decimal: str) -> list[int]:
+    counts = Counter(index for row in rows for index, cell in enumerate(row) if is_number(cell, decimal))
+    most = max(counts.values())
+    return [index for index, count in counts.items() if count > 0.5 * most]
+
+
+def _filled(row: list[str]) -> int:
+    """The values of a row up to the last one that is not empty."""
+    return max((index + 1 for index, cell in enumerate(row) if cell), default=0)
+
+
+def _first_row(lines: Sequence[str], delimiter: str | None, decimal: str, columns: list[int]) -> int:
+    for index, line in enumerate(lines):
+        if line.strip() and not is_comment(line, delimiter):
+            row = split_row(line, delimiter)
+            cells = [row[column] if column < len(row) else "" for column in columns]
+            values = [is_number(cell, decimal) for cell in cells]
+            if any(values) and all(good or cell.lower() in _NO_VALUE for good, cell in zip(values, cells, strict=True)):
+                return index
+    raise ReadingError("no row holds numbers in all its columns", "name 'delimiter' and 'decimal' under file_options")

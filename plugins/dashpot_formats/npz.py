@@ -1,0 +1,61 @@
+"""Arrays saved by numpy: several in a .npz, one in a .npy."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from dashpot.contract.reader import Reader, ReadingError, Table
+from dashpot_formats.flatten import choose_variable, columns_of, numbered_columns
+from dashpot_formats.option import check_options, get_option
+
+_LARGEST = 4 * 1024**3
+
+
+class Npz(Reader):
+    """Reads arrays of numbers; pickled objects are refused.
+
+    The columns of a .npz are its arrays: vectors by name, matrices as `name(1)`, `name(2)`, ...; those of a .npy, or of
+    the array chosen by `variable`, are 1, 2, ...; `transpose` where the rows are the channels.
+    """
+
+    word = "npz"
+    suffixes = (".npz", ".npy")
+
+    def read(self, path: Path, options: Mapping[str, object]) -> Table:
+        check_options(options, ("variable", "transpose"))
+        name = get_option(options, "variable", str, None)
+        transpose = get_option(options, "transpose", bool, False)
+        content = _load(path)
+        if isinstance(content, np.ndarray):
+            return Table(numbered_columns(content, transpose))
+        if name is not None:
+            return Table(numbered_columns(choose_variable(content, name), transpose))
+        columns = columns_of(content)
+        if not columns:
+            raise ReadingError("it holds no vector or matrix of numbers", "check that this is the right file")
+        return Table(columns)
+
+
+def _load(path: Path) -> np.ndarray | dict[str, np.ndarray]:
+    try:
+        _refuse_bomb(path)
+        content = np.load(path, allow_pickle=False)
+        if isinstance(content, np.ndarray):
+            return content
+        with content:
+            return dict(content)
+    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise ReadingError(f"it is not a sound file of numpy arrays: {error}", "save plain arrays of numbers") from None
+
+
+def _refuse_bomb(path: Path) -> None:
+    if not zipfile.is_zipfile(path):
+        return
+    with zipfile.ZipFile(path) as archive:
+        size = sum(entry.file_size for entry in archive.infolist())
+    if size > _LARGEST:
+        raise ReadingError(f"unpacked it would take {size / 1024**3:.1f} GiB", "save it in smaller pieces")

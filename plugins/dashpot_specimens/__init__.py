@@ -1,0 +1,21 @@
+"""The built-in virtual specimens; the name of the file is the word a user gives.
+
+- `test_tire`  a tire on a single-axis rig
+- `tire_laws`  what the tire answers to its deflection
+- `tire_path`  what the rig does to it
+- `rig_log`    what the rig writes down
+"""
+
+from __future__ import annotations
+
+import pluggy
+
+hookimpl = pluggy.HookimplMarker("dashpot")
+
+
+@hookimpl
+def dashpot_specimens() -> list[type]:
+    """Every specimen of this package."""
+    from dashpot_specimens.test_tire import TireOnRig
+
+    return [TireOnRig]

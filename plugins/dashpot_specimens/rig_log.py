@@ -1,0 +1,54 @@
+"""What the rig writes down: sampled channels with sensor noise, as CSV or NPZ, and the dataset.yaml over them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.signal import lfilter
+
+
+@dataclass(frozen=True)
+class Record:
+    """One measured run: time [s], displacement [m], force [N], shape (samples,); `entry` is its line in the dataset."""
+
+    file: str
+    entry: str
+    time: np.ndarray
+    displacement: np.ndarray
+    force: np.ndarray
+
+
+def add_noise(rng: np.random.Generator, displacement: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """1 um on the displacement; on the force 9 N, half of its power white, half remembered by 0.9 per sample."""
+    white, driven = rng.standard_normal((2, force.size))
+    driven[1:] *= np.sqrt(1 - 0.9**2)
+    coloured = lfilter([1.0], [1.0, -0.9], driven)
+    jitter = 1e-6 * rng.standard_normal(displacement.size)
+    return displacement + jitter, force + 9.0 * np.sqrt(0.5) * (white + coloured)
+
+
+def write_records(folder: Path, head: str, records: list[Record]) -> Path:
+    """Write all files, dataset.yaml last; returns its path."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for record in records:
+        write = _write_csv if record.file.endswith(".csv") else _write_npz
+        write(folder / record.file, record)
+    target = folder / "dataset.yaml"
+    target.write_text(head + "".join(record.entry for record in records), encoding="utf-8")
+    return target
+
+
+def _write_npz(path: Path, record: Record) -> None:
+    """Millimetres to 0.1 um and newtons to 0.1 N."""
+    np.savez_compressed(path, t=record.time, x=np.round(record.displacement * 1e3, 4), F=np.round(record.force, 1))
+
+
+def _write_csv(path: Path, record: Record) -> None:
+    """Semicolons, decimal commas, a row of units, comments on top: the way many rigs do."""
+    columns = (record.time, record.displacement * 1e3, record.force * 1e-3)
+    rows = [f"{t:.3f};{x:.4f};{f:.4f}" for t, x, f in zip(*columns, strict=True)]
+    head = ["# single-axis hydropulser, load cell under the platform", "# force positive in compression"]
+    text = "\n".join([*head, "Time;Displacement;Force", "s;mm;kN", *(row.replace(".", ",") for row in rows)])
+    path.write_text(text + "\n", encoding="utf-8", newline="\n")

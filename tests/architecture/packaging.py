@@ -1,0 +1,26 @@
+"""What ``pyproject.toml`` says."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any
+
+from architecture.source import PLUGINS, ROOT
+
+
+def project() -> dict[str, Any]:
+    """The whole file."""
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+def plugin_packages() -> set[str]:
+    """The packages that lie in ``plugins/``."""
+    return {path.parent.name for path in PLUGINS.glob("*/__init__.py")}
+
+
+def requirements() -> set[str]:
+    """Names of the distributions required by dashpot or by an extra for users, in small letters."""
+    declared = project()["project"]
+    extras = [line for extra, lines in declared["optional-dependencies"].items() if extra != "dev" for line in lines]
+    return {re.match(r"[\w.-]+", line)[0].lower() for line in [*declared["dependencies"], *extras]}

@@ -1,0 +1,105 @@
+"""Imports go one way only, and the framework does not know its plugins."""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import packages_distributions
+
+import pytest
+from architecture.packaging import plugin_packages, requirements
+from architecture.source import FRAMEWORK, PLUGINS, at, imports, modules, texts
+
+LAYERS = (
+    {"text", "expr"},
+    {"model", "data"},
+    {"contract"},
+    {"kernel"},
+    {"fit"},
+    {"assess"},
+    {"report"},
+    {"cli"},
+)
+# what a dataset may say of a channel; there are causes of the same names
+CHANNEL_WORDS = {"gain", "offset", "delay"}
+RANK = {layer: rank for rank, layers in enumerate(LAYERS) for layer in layers}
+
+
+def test_every_folder_of_the_framework_is_a_layer():
+    folders = {path.parent.relative_to(FRAMEWORK).parts[0] for path in modules(FRAMEWORK) if path.parent != FRAMEWORK}
+    assert folders - {"testing"} <= set(RANK)
+
+
+@pytest.mark.parametrize("layer", RANK)
+def test_a_layer_imports_only_from_its_left(layer):
+    wrong = [
+        f"{at(path, line)} imports {name}"
+        for path in modules(FRAMEWORK / layer)
+        for name, line in imports(path)
+        if name.startswith("dashpot.") and not _may_import(layer, name.split(".")[1])
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def _may_import(layer: str, other: str) -> bool:
+    # the package itself offers its version
+    return other in (layer, "__version__") or RANK.get(other, len(LAYERS)) < RANK[layer]
+
+
+def test_the_framework_imports_no_plugin():
+    packages = plugin_packages()
+    wrong = [
+        at(path, line) for path in modules(FRAMEWORK) for name, line in imports(path) if name.split(".")[0] in packages
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_the_framework_names_no_plugin():
+    wrong = [
+        f"{at(path, line)}: {text!r}"
+        for path in modules(FRAMEWORK)
+        for text, line in texts(path)
+        if any(package in text for package in plugin_packages())
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("kind", ["elements", "optimizers", "causes"])
+def test_the_framework_singles_out_no_thing_of_a_plugin(kind):
+    from dashpot import load_registry
+
+    words = set(load_registry().of(kind))
+    assert words
+    wrong = [
+        f"{at(path, line)}: {text!r}"
+        for path in modules(FRAMEWORK)
+        for text, line in texts(path)
+        if text in words and not (kind == "causes" and path.parent.name == "data" and text in CHANNEL_WORDS)
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("package", sorted(plugin_packages()))
+def test_a_plugin_knows_only_dashpot_and_libraries(package):
+    wrong = [
+        f"{at(path, line)} imports {name}"
+        for path in modules(PLUGINS / package)
+        for name, line in imports(path)
+        if name.split(".")[0] in plugin_packages() - {package}
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_everything_imported_is_a_declared_requirement():
+    ours = plugin_packages() | {"dashpot"}
+    provided_by = packages_distributions()
+    declared = requirements()
+    wrong = [
+        f"{at(path, line)} imports {name}"
+        for folder in (FRAMEWORK, PLUGINS)
+        for path in modules(folder)
+        for name, line in imports(path)
+        if (root := name.split(".")[0]) not in ours
+        and root not in sys.stdlib_module_names
+        and not declared & {distribution.lower() for distribution in provided_by.get(root, [])}
+    ]
+    assert not wrong, "\n".join(wrong)

@@ -1,0 +1,17 @@
+"""The truth package on the path of these tests, and the seed they draw from."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+
+@pytest.fixture
+def seed():
+    """Drawn anew for every test; BLIND_SEED repeats it."""
+    value = int(os.environ.get("BLIND_SEED") or int.from_bytes(os.urandom(4), "little"))
+    print(f"seed {value}: BLIND_SEED={value} repeats it")
+    return value

@@ -1,0 +1,153 @@
+"""One blind case from one seed: specimen, hidden effect, measurement, sealed label."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .base import Base, draw_base
+from .design import DESIGNS, Plan, drive
+from .effects import FORMS, KINDS_OF_BASE
+from .folder import write_dataset
+from .form import Forces, Form, log_uniform
+from .label import Hidden, SealedLabel, Truth
+from .motion import Motion, at_samples
+from .noise import Noise
+
+NULL = "null"
+NULL_SHARE = 0.2
+WEAKEST, STRONGEST = 0.3, 10.0
+DISPLACEMENT_NOISE = 2e-6
+
+
+@dataclass(frozen=True)
+class Case:
+    """What an engine may see (`folder`, holding dataset.yaml), and the label it may not."""
+
+    seed: int
+    folder: Path
+    label: SealedLabel
+
+
+def draw_case(
+    seed: int,
+    base: str = "kelvin_voigt",
+    kind: str | None = None,
+    strength: float | None = None,
+    *,
+    design: str = "full",
+    form: str | None = None,
+    folder: Path | None = None,
+) -> Case:
+    """Draw a case and write its dataset.
+
+    base: a key of KINDS_OF_BASE; kind: a cause word, several joined by "+", "null", or None (drawn, one in five null);
+    strength: effect over noise (root mean squares), or None (log-uniform from 0.3 to 10); design: a key of DESIGNS;
+    form: class name of one functional form of the kind, or None (drawn); folder: where to write, or None (temporary).
+    Everything random comes from `seed`. Raises ValueError where a word is unknown.
+    """
+    _check(base, kind, form, design)
+    rng = np.random.default_rng([seed, 0])
+    specimen, noise = draw_base(base, rng), Noise.draw(rng)
+    forms = [_draw_form(word, form, rng) for word in _draw_kinds(base, kind, rng)]
+    strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in forms]
+    bench = _Bench(DESIGNS[design], specimen)
+    effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
+    measured, noise_rms = bench.measure(noise, np.random.default_rng([seed, 1]))
+    target = write_dataset(folder or Path(tempfile.mkdtemp(prefix="blind-")), f"blind case {seed}", measured)
+    truth = Truth(seed, design, asdict(specimen), asdict(noise), noise_rms, effects)
+    return Case(seed, target.parent, SealedLabel(truth))
+
+
+class _Bench:
+    """A specimen on the rig: the noise-free force of every path, to which effects are added in turn."""
+
+    def __init__(self, plans: tuple[Plan, ...], specimen: Base) -> None:
+        self.plans = plans
+        self.specimen = specimen
+        self.paths = list(dict.fromkeys(plan.path for plan in plans))
+        self.motions = [drive(path) for path in self.paths]
+        self.dynamic = [amplitude > 0.0 for amplitude, _ in self.paths]
+        self.forces: Forces = [specimen.force(motion) for motion in self.motions]
+
+    def hide(self, form: Form, strength: float, noise_rms: float) -> Hidden:
+        """Add an effect to the forces; returns what the label says of it."""
+        size, added = form.at_rms(self.motions, self.forces, self.dynamic, strength * noise_rms)
+        self.forces = [force + more for force, more in zip(self.forces, added, strict=True)]
+        return Hidden(
+            kind=form.kind,
+            form=type(form).__name__,
+            size=size,
+            unit=form.unit,
+            parameters=asdict(form),
+            strength=strength,
+            strength_left=_rms_left(self.specimen, self.motions, added) / noise_rms,
+            rms=self._per_run([_rms(at_samples(more)) for more in added]),
+        )
+
+    def measure(self, noise: Noise, rng: np.random.Generator) -> tuple[dict, dict[str, float]]:
+        """Displacement and force of every run with noise, and the realised noise per run."""
+        measured, realised = {}, {}
+        for plan in self.plans:
+            place = self.paths.index(plan.path)
+            displacement = at_samples(self.motions[place].displacement)
+            error = noise.sample(rng, displacement.size)
+            jitter = DISPLACEMENT_NOISE * rng.standard_normal(displacement.size)
+            measured[plan] = displacement + jitter, at_samples(self.forces[place]) + error
+            realised[plan.name] = _rms(error)
+        return measured, realised
+
+    def _per_run(self, values: list[float]) -> dict[str, float]:
+        return {plan.name: values[self.paths.index(plan.path)] for plan in self.plans}
+
+
+def _rms_left(specimen: Base, motions: list[Motion], added: Forces) -> float:
+    """What the spring curve and the sizes of the base's branches cannot follow of the effect, as root mean square."""
+    columns = np.concatenate([_tangents(specimen, motion) for motion in motions])
+    columns /= np.sqrt((columns**2).mean(axis=0))
+    effect = np.concatenate([at_samples(more) for more in added])
+    coefficients, *_ = np.linalg.lstsq(columns[::4], effect[::4], rcond=None)
+    return _rms(effect - columns @ coefficients)
+
+
+def _tangents(specimen: Base, motion: Motion) -> np.ndarray:
+    """Powers of the deflection in place of the curve, and the force of every other branch, shape (samples, columns)."""
+    deflection = at_samples(motion.displacement) / 20e-3
+    degree = len(specimen.spring) if specimen.name == "polynomial" else 6
+    others = [at_samples(force) for name, force in specimen.branches(motion).items() if name != "spring"]
+    return np.stack([deflection**power for power in range(1, degree + 1)] + others, axis=1)
+
+
+def _rms(values: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(values**2)))
+
+
+def _draw_kinds(base: str, kind: str | None, rng: np.random.Generator) -> list[str]:
+    """The kinds to hide; a late channel comes last, it delays all the rest."""
+    drawn = NULL if rng.random() < NULL_SHARE else str(rng.choice(KINDS_OF_BASE[base]))
+    asked = drawn if kind is None else kind
+    return [] if asked == NULL else sorted(asked.split("+"), key=lambda word: word == "delay")
+
+
+def _draw_form(kind: str, form: str | None, rng: np.random.Generator) -> Form:
+    known = {candidate.__name__: candidate for candidate in FORMS[kind]}
+    drawn = str(rng.choice(list(known)))
+    return known.get(form, known[drawn]).draw(rng)
+
+
+def _check(base: str, kind: str | None, form: str | None, design: str) -> None:
+    _expect("base", base, KINDS_OF_BASE)
+    _expect("design", design, DESIGNS)
+    kinds = [] if kind in (None, NULL) else kind.split("+")
+    for word in kinds:
+        _expect("kind", word, FORMS)
+    if form is not None:
+        _expect("form", form, [known.__name__ for word in kinds for known in FORMS[word]])
+
+
+def _expect(what: str, got: str, known) -> None:
+    if got not in known:
+        raise ValueError(f"{what}: expected one of {', '.join(known)}, got {got!r}")

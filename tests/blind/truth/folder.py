@@ -1,0 +1,45 @@
+"""A dataset as files: one npz per run, and the dataset.yaml that explains them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .design import START, STOP, Plan
+from .motion import SAMPLING
+
+_HEAD = """\
+format: dashpot-dataset/1
+name: {name}
+defaults:
+  channels:
+    time: {{column: t, unit: s}}
+    displacement: {{column: x, unit: mm}}
+    force: {{column: F, unit: N}}
+runs:
+"""
+
+
+def write_dataset(folder: Path, name: str, measured: dict[Plan, tuple[np.ndarray, np.ndarray]]) -> Path:
+    """Write displacement [m] and force [N] of every run; returns the path of dataset.yaml."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for plan, (displacement, force) in measured.items():
+        time = np.arange(force.size) / SAMPLING
+        np.savez(folder / f"{plan.name}.npz", t=time, x=displacement * 1e3, F=force)
+    target = folder / "dataset.yaml"
+    target.write_text(_HEAD.format(name=name) + "".join(_entry(plan) for plan in measured), encoding="utf-8")
+    return target
+
+
+def _entry(plan: Plan) -> str:
+    head = f"  - {{name: {plan.name}, file: {plan.name}.npz, kind: {'sweep' if plan.dynamic else 'quasi_static'}"
+    again = f", repeats: {plan.repeats}" if plan.repeats else ""
+    return f"{head}{_settings(plan)}{again}}}\n"
+
+
+def _settings(plan: Plan) -> str:
+    if not plan.dynamic:
+        return ""
+    lengths = f"amplitude: {plan.amplitude * 1e3:g} mm, preload: {plan.preload * 1e3:g} mm"
+    return f", settings: {{{lengths}, start: {START:g} Hz, stop: {STOP:g} Hz}}"

@@ -1,0 +1,56 @@
+"""Simulated forces are written so that they read back exactly."""
+
+from __future__ import annotations
+
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+
+class Bench:
+    """A dataset of three runs."""
+
+    problems = ()
+    runs = (SimpleNamespace(name="slow"), SimpleNamespace(name="odd[1]"), SimpleNamespace(name="file"))
+
+    def run(self, name):
+        return SimpleNamespace(time=np.array([0.0, 0.1]), displacement=np.array([0.0, 1e-3]), name=name)
+
+
+FORCES = {"slow": np.array([0.1, 1 / 3]), "odd[1]": np.array([-2.5, 1e-300]), "file": np.array([0.0, -0.0])}
+
+
+@pytest.fixture(autouse=True)
+def bench(monkeypatch, layers):
+    monkeypatch.setitem(
+        sys.modules, "dashpot.data.dataset", SimpleNamespace(read_dataset=lambda path, readers: Bench())
+    )
+    api = SimpleNamespace(simulate_runs=lambda spec, dataset, *, registry: FORCES)
+    monkeypatch.setitem(sys.modules, "dashpot.kernel.api", api)
+
+
+def test_each_run_becomes_a_csv_file(call, tmp_path):
+    assert call("simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / "out")[0] == 0
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"slow.csv", "odd[1].csv", "file.csv"}
+    text = (tmp_path / "out" / "slow.csv").read_text()
+    assert text == "time,displacement,force\ns,m,N\n0.0,0.0,0.1\n0.1,0.001,0.3333333333333333\n"
+
+
+def test_an_archive_holds_the_forces_by_run_and_its_bytes_repeat(call, tmp_path):
+    for name in ("a.npz", "b.npz"):
+        assert call("simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / name)[0] == 0
+    with np.load(tmp_path / "a.npz") as archive:
+        assert {name: archive[name].tolist() for name in archive} == {k: v.tolist() for k, v in FORCES.items()}
+    assert (tmp_path / "a.npz").read_bytes() == (tmp_path / "b.npz").read_bytes()
+
+
+@pytest.mark.parametrize("output, existing", [("out.npz", "out.npz"), ("out", "out/odd[1].csv")])
+def test_nothing_is_overwritten_unasked(call, tmp_path, output, existing):
+    arguments = ["simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / output]
+    assert call(*arguments)[0] == 0
+    code, _, error = call(*arguments)
+    assert code == 1
+    assert f"{tmp_path / existing}: exists already" in error
+    assert call(*arguments, "--force")[0] == 0

@@ -1,0 +1,187 @@
+"""Figures show SI data in rig units, few enough points for a page, and nothing that was not measured."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from unit.report.report_samples import evidence, friction, model, relaxation
+
+from dashpot.report import figures
+from dashpot.report.figures import excerpt
+from dashpot.report.parts import Figure
+from dashpot.report.plot_json import column_json, compact, plot_json, plotly_figure
+from dashpot.report.theme import DARK, LIGHT
+
+EVIDENCE = evidence()
+HOSTILE = "</script><img src=x onerror=alert(1)><b>%{x}"
+
+
+def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
+    time = np.linspace(0.0, 1.0, 50)
+    response = {"stiffness": np.array([2e5, 3e5]), "loss_angle": np.array([0.1, np.pi / 4])}
+    curve = {"run": run, "frequency": np.array([1.0, 2.0]), "measured": response, "simulated": {label: response}}
+    return [
+        figures.loops({run: {"time": time, "displacement": 1e-3 * time, "force": time}}, {label: {run: time}}),
+        figures.dynamic_stiffness([curve | {"amplitude": 1e-3, "preload": 0.01}, curve]),
+        figures.residual_traces({run: time}, {label: {run: time}}),
+        figures.harmonic_bars({label: {run: [3.0, 2.0, 1.0]}}),
+        figures.misfit_map([{"run": run, "band": (1.0, 3.0), "rmse": {label: 5.0}}]),
+        figures.rmse_bars([{"name": label, "train": 4.0, "held_out": None}], 1.0),
+        figures.gain_intervals([friction(title=label), relaxation(gain=None, gain_interval=None)]),
+        figures.convergence_history({label: {"evaluations": [1, 2], "best": [9.0, 3.0]}}),
+    ]
+
+
+def strings(item: object) -> Iterator[str]:
+    if isinstance(item, str):
+        yield item
+    elif isinstance(item, dict):
+        for key, value in item.items():
+            yield from strings(value) if key not in ("meta", "columns", "column") else ()
+    elif isinstance(item, list):
+        for value in item:
+            yield from strings(value)
+
+
+@pytest.mark.parametrize("figure", every_figure(), ids=lambda figure: figure.title)
+def test_plotly_accepts_every_figure(figure):
+    assert len(plotly_figure(figure).data) == len(figure.plot["data"])
+
+
+@pytest.mark.parametrize("figure", every_figure(), ids=lambda figure: figure.title)
+def test_every_colour_is_known_in_light_and_dark(figure):
+    named = {text[1:] for text in strings(plot_json(figure)) if re.fullmatch(r"@[a-z]+(-[a-z0-9]+)?", text)}
+    assert named
+    assert named <= LIGHT.keys() & DARK.keys()
+
+
+@pytest.mark.parametrize("figure", every_figure(HOSTILE, HOSTILE), ids=lambda figure: figure.title)
+def test_a_hostile_name_is_neither_tag_nor_template(figure):
+    shown = [text for text in strings(plot_json(figure)) if "onerror" in text]
+    assert shown
+    assert not any("<img" in text or "</script" in text for text in shown)
+    assert not any("onerror" in trace.get("hovertemplate", "") for trace in figure.plot["data"])
+
+
+@pytest.mark.parametrize("figure", every_figure(), ids=lambda figure: figure.title)
+def test_every_axis_with_a_quantity_names_its_unit(figure):
+    titles = [axis["title"]["text"] for key, axis in figure.plot["layout"].items() if "axis" in key and "title" in axis]
+    assert all(re.search(r"\((mm|N|N/mm|deg|Hz|s|% of the error)\)|^$|^N$|evaluations|band", title) for title in titles)
+
+
+def test_loops_are_drawn_in_millimetres_and_newtons():
+    time = np.array([0.0, 0.1, 0.2])
+    figure = figures.loops(
+        {"a": {"time": time, "displacement": np.array([1e-3, 2e-3, 3e-3]), "force": np.array([5.0, 6.0, 7.0])}}, {}
+    )
+    measured = plotly_figure(figure).data[0]
+    assert np.allclose(measured.x, [1.0, 2.0, 3.0])
+    assert np.allclose(measured.y, [5.0, 6.0, 7.0])
+
+
+def test_dynamic_stiffness_is_drawn_in_newtons_a_millimetre_and_degrees():
+    figure = every_figure()[1]
+    stiffness, angle = plotly_figure(figure).data[:2]
+    assert np.allclose(stiffness.y, [200.0, 300.0])
+    assert np.allclose(angle.y[1], 45.0)
+
+
+def test_runs_without_amplitude_and_preload_stand_in_a_panel_of_their_own():
+    layout = every_figure()[1].plot["layout"]
+    assert {"yaxis", "yaxis2", "yaxis3", "yaxis4"} <= layout.keys()
+
+
+def test_a_long_run_is_thinned_and_every_point_is_a_sample():
+    measured = EVIDENCE["loops"]["measured"]
+    figure = figures.loops(measured, EVIDENCE["loops"]["simulated"])
+    for trace in plotly_figure(figure).data:
+        signals = measured[trace.meta["run"]]
+        drawn = np.array(trace.x, dtype=float)
+        assert drawn.size <= 2000
+        assert np.isin(np.round(drawn[~np.isnan(drawn)], 9), np.round(1e3 * signals["displacement"], 9)).all()
+
+
+def test_the_drawn_cycles_reach_from_the_slowest_to_the_fastest():
+    signals = EVIDENCE["loops"]["measured"]["a1_p10"]
+    pieces = excerpt.cycle_excerpts(signals["time"], signals["displacement"], 2000)
+    durations = [np.ptp(signals["time"][piece]) for piece in pieces]
+    assert len(pieces) > 3
+    assert durations[0] > 0.2 and durations[-1] < 0.06
+    for piece in pieces:
+        assert np.ptp(signals["displacement"][piece]) > 1.9e-3
+
+
+def test_a_single_loop_is_drawn_whole():
+    time = np.linspace(0.0, 60.0, 9001)
+    x = 0.02 * (1.0 - np.abs(time / 30.0 - 1.0))
+    (piece,) = excerpt.cycle_excerpts(time, x, 1000)
+    assert piece.size == 1000 and piece[0] == 0 and piece[-1] == 9000
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=60, max_size=400), st.integers(10, 50))
+def test_thinning_a_trace_keeps_its_extremes(values, points):
+    signal = np.array(values)
+    kept = excerpt.envelope([signal], points)
+    assert kept.size <= points
+    assert signal[kept].max() == signal.max() and signal[kept].min() == signal.min()
+
+
+def test_the_run_with_the_largest_error_is_shown_first():
+    time = np.linspace(0.0, 1.0, 20)
+    measured = {name: {"time": time, "displacement": time, "force": 0.0 * time} for name in "abc"}
+    figure = figures.loops(measured, {"before": {"a": time, "b": 9.0 * time, "c": 2.0 * time}})
+    assert {trace["meta"]["run"] for trace in figure.plot["data"] if trace["visible"] is True} == {"b"}
+
+
+def test_the_floor_is_drawn_and_named():
+    figure = figures.rmse_bars([{"name": "spring", "train": 20.0, "held_out": 21.0}], 14.5)
+    line = figure.plot["data"][-1]
+    assert line["y"] == [14.5, 14.5] and "14.5 N" in line["name"]
+
+
+def test_gains_carry_their_intervals():
+    realised = figures.gain_intervals([friction()]).plot["data"][1]
+    assert np.allclose(realised["error_x"]["array"], [4.0])
+    assert np.allclose(realised["error_x"]["arrayminus"], [5.0])
+
+
+def test_the_misfit_map_puts_each_error_into_its_cell():
+    rows = [
+        {"run": "a", "band": (1.0, 3.0), "rmse": {"before": 1.0}},
+        {"run": "b", "band": (3.0, 25.0), "rmse": {"before": 2.0}},
+    ]
+    (panel,) = figures.misfit_map(rows).plot["data"]
+    assert panel["x"] == ["1–3 Hz", "3–25 Hz"]
+    assert np.array_equal(panel["z"], [[1.0, np.nan], [np.nan, 2.0]], equal_nan=True)
+
+
+def test_missing_numbers_are_null_and_never_nan():
+    text = json.dumps(compact({"a": np.array([1.0, np.nan]), "b": np.inf, "c": [None, 2]}), allow_nan=False)
+    assert json.loads(text) == {"a": [1, None], "b": None, "c": [None, 2]}
+
+
+@given(st.floats(-1e12, 1e12))
+def test_numbers_of_a_plot_are_right_to_six_digits(value):
+    assert compact(value) == pytest.approx(value, rel=5e-6)
+
+
+def test_repeated_texts_of_a_column_are_counted():
+    assert column_json(["a", "a", "b"]) == {"repeat": [["a", 2], ["b", 1]]}
+    assert column_json(np.array([1.0, 1.0])) == [1, 1]
+
+
+def test_the_table_behind_a_figure_says_where_each_number_belongs():
+    figure = figures.residual_traces({"a": np.arange(3.0)}, {"before": {"a": np.ones(3)}, "after": {"a": np.zeros(3)}})
+    assert list(figure.columns) == ["run", "time (s)", "residual simulated before (N)", "residual simulated after (N)"]
+    assert list(figure.columns["run"]) == ["a"] * 3
+
+
+def test_all_models_of_a_comparison_fit_on_the_bars():
+    figure = figures.rmse_bars([{"name": name, **model(name, 9.0)["rmse"]} for name in ("spring", "gehmann")])
+    assert [trace["name"] for trace in figure.plot["data"]] == ["training runs", "held-out runs"]

@@ -1,0 +1,90 @@
+"""The first sentence of a diagnosis says how large, what, how sure, and what is left."""
+
+from __future__ import annotations
+
+import pytest
+from unit.report.report_samples import comparison, diagnosis, friction, relaxation
+
+from dashpot.report.comparison import comparison_headline
+from dashpot.report.headline import headline
+
+
+def test_an_explained_error_is_named_with_its_size():
+    assert headline(diagnosis()) == (
+        "61.0 N of error is 4.2 × the noise floor (14.5 N); "
+        "76 % of it is dry friction of 41 N [38, 44], missing in the model."
+    )
+
+
+def test_several_causes_share_the_gain():
+    causes = [friction(), relaxation(accepted=True)]
+    assert "dry friction of 41 N [38, 44] and relaxation of 160 ms [20, 900], missing" in headline(
+        diagnosis(causes=causes)
+    )
+
+
+def test_a_fault_of_the_measurement_is_not_called_missing_in_the_model():
+    fault = friction(cause="delay", title=None, **{"class": "measurement"}, parameters={})
+    assert "is delay, a fault of the measurement." in headline(diagnosis(causes=[fault]))
+
+
+def test_nothing_missing_compares_the_error_with_the_floor():
+    said = headline(diagnosis(verdict="nothing_missing", causes=[], rmse={"before": {"held_out": 14.9}, "after": None}))
+    assert said == "Nothing is missing: the error of 14.9 N is at the noise floor (14.5 N)."
+
+
+def test_partly_explained_says_what_is_left():
+    rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 27.5}}
+    said = headline(diagnosis(verdict="partly_explained", rmse=rmse))
+    assert "only 55 % of it is dry friction" in said
+    assert said.endswith("27.5 N remain unexplained, 1.9 × the noise floor.")
+
+
+def test_unexplained_does_not_guess():
+    said = headline(diagnosis(verdict="unexplained", causes=[relaxation()]))
+    assert said.endswith("something is missing in the model, and no known cause fits it.")
+    assert "relaxation" not in said
+
+
+def test_ambiguous_names_all_rivals():
+    causes = [friction(accepted=False, indistinguishable_from=["relaxation"]), relaxation()]
+    said = headline(diagnosis(verdict="ambiguous", causes=causes))
+    assert "dry friction of 41 N [38, 44] and relaxation of 160 ms [20, 900] explain it alike" in said
+
+
+def test_a_rival_that_is_only_mentioned_is_named_too():
+    causes = [friction(accepted=False, indistinguishable_from=["end_stop"])]
+    assert "and end stop explain it alike" in headline(diagnosis(verdict="ambiguous", causes=causes))
+
+
+def test_bad_data_comes_before_any_judgement_of_the_model():
+    fault = friction(cause="clipping", title=None, **{"class": "measurement"}, parameters={})
+    said = headline(diagnosis(verdict="bad_data", causes=[fault, relaxation()]))
+    assert said.startswith("The measurement is at fault first: clipping.")
+
+
+def test_without_held_out_runs_the_training_error_is_quoted():
+    said = headline(diagnosis(rmse={"before": {"train": 50.0, "held_out": None}, "after": {"train": 25.0}}))
+    assert said.startswith("50.0 N of error") and "50 % of it" in said
+
+
+def test_without_a_noise_floor_none_is_invented():
+    said = headline(diagnosis(noise_floor={"value": None, "from": None}))
+    assert said.startswith("61.0 N of error (noise floor unknown); 76 % of it")
+
+
+def test_an_unknown_verdict_is_refused():
+    with pytest.raises(ValueError, match="expected one of explained, .* got 'perfect'"):
+        headline(diagnosis(verdict="perfect"))
+
+
+def test_a_cause_without_the_extras_is_named_by_its_word():
+    plain = {"cause": "end_stop", "class": "specimen", "accepted": True, "parameters": {"gap": {"value": 3.0}}}
+    assert "76 % of it is end stop of 3.00, missing" in headline(diagnosis(causes=[plain]))
+
+
+def test_a_comparison_names_the_closest_model():
+    assert comparison_headline(comparison()) == (
+        "tire_model_5 is closest: 14.9 N of error, 1.0 × the noise floor (14.5 N)."
+    )
+    assert comparison_headline({"models": []}) == "No model could be compared."

@@ -1,0 +1,60 @@
+"""A table says the same on the page, in the terminal and as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dashpot.report.parts import Column, Grid
+from dashpot.report.tables import plain_table, to_csv
+
+COLUMNS = (Column("run", "run"), Column("rmse", "RMSE", "N", 3))
+
+# a carriage return alone is a line end to csv readers
+names = st.text(st.characters(exclude_categories=["Cs", "Cc"])).filter(lambda name: name[:1] not in tuple("=+-@"))
+
+
+def read(text: str) -> list[list[str]]:
+    return list(csv.reader(io.StringIO(text, newline="")))
+
+
+@given(st.lists(st.tuples(names, st.floats(allow_nan=False, allow_infinity=False))))
+def test_csv_reads_back_exactly(cells):
+    header, *rows = read(to_csv([{"run": run, "rmse": rmse} for run, rmse in cells], COLUMNS))
+    assert header == ["run", "RMSE (N)"]
+    assert [(run, float(rmse)) for run, rmse in rows] == cells
+
+
+def test_what_has_no_value_is_an_empty_cell():
+    rows = [{"run": None, "rmse": np.nan}, {"rmse": np.inf}, {"run": "b", "rmse": np.float64(0.1)}]
+    assert read(to_csv(rows, COLUMNS))[1:] == [["", ""], ["", ""], ["b", "0.1"]]
+
+
+@pytest.mark.parametrize("name", ["=HYPERLINK(1)", "+1", "-1+2", "@SUM(A1)", "\t=1"])
+def test_no_text_becomes_a_formula_in_a_spreadsheet(name):
+    assert read(to_csv([{"run": name}], COLUMNS))[1][0] == f"'{name}"
+
+
+def test_a_negative_number_stays_a_number():
+    assert read(to_csv([{"run": "a", "rmse": -3.5}], COLUMNS))[1][1] == "-3.5"
+
+
+def test_the_terminal_shows_headings_units_and_rounded_numbers():
+    text = plain_table(Grid("Errors", COLUMNS, [{"run": "a1", "rmse": 61.04}, {"run": "b", "rmse": None}]))
+    assert "RMSE (N)" in text
+    assert [line.split() for line in text.splitlines()[-3:]] == [["a1", "61.0"], ["b", "–"], []]
+
+
+def test_markup_in_a_name_is_shown_not_obeyed():
+    text = plain_table(Grid("[red]title[/red]", COLUMNS, [{"run": "[bold]a[/bold]", "rmse": 1.0}]))
+    assert "[bold]a[/bold]" in text and "[red]title[/red]" in text
+
+
+def test_counts_are_not_given_decimals():
+    columns = [Column("free", "free parameters", "", 3)]
+    assert "12" in plain_table(Grid("", columns, [{"free": 12}])).split()

@@ -1,0 +1,36 @@
+"""A problem says what, where and what to do; an input error says all of them in the order of the text."""
+
+from __future__ import annotations
+
+from dashpot.text.problem import InputError, Place, Problem, nearest
+
+
+def test_a_place_reads_as_file_line_column():
+    assert str(Place("spec.yaml", 3, 7)) == "spec.yaml:3:7"
+    assert str(Place("spec.yaml")) == "spec.yaml"
+    assert str(Place(None, 3, 7)) == "<text>:3:7"
+
+
+def test_a_problem_reads_as_place_message_and_hint():
+    problem = Problem(Place("a.yaml", 1, 2), "expected a number, got 'x'", "write 3.5")
+    assert str(problem) == "a.yaml:1:2: expected a number, got 'x'. write 3.5"
+    assert str(Problem(Place(), "nothing to read")) == "nothing to read"
+    assert str(Problem(Place("a.csv"), "gaps", severity="warning")) == "a.csv: warning: gaps"
+
+
+def test_an_input_error_has_a_line_for_each_problem_in_the_order_of_the_text():
+    late, early = Problem(Place("a", 10, 1), "late"), Problem(Place("a", 2, 1), "early")
+    error = InputError([late, early])
+    assert error.problems == (early, late)
+    assert str(error) == "a:2:1: early\na:10:1: late"
+
+
+def test_an_input_error_can_be_made_of_one_problem():
+    error = InputError.at(Place("a", 1, 1), "wrong", "mend it")
+    assert str(error) == "a:1:1: wrong. mend it"
+
+
+def test_the_nearest_word_is_found_whatever_its_case():
+    assert nearest("sprng", ["spring", "dahl"]) == "did you mean 'spring'?"
+    assert nearest("hz", ["Hz", "m"]) == "did you mean 'Hz'?"
+    assert nearest("capacitor", ["spring", "dahl"]) == ""
