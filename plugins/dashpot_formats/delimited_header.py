@@ -31,7 +31,7 @@ def read_header(lines: Sequence[str], layout: Layout) -> Header:
         cells = _split_names(line, layout)
         if cells is None:
             continue
-        higher = next((names for _, other in above[index + 1 :] if (names := _split_names(other, layout))), None)
+        higher = next(filter(None, (_split_names(other, layout) for _, other in above[index + 1 :])), None)
         if higher and _is_unit_row(cells):
             return _header(higher, [cell.strip("[](){}<>") for cell in cells])
         _refuse_broken_row(cells, higher, layout, number)
@@ -47,18 +47,28 @@ def _lines_above(lines: Sequence[str], layout: Layout) -> Iterator[tuple[int, st
     for remark in (False, True):
         for index in filled:
             if is_comment(lines[index], layout.delimiter) is remark:
-                yield index + 1, uncomment(lines[index]) if remark else lines[index]
+                yield index + 1, lines[index]
 
 
 def _split_names(line: str, layout: Layout) -> list[str] | None:
     """The cells of a header line, None when it does not have one for every column."""
-    for delimiter in dict.fromkeys((layout.delimiter, *DELIMITERS)):
-        cells = _join_brackets(line.split()) if delimiter is None else split_row(line, delimiter)
-        while cells and not cells[-1]:
-            cells.pop()
-        if len(cells) >= layout.width and not all(is_number(cell, layout.decimal) for cell in cells):
+    own = () if layout.delimiter is None else (layout.delimiter,)
+    remark = is_comment(line, layout.delimiter)
+    for delimiter in dict.fromkeys((*own, *DELIMITERS)):
+        cells = _split(uncomment(line) if remark else line, delimiter)
+        fits = len(cells) == layout.width or (
+            len(cells) > layout.width and delimiter == layout.delimiter and not remark
+        )
+        if fits and not all(is_number(cell, layout.decimal) for cell in cells):
             return cells
     return None
+
+
+def _split(line: str, delimiter: str | None) -> list[str]:
+    cells = _join_brackets(line.split()) if delimiter is None else split_row(line, delimiter)
+    while cells and not cells[-1]:
+        cells.pop()
+    return cells
 
 
 def _join_brackets(words: list[str]) -> list[str]:

@@ -15,10 +15,11 @@ DELIMITERS: tuple[str | None, ...] = ("\t", ";", ",", None)
 DECIMALS = (".", ",")
 
 _NUMBER = {
-    ".": re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?"),
-    ",": re.compile(r"[-+]?(\d+|\d*,\d+)([eE][-+]?\d+)?"),
+    ".": re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"),
+    ",": re.compile(r"[-+]?([0-9]+|[0-9]*,[0-9]+)([eE][-+]?[0-9]+)?"),
 }
-_NO_VALUE = {"", "nan", "na", "n/a", "inf", "-inf", "+inf", "null"}
+# what stands where there is no number
+NO_VALUE = {"", "nan", "na", "n/a", "inf", "-inf", "+inf", "null"}
 _COMMENT_SIGNS = ("#", "%", "//", "!", ";")
 _SAMPLE = 60
 
@@ -49,8 +50,15 @@ def split_row(line: str, delimiter: str | None) -> list[str]:
     if delimiter is None:
         return line.split()
     if '"' in line:
-        return [part.strip() for part in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))]
+        return _split_quoted(line, delimiter)
     return [part.strip() for part in line.split(delimiter)]
+
+
+def _split_quoted(line: str, delimiter: str) -> list[str]:
+    try:
+        return [part.strip() for part in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))]
+    except csv.Error as error:
+        raise ReadingError(f"a line with quotes cannot be split: {error}", "remove the quotes") from None
 
 
 def is_number(text: str, decimal: str) -> bool:
@@ -105,6 +113,6 @@ def _first_row(lines: Sequence[str], delimiter: str | None, decimal: str, column
             row = split_row(line, delimiter)
             cells = [row[column] if column < len(row) else "" for column in columns]
             values = [is_number(cell, decimal) for cell in cells]
-            if any(values) and all(good or cell.lower() in _NO_VALUE for good, cell in zip(values, cells, strict=True)):
+            if any(values) and all(good or cell.lower() in NO_VALUE for good, cell in zip(values, cells, strict=True)):
                 return index
     raise ReadingError("no row holds numbers in all its columns", "name 'delimiter' and 'decimal' under file_options")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TypeGuard
 
 import numpy as np
 
@@ -60,7 +61,7 @@ def _only_matrix(content: dict[str, object]) -> object:
     return matrices[0] if len(matrices) == 1 else content
 
 
-def _is_list(value: object) -> bool:
+def _is_list(value: object) -> TypeGuard[list[object]]:
     return isinstance(value, list)
 
 
@@ -87,11 +88,10 @@ def _matrix(content: object) -> np.ndarray:
 
 def _vector(values: Sequence[object], where: str) -> np.ndarray:
     """Numbers (n,); null is a missing one."""
+    for value in values:
+        if isinstance(value, bool) or not isinstance(value, int | float | None):
+            raise ReadingError(f"expected numbers in {where}, got '{str(value)[:40]}'", "write numbers without quotes")
     try:
-        vector = np.array(values, dtype=float)
-    except (TypeError, ValueError, OverflowError):
-        vector = np.zeros((0, 0))
-    if vector.ndim != 1 or any(isinstance(value, str | bool) for value in values):
-        wrong = next((value for value in values if not isinstance(value, int | float | None)), values[0])
-        raise ReadingError(f"expected numbers in {where}, got '{str(wrong)[:40]}'", "write numbers without quotes")
-    return vector
+        return np.array(values, dtype=float)
+    except OverflowError:
+        raise ReadingError(f"a number in {where} is too large", "correct it") from None

@@ -48,12 +48,12 @@ def _is_hdf5(path: Path) -> bool:
 
 def _read_version_5(path: Path) -> dict[str, np.ndarray]:
     from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
 
     try:
         content = loadmat(path, simplify_cells=True)
-    except (MatReadError, ValueError, TypeError, KeyError, IndexError, EOFError, NotImplementedError) as error:
-        raise ReadingError(f"it is not a sound MATLAB file: {error}", "save it again with 'save -v7'") from None
+    except Exception as error:
+        # a damaged file makes scipy raise whatever its parser stumbles over, from OSError to zlib.error
+        raise ReadingError(f"it is not a sound MATLAB file: {error}", "save it again with 'save -v7'") from error
     return _flat({key: value for key, value in content.items() if not key.startswith("__")})
 
 

@@ -12,7 +12,7 @@ from dashpot.contract.reader import Reader, ReadingError, Table
 from dashpot_formats.flatten import choose_variable, columns_of, numbered_columns
 from dashpot_formats.option import check_options, get_option
 
-_LARGEST = 4 * 1024**3
+_LARGEST = 2 * 1024**3
 
 
 class Npz(Reader):

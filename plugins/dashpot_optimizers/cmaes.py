@@ -9,7 +9,6 @@ import numpy as np
 from dashpot.contract.optimizer import Blocks, Search, Space
 from dashpot_optimizers.option import require
 
-WORST = 1e100
 MEMORY = 20
 
 
@@ -62,12 +61,17 @@ class CovarianceMatrixAdaptation(Search):
         records = [np.inf]
         for _ in range(self.iterations):
             points = np.array([library.ask() for _ in range(library.population_size)])
-            losses = np.minimum((yield points), WORST)
+            losses = yield points
             library.tell(list(zip(points, losses, strict=True)))
             records.append(min(records[-1], losses.min()))
-            if library.should_stop() or self._settled(records):
+            if self._settled(records) or self._degenerate(library):
                 break
         return None
+
+    def _degenerate(self, library: Any) -> bool:
+        # the library subtracts losses that may be inf, and takes roots of variances that its update made negative
+        with np.errstate(invalid="ignore"):
+            return bool(library.should_stop())
 
     def _settled(self, records: list[float]) -> bool:
         return len(records) > MEMORY and records[-1] >= records[-MEMORY] * (1.0 - self.tolerance)

@@ -16,6 +16,8 @@ class DifferentialEvolution(Bridged):
     population: points of a generation; generations: blocks asked, the first included; strategy: how scipy makes a
     trial point; crossover: share of its coordinates that are new; tolerance: the search ends when the losses of the
     population agree that closely (standard deviation over mean).
+
+    Storn and Price, J. Global Optim. 11 (1997) 341.
     """
 
     word = "differential_evolution"

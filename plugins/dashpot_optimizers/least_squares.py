@@ -27,6 +27,8 @@ class LeastSquares(Search):
     first, and the start and the best of them advance together. step: of the forward differences, in the unit cube;
     tolerance: relative change of the sum of squares, of the point, and relative gradient at which a descent ends;
     iterations: steps of a descent, rejected ones included.
+
+    Branch, Coleman and Li, SIAM J. Sci. Comput. 21 (1999) 1.
     """
 
     word = "least_squares"

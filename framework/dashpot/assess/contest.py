@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
 from dashpot.assess.screen import Finding
-from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.objective import Objective
+from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
-from dashpot.model.network import NetworkSpec, Value
+from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network
 
 Array = NDArray[np.float64]
@@ -44,10 +45,11 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """What every refit needs: the training runs, the elements, the noise."""
+    """What every refit needs: the training runs and the elements; ``sensors`` is the force channel's data sheet by run."""
 
     runs: Sequence[ScoredRun]
     elements: Mapping[str, type[Element]]
+    sensors: Mapping[str, Mapping[str, float]]
     jobs: int = 1
 
     def fit(self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel, steps: int = 25) -> Model:
@@ -55,13 +57,17 @@ class Bench:
         objective = Objective(compile_network(start), self.runs, self.jobs, noise.whiten)
         coordinates = search_coordinates(start)
         found = refine(objective, coordinates, coordinates.start, steps, tolerance=1e-6)
-        fitted = renumber(start, coordinates, found.point)
+        fitted = with_point(start, coordinates, found.point)
         return Model(declared, fitted, coordinates, found.point, found.loss**2 * objective.total, found.outcome)
 
     def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel) -> Model:
         """The model with a patch of its text, refitted from its own numbers and those of the patch."""
         declared = parse_network(extend(model.declared.document.text), self.elements)
-        return self.fit(declared, inherit_numbers(declared, model.fitted), noise)
+        return self.fit(declared, self.start_from(declared, model.fitted), noise)
+
+    def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
+        """A network ready to be fitted: shared numbers inherited, the others given a range."""
+        return with_ranges(inherit_numbers(declared, fitted), natural_sizes(self.runs))
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,20 +98,6 @@ def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
     for path in declared.data_curves():
         declared = declared.with_curve(path, curves[path])
     known = {slot.path: slot.value for slot in fitted.slots()}
-    shared = {slot.path: with_number(slot.value, known[slot.path].number)
-              for slot in declared.slots() if slot.path in known}  # fmt: skip
+    shared = {slot.path: replace(known[slot.path], node=slot.value.node) for slot in declared.slots()
+              if slot.path in known}  # fmt: skip
     return declared.with_values(shared)
-
-
-def renumber(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
-    """The network with the numbers of a point."""
-    values = coordinates.to_values(point)[0]
-    slots = {slot.path: slot.value for slot in spec.slots()}
-    paths = [slot.path for slot in spec.slots()]
-    return spec.with_values({path: with_number(slots[path], float(values[paths.index(path)]))
-                             for path in coordinates.paths})  # fmt: skip
-
-
-def with_number(value: Value, number: float) -> Value:
-    """The value with another number."""
-    return Value(number, value.unit, value.role, value.bounds, value.scale, value.interval, value.node)

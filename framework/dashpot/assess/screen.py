@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 FALSE_ALARMS = 0.01
 DRAWS = 400
+POWER_95 = 1.6448536269514722
 KEPT = 1e-7  # share of a column that must be left after projection
 
 
@@ -60,13 +61,23 @@ class Finding:
     chosen: tuple[int, ...]
 
 
+@dataclass(frozen=True)
+class Limit:
+    """The smallest effect of a cause, as RMS force in N, that would have been found with 95 % power."""
+
+    cause: type[Cause]
+    form: str
+    force: float
+
+
 @dataclass(frozen=True, eq=False)
 class Screen:
-    """All findings, best first; a merit above ``threshold`` is significant. ``scores`` and ``spread`` are projected."""
+    """All findings, best first; a merit above ``threshold`` is significant."""
 
     findings: tuple[Finding, ...]
     threshold: float
     samples: int
+    limits: tuple[Limit, ...]
 
     @property
     def best(self) -> Finding | None:
@@ -106,7 +117,7 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     findings = [_judge(c, scores, spread, original, samples) for c in columns.candidates]
     ordered = sorted((f for f in findings if f is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, spread, original, samples, seed))
-    return Screen(tuple(ordered), threshold, samples)
+    return Screen(tuple(ordered), threshold, samples, _limits(columns, spread, original, threshold, samples))
 
 
 def _project(columns: Columns, noise: NoiseModel) -> tuple[Array, Array, Array, int]:
@@ -187,6 +198,23 @@ def _inverse(matrix: Array) -> tuple[Array, int]:
     keep = values > 1e-6 * values[-1]
     inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
     return inverse / np.outer(scale, scale), int(keep.sum())
+
+
+def _limits(columns: Columns, spread: Array, original: Array, threshold: float, samples: int) -> tuple[Limit, ...]:
+    sizes = np.sqrt(sum(np.sum(rows**2, axis=1) for rows in columns.bank.values()) / samples)
+    found: dict[type[Cause], Limit] = {}
+    for candidate in columns.candidates:
+        where, suspect = candidate.columns, candidate.suspect
+        kept = np.diag(spread)[where]
+        usable = kept > KEPT * original[where]
+        if suspect.joint or not usable.any():
+            continue
+        price = (1 + suspect.unknowns) * np.log(samples) + threshold
+        strength = (np.sqrt(price) + POWER_95) / np.sqrt(kept[usable])
+        limit = Limit(candidate.cause, suspect.form, float(np.min(strength * sizes[where][usable])))
+        if candidate.cause not in found or limit.force < found[candidate.cause].force:
+            found[candidate.cause] = limit
+    return tuple(found.values())
 
 
 def _null_quantile(candidates: Sequence[Candidate], spread: Array, original: Array, samples: int, seed: int) -> float:

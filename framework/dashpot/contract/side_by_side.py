@@ -40,4 +40,4 @@ def side_by_side(
 def agreement(best: Sequence[float]) -> str:
     """How many searches end at nearly the same loss: the evidence that it is the smallest one."""
     alike = sum(loss <= (1.0 + ALIKE) * min(best) for loss in best)
-    return f"{alike} of {len(best)} starts end within {ALIKE:.0%} of the best"
+    return f"{alike} of {len(best)} starts end within {100.0 * ALIKE:g} % of the best"

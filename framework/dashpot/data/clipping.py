@@ -78,9 +78,12 @@ def _usual_step(values: np.ndarray) -> float:
 
 
 def _is_sharp(values: np.ndarray, start: int, end: int, step: float) -> bool:
+    """Whether a signal comes and leaves fast. A flat at the very beginning or end is the rest around the test."""
+    if start == 0 or end == values.size:
+        return False
     half = (end - start) // 2
-    outside = [index for index in (start - half, end - 1 + half) if 0 <= index < values.size]
-    return bool(outside) and all(values[start] - values[index] > _SHARP * step for index in outside)
+    outside = values[[max(0, start - half), min(values.size, end + half) - 1]]
+    return bool(values[start] - outside.max() > _SHARP * step)
 
 
 def _slides(motion: np.ndarray | None, flats: list[tuple[int, int]]) -> bool:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
@@ -15,13 +14,10 @@ from dashpot.data.groups import group_repeats, resolve_repeats
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
 from dashpot.data.source import choose_reader, find_file, locate
-from dashpot.data.table import ReadingError, Table
+from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Trouble, Unusable
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError, Place, Problem, in_text_order, nearest
-
-if TYPE_CHECKING:
-    from dashpot.contract.reader import Reader
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +60,7 @@ class Dataset:
         return tuple(run for run in self.runs if run.kind == "quasi_static")
 
 
-def read_dataset(path: Path | str, readers: Mapping[str, Reader]) -> Dataset:
+def read_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> Dataset:
     """Read a dataset: its description, a folder that holds one, or a data file with a sidecar `<file>.yaml`.
 
     `readers` are the readers of measurement files by their word. A run with a fault is set aside and told of in
@@ -86,13 +82,13 @@ class _Measurements:
     """The files of a dataset; a file that several runs are cut from is read once."""
 
     def __init__(
-        self, description: Description, folder: Path, readers: Mapping[str, Reader], problems: list[Problem]
+        self, description: Description, folder: Path, readers: Mapping[str, FileReader], problems: list[Problem]
     ) -> None:
         self._description = description
         self._folder = folder
         self._readers = readers
         self._problems = problems
-        self._last: tuple[object, Table | None] = (None, None)
+        self._last: tuple[object, Table] = (None, Table({}))
 
     def read(self) -> list[Run]:
         """All usable runs, grouped; the others are among the problems."""
@@ -115,7 +111,8 @@ class _Measurements:
     def _table(self, declaration: RunDeclaration) -> Table:
         place = declaration.place("file")
         path = find_file(declaration.file, self._folder, self._description.allow_outside, place)
-        reader = choose_reader(declaration.file, declaration.reader, self._readers, declaration.place("reader"))
+        said = declaration.place("reader" if declaration.reader else "file")
+        reader = choose_reader(declaration.file, declaration.reader, self._readers, said)
         wanted = (path, reader, repr(declaration.file_options))
         if self._last[0] != wanted:
             self._last = (wanted, _read_file(reader, path, declaration.file_options))
@@ -128,7 +125,7 @@ class _Measurements:
         self._problems.append(Problem(place, message, trouble.hint, trouble.severity))
 
 
-def _read_file(reader: Reader, path: Path, options: Mapping[str, object]) -> Table:
+def _read_file(reader: FileReader, path: Path, options: Mapping[str, object]) -> Table:
     try:
         return reader.read(path, options)
     except ReadingError as error:

@@ -135,7 +135,10 @@ def _read_settings(form: Form) -> tuple[dict[str, float], dict[str, str]]:
             settings[key] = below.quantity(key, SETTING_UNITS[key])
         else:
             value = below.take(key, _read_free_setting)
-            (notes if isinstance(value, str) else settings)[key] = value
+            if isinstance(value, str):
+                notes[key] = value
+            else:
+                settings[key] = value
     return settings, notes
 
 

@@ -47,22 +47,24 @@ def read_description(document: Document, source: Source) -> Description:
 
 
 def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
-    defaults = form.node("defaults")
-    if defaults is not None and not isinstance(defaults, Mapping):
-        form.complain("defaults", f"expected the defaults as 'key: value' lines, got {defaults.describe()}")
-        defaults = None
+    given = form.take("defaults", _read_defaults, None)
     sensors = form.node("sensors")
     if sensors is not None:
-        given = Mapping(form.place, 0, 0, {"sensors": sensors}, {"sensors": sensors})
-        defaults = inherit(defaults, given) if defaults else given
-    return form.take("runs", read_items) or (), defaults
+        common = Mapping(form.place, 0, 0, {"sensors": sensors}, {"sensors": sensors})
+        given = inherit(given, common) if given else common
+    return form.take("runs", read_items) or (), given
 
 
-def _single_run(form: Form) -> tuple[tuple[Node, ...], None]:
+def _read_defaults(node: Node) -> Mapping:
+    if not isinstance(node, Mapping):
+        raise ValueError(f"expected the defaults as 'key: value' lines, got {node.describe()}")
+    return node
+
+
+def _single_run(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
     """The whole text declares one run."""
     entries = {key: form.node(key) for key in form.keys if key not in _OWN_KEYS}
-    keys = {key: node for key, node in form.origin.keys.items() if key in entries}
-    return (Mapping(form.place, form.origin.start, form.origin.end, entries, keys),), None
+    return (Mapping(form.place, form.origin.start, form.origin.end, entries, entries),), None
 
 
 def _declare(

@@ -33,12 +33,13 @@ def resolve_repeats(
 
 def _root(declaration: RunDeclaration, by_name: Mapping[str, RunDeclaration]) -> str | None:
     """The name of the first run that a chain of repeats leads to, None when the chain runs in a circle."""
-    name, seen = declaration.name, set()
-    while name in by_name and by_name[name].repeats:
+    name = declaration.name
+    seen: set[str] = set()
+    while name in by_name and (original := by_name[name].repeats):
         if name in seen:
             return None
         seen.add(name)
-        name = by_name[name].repeats
+        name = original
     return name
 
 
@@ -48,7 +49,7 @@ def _tell(declaration: RunDeclaration, names: Sequence[str]) -> Trouble:
         message, hint = f"it repeats '{declaration.repeats}', which repeats it again", "name the first of them"
     else:
         message = f"it repeats '{declaration.repeats}', which is no run here"
-        hint = nearest(declaration.repeats, others) or f"runs are: {', '.join(others[:12])}"
+        hint = nearest(declaration.repeats or "", others) or f"runs are: {', '.join(others[:12])}"
     return Trouble(message, hint, declaration.place("repeats"))
 
 

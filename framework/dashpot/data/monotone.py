@@ -47,7 +47,7 @@ def fit_rising(places: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.nda
     columns = basis.columns(places)
     height = float(np.ptp(values)) or 1.0
     constant, steps = solve_rising(columns, values / height, _STIFFNESS * basis.slope_changes())
-    return height * (constant + basis.columns(at) @ steps)
+    return np.maximum.accumulate(height * (constant + basis.columns(at) @ steps))
 
 
 def solve_rising(columns: np.ndarray, values: np.ndarray, penalty: np.ndarray) -> tuple[float, np.ndarray]:
@@ -60,6 +60,6 @@ def solve_rising(columns: np.ndarray, values: np.ndarray, penalty: np.ndarray) -
     means = columns.mean(axis=0)
     stacked = np.vstack([columns - means, penalty * np.sqrt(len(columns))])
     target = np.concatenate([values - values.mean(), np.zeros(len(penalty))])
-    triangle = np.linalg.qr(np.column_stack([stacked, target]), mode="r")
+    _, triangle = np.linalg.qr(np.column_stack([stacked, target]))
     weights, _ = nnls(triangle[:, :-1], triangle[:, -1])
     return float(values.mean() - means @ weights), weights

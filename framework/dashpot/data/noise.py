@@ -44,8 +44,8 @@ UNKNOWN = NoiseFloor(None, None)
 def noise_from_repeats(runs: Sequence[tuple[np.ndarray, np.ndarray]], sample_time: float) -> NoiseFloor:
     """Noise of k runs that repeat each other, given as (displacement m, force N).
 
-    For two it is the RMS of their difference / sqrt 2. They are aligned to a fraction of a sample; what small differences
-    of the displacement explain is taken out, and so is a constant difference, which goes to `offset`.
+    For two it is the RMS of their difference / sqrt 2. They are aligned to a fraction of a sample; what small
+    differences of the displacement explain is taken out, and so is a constant difference, which goes to `offset`.
     Noise of any colour counts in full. Raises NotRepeatsError when the motions differ.
     """
     departure = compare_repeats(runs, sample_time).departure
@@ -74,7 +74,7 @@ def noise_from_orders(force: np.ndarray, oscillation: Oscillation) -> NoiseFloor
     """Noise of a sweep or harmonic run, from what is between the orders of the motion.
 
     White and slowly varying noise alike, as its density is read from half the lowest tested frequency up and continued
-    below. Noise that lives below that frequency only is underestimated. A hum or another single line does not count.
+    below. Noise that lives below that frequency only is underestimated. A hum counts, in part or in full.
     Unknown when fewer than six periods of steady amplitude follow each other.
     """
     return _floor(read_noise(force, oscillation), len(force))
@@ -89,7 +89,8 @@ def noise_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time:
         return UNKNOWN
     frequency, densities = _densities(displacement, sample_time)
     motion = np.mean(densities, axis=0)
-    own = white_noise(displacement) ** 2 * 2.0 * sample_time
+    # The noise of the sensor, told from a fast motion by what there is close to the Nyquist frequency.
+    own = min(white_noise(displacement) ** 2 * 2.0 * sample_time, float(np.median(motion[-len(motion) // 10 :])))
     excited = motion > max(_ABOVE_NOISE * own, _SPECTRUM_END * float(np.max(motion)))
     free = _HARMONICS * float(np.max(frequency[excited], initial=0.0))
     if free > _HIGHEST / sample_time:

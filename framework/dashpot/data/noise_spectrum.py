@@ -61,7 +61,7 @@ def noise_between_orders(
 
     In windows of eight (else six) periods the signal is read half-way between the orders; the window is such that the
     orders themselves, also slowly growing ones, do not show there. Windows in which the `envelope` (n,) of the motion
-    changes by more than a tenth are left out. The median over like frequencies passes over single lines.
+    changes by more than a tenth are left out. The median over like frequencies passes over single disturbances.
     """
     windows = _longest_windows(angle)
     steady = [_is_steady(envelope[start:stop]) for start, stop in zip(windows.start, windows.stop, strict=True)]

@@ -14,6 +14,7 @@ TURN = 2.0 * np.pi
 
 # Orders above this part of the Nyquist frequency are not told from their mirror images.
 _NYQUIST_SHARE = 0.9
+_FEWEST_SAMPLES = 3
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,10 @@ class OrderFit:
 
 
 def place_windows(angle: np.ndarray, periods: float, step: float) -> Windows:
-    """Windows of `periods` every `step` periods wherever the phase `angle` (n,) is known, that is not NaN."""
+    """Windows of `periods` every `step` periods wherever the phase `angle` (n,) is known, that is not NaN.
+
+    Windows with fewer than three samples a period are left out.
+    """
     half = 0.5 * periods * TURN
     places = [(np.zeros(0, int), np.zeros(0, int), np.zeros(0))]
     for first, last in known_parts(angle):
@@ -77,7 +81,8 @@ def place_windows(angle: np.ndarray, periods: float, step: float) -> Windows:
         stop = first + np.searchsorted(part, centres + half, side="right")
         places.append((start, stop, centres))
     start, stop, centre = (np.concatenate(column) for column in zip(*places, strict=True))
-    return Windows(start, stop, centre, periods, step)
+    windows = Windows(start, stop, centre, periods, step)
+    return windows.select(stop - start >= _FEWEST_SAMPLES * periods)
 
 
 def known_parts(angle: np.ndarray) -> list[tuple[int, int]]:
@@ -103,7 +108,7 @@ def fit_orders(angle: np.ndarray, windows: Windows, signals: np.ndarray, orders:
         explained[chosen] = np.sum(part * right[np.ix_(chosen, kept)].conj(), axis=1).real
     # A Hann window of n samples weighs n / 2 together, its squares 3 n / 8.
     total = gram[:, 0, 0].real
-    freedom = total - 0.75 * (2 * countable + 2)
+    freedom = np.maximum(total - 0.75 * (2 * countable + 2), 1.0)
     return OrderFit(
         middle=middle,
         mean=solution[:, orders].real + level,

@@ -14,6 +14,7 @@ _SMALLEST_SWING = 0.1
 _HALF_CYCLES_PER_KNOT = 8
 _PERIODS_PER_KNOT = 3.0
 _PASSES = 2
+_RIDGE = 1e-10
 
 
 class NotOscillatingError(ValueError):
@@ -73,7 +74,7 @@ def _lay_phase(angle: np.ndarray, points: np.ndarray, displacement: np.ndarray) 
     phase = make_lsq_spline(times, counted, knots)(inside)
     for _ in range(_PASSES):
         phase = _straighten(phase, displacement[inside])
-    angle[inside] = phase
+    angle[inside] = np.maximum.accumulate(phase)
 
 
 def _crossings(signal: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -90,7 +91,7 @@ def _crossings(signal: np.ndarray, points: np.ndarray) -> np.ndarray:
 def _straighten(phase: np.ndarray, displacement: np.ndarray) -> np.ndarray:
     """Add what the phase lacks: x = m + a cos theta + b sin theta with smooth m, a, b (knots every two periods)."""
     from scipy.interpolate import BSpline
-    from scipy.sparse import diags_array, hstack
+    from scipy.sparse import diags_array, eye_array, hstack
     from scipy.sparse.linalg import spsolve
 
     phase = np.maximum.accumulate(phase)
@@ -99,6 +100,8 @@ def _straighten(phase: np.ndarray, displacement: np.ndarray) -> np.ndarray:
     knots = np.concatenate([[phase[0]] * 3, inner, [phase[-1]] * 3])
     smooth = BSpline.design_matrix(phase, knots, 3)
     columns = hstack([smooth, diags_array(np.cos(phase)) @ smooth, diags_array(np.sin(phase)) @ smooth]).tocsc()
-    _, cosine, sine = np.split(spsolve((columns.T @ columns).tocsc(), columns.T @ displacement), 3)
+    # A motion that is not harmonic may leave a part undetermined: it then stays zero.
+    ridge = _RIDGE * len(phase) * eye_array(columns.shape[1])
+    _, cosine, sine = np.split(spsolve((columns.T @ columns + ridge).tocsc(), columns.T @ displacement), 3)
     # x - m = X sin(theta + lead)
     return phase + np.unwrap(np.arctan2(smooth @ cosine, smooth @ sine))

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from dashpot.data.table import FileReader
 from dashpot.data.trouble import Trouble, Unusable
 from dashpot.text.problem import InputError, Place, nearest
-
-if TYPE_CHECKING:
-    from dashpot.contract.reader import Reader
 
 DESCRIPTIONS = ("dataset.yaml", "dataset.yml")
 
@@ -68,7 +65,7 @@ def find_file(file: str, folder: Path, allow_outside: bool, place: Place) -> Pat
     return path
 
 
-def choose_reader(file: str, word: str | None, readers: Mapping[str, Reader], place: Place) -> Reader:
+def choose_reader(file: str, word: str | None, readers: Mapping[str, FileReader], place: Place) -> FileReader:
     """The reader asked for, or the one for the ending of the file's name. Raises Unusable when there is none."""
     if word is not None and word in readers:
         return readers[word]

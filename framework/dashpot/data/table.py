@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -50,3 +52,14 @@ class Table:
     def where(self, row: int) -> str:
         """A row (from 0) in words: its line in the file, or its number counted from 1."""
         return f"row {row + 1}" if self.lines is None else f"line {self.lines[row]} (row {row + 1})"
+
+
+class FileReader(Protocol):
+    """What is asked of a reader here; plugins derive theirs from `dashpot.contract.reader.Reader`."""
+
+    @property
+    def suffixes(self) -> tuple[str, ...]:
+        """Endings of file names that it reads unasked."""
+
+    def read(self, path: Path, options: Mapping[str, object]) -> Table:
+        """The columns of a file. Raises ReadingError."""

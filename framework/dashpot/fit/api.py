@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
-from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
@@ -30,7 +30,7 @@ from dashpot.fit.search import run_search
 from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
-from dashpot.model.network import NetworkSpec, Slot, Value
+from dashpot.model.network import NetworkSpec, Slot
 
 Array = NDArray[np.float64]
 Progress = Callable[..., None]
@@ -117,13 +117,6 @@ def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors
     return Errors(pooled(setting.split.train), pooled(setting.split.held_out), pooled(tuple(per_run)), per_run)
 
 
-def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
-    """The network with the numbers of a point in coordinates."""
-    values = coordinates.to_values(point)[0]
-    slots = spec.slots()
-    return spec.with_values({slots[k].path: _numbered(slots[k].value, float(values[k])) for k in coordinates.which})
-
-
 def _search(spec: NetworkSpec, runs: Sequence[ScoredRun], chosen: Callable[[Slot], bool], method: Optimizer | None,
             seed: int, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Best]:  # fmt: skip
     objective = Objective(compile_network(spec), runs, jobs)
@@ -147,10 +140,6 @@ def _search(spec: NetworkSpec, runs: Sequence[ScoredRun], chosen: Callable[[Slot
 
 def _curve_of(slot: Slot) -> str:
     return slot.path.partition("[")[0]
-
-
-def _numbered(value: Value, number: float) -> Value:
-    return Value(number, value.unit, value.role, value.bounds, value.scale, value.interval, value.node)
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +67,13 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
         tuple(slots[number].path for number in which), np.array(which, dtype=np.int64), log, low, high,
         _units(slots, which), np.array([slot.value.number for slot in slots]),
     )  # fmt: skip
+
+
+def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
+    """The network with the numbers of a point."""
+    values = coordinates.to_values(point)[0]
+    slots = spec.slots()
+    return spec.with_values({slots[k].path: replace(slots[k].value, number=float(values[k])) for k in coordinates.which})
 
 
 def _units(slots: Sequence[Slot], which: Sequence[int]) -> Array:

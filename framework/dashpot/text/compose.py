@@ -120,24 +120,27 @@ class _Composer:
     def _mapping(self, event: yaml.Event, depth: int) -> Mapping:
         entries: dict[str, Node] = {}
         keys: dict[str, Node] = {}
-        value = None
+        end = event.end_mark.index
         while not isinstance(inner := next(self._events), yaml.MappingEndEvent):
             key = self._node(inner, depth + 1)
             value = self._node(next(self._events), depth + 1)
-            if self._is_new(key, keys):
-                keys[key.written], entries[key.written] = key, value
-        end = inner.end_mark.index if event.flow_style else value.end
+            name = self._new_name(key, keys)
+            if name:
+                keys[name], entries[name] = key, value
+            end = value.end
+        end = inner.end_mark.index if event.flow_style else end
         return Mapping(self._place(event), event.start_mark.index, end, entries, keys)
 
-    def _is_new(self, key: Node, keys: dict[str, Node]) -> bool:
+    def _new_name(self, key: Node, keys: dict[str, Node]) -> str | None:
+        """The text of a key, None when it is no name or stands there already."""
         if not isinstance(key, Scalar) or not key.written:
             self.problems.append(Problem(key.place, f"expected a name before ':', got {key.describe()}", "name it"))
-            return False
+            return None
         if key.written in keys:
             message = f"'{key.written}' stands twice, first in line {keys[key.written].place.line}"
             self.problems.append(Problem(key.place, message, "remove or rename one of them"))
-            return False
-        return True
+            return None
+        return key.written
 
     def _alias(self, event: yaml.AliasEvent) -> Node:
         self._aliases += 1

@@ -58,7 +58,7 @@ class Form:
 
     def place_of(self, key: str | None) -> Place:
         """Where the value of a key stands; the form itself when there is none."""
-        return self._entries.get(key, self.origin).place
+        return self.origin.place if key is None else self._entries.get(key, self.origin).place
 
     def key_place(self, key: str) -> Place:
         """Where the key itself stands."""

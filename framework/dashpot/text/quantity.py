@@ -10,7 +10,7 @@ import math
 import re
 from decimal import Decimal
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dashpot.text.problem import nearest
 
@@ -143,15 +143,14 @@ def is_unit(text: str) -> bool:
 @cache
 def base_unit(unit_text: str) -> str:
     """The SI base unit of the same kind: `kN` gives `kg*m*s^-2`. ValueError for an unknown unit."""
-    dimension = _parse(unit_text).dimensionality
-    powers = [(name, dimension.get(key, 0)) for key, name in _BASE_UNITS.items()]
-    return "*".join(f"{name}^{float(power):g}" for name, power in powers if power) or "1"
+    powers = _powers(unit_text)
+    present = [(name, powers[key]) for key, name in _BASE_UNITS.items() if key in powers]
+    return "*".join(f"{name}^{power:g}" for name, power in present) or "1"
 
 
 def measure(quantity: str | float) -> float:
     """A quantity of any kind in SI base units: `3 bar` gives 300000. ValueError when it is none."""
-    match = _NUMBER.match(quantity.strip()) if isinstance(quantity, str) else None
-    written = quantity.strip()[match.end() :].strip() if match else ""
+    written = _NUMBER.sub("", quantity.strip(), count=1).strip() if isinstance(quantity, str) else ""
     return si(quantity, base_unit("1" + written if written.startswith("/") else written) if written else "1")
 
 
@@ -162,17 +161,17 @@ def force_dimension(unit: str) -> int:
     At fixed lengths and times forces grow like masses, so it is the power of the mass. Raises ValueError when that
     is not a whole number or the unit is unknown.
     """
-    power = _parse(unit).dimensionality.get("[mass]", 0)
+    power = _powers(unit).get("[mass]", 0.0)
     if power != int(power):
-        raise ValueError(f"expected a whole power of force in the unit '{unit}', got {power}")
+        raise ValueError(f"expected a whole power of force in the unit '{unit}', got {power:g}")
     return int(power)
 
 
 @cache
 def dimensions(unit: str) -> tuple[float, float, float]:
     """The powers of force, length and time in a unit: `N*s/m` gives (1, -1, 1). ValueError for an unknown unit."""
-    found = _parse(unit).dimensionality
-    mass, length, time = (float(found.get(name, 0)) for name in ("[mass]", "[length]", "[time]"))
+    found = _powers(unit)
+    mass, length, time = (found.get(name, 0.0) for name in ("[mass]", "[length]", "[time]"))
     return mass, length - mass, time + 2.0 * mass
 
 
@@ -259,6 +258,11 @@ def _parse(unit_text: str) -> pint.Unit:
         raise _unknown_unit(unit_text, names[0]) from None
 
 
+def _powers(unit: str) -> dict[str, float]:
+    dimension: Any = _parse(unit).dimensionality
+    return {name: float(power) for name, power in dimension.items()}
+
+
 def _unknown_unit(unit_text: str, word: str) -> ValueError:
     hint = nearest(word, _FAMILIAR) or "units look like N, N/mm, N*s/mm, ms, Hz, %"
     return ValueError(f"unknown unit '{unit_text}'; {hint}")
@@ -272,6 +276,6 @@ def _convert(value: int, given: pint.Unit, wanted: pint.Unit) -> Decimal:
 def _registry() -> pint.UnitRegistry:
     import pint
 
-    registry = pint.UnitRegistry(None, autoconvert_offset_to_baseunit=True, non_int_type=Decimal)
+    registry: pint.UnitRegistry = pint.UnitRegistry(None, autoconvert_offset_to_baseunit=True, non_int_type=Decimal)
     registry.load_definitions((_PREFIXES + _UNITS).strip().splitlines())
     return registry

@@ -72,7 +72,14 @@ def test_an_exception_in_the_library_comes_out_of_ask() -> None:
     assert threads() == []
 
 
-@pytest.mark.parametrize("call", [forever, stubborn])
+def afterthought(evaluate) -> None:
+    try:
+        forever(evaluate)
+    finally:
+        evaluate(np.full((4, 2), 0.5))
+
+
+@pytest.mark.parametrize("call", [forever, stubborn, afterthought])
 def test_the_thread_ends_when_the_budget_does(call) -> None:
     result = run_search(Library(call), worth, worth, SPACE, 1, budget=10)
     assert (result.ending, result.evaluations) == (Ending.BUDGET, 10)

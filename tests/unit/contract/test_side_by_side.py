@@ -90,4 +90,4 @@ def test_all_are_closed_when_the_owner_is() -> None:
     ("best", "share"), [([1.0, 1.009, 1.02], "2 of 3"), ([2.0], "1 of 1"), ([0.0, 0.0, 1.0], "2 of 3")]
 )
 def test_agreement_counts_the_starts_that_end_alike(best: list[float], share: str) -> None:
-    assert agreement(best) == f"{share} starts end within 1% of the best"
+    assert agreement(best) == f"{share} starts end within 1 % of the best"

@@ -100,7 +100,7 @@ def test_several_starts_are_screened_in_one_block_of_losses_and_advance_together
     assert asked[0] == ("losses", 15)
     assert asked[1] == ("residuals", 3 * (1 + SPACE.size))
     assert {needs for needs, _ in asked[1:]} == {"residuals"}
-    assert "of 3 starts end within 1% of the best" in result.remark
+    assert "of 3 starts end within 1 % of the best" in result.remark
 
 
 def test_starts_are_the_given_one_and_the_best_of_the_others() -> None:

@@ -65,6 +65,13 @@ def test_multistart_asks_for_all_starts_in_one_block() -> None:
     assert result.loss == pytest.approx(1.0, abs=1e-4)
 
 
+def test_multistart_gives_every_start_its_own_chance() -> None:
+    first: list[np.ndarray] = []
+    run(Multistart(of="pso", starts=2), lambda points: [first.append(points), bowl(points)][1], budget=2 * 96)
+    one, other = np.split(first[0], 2)
+    assert not np.isin(one[1:], other[1:]).any()
+
+
 def test_multistart_names_the_nearest_optimizer_when_it_knows_none_of_that_word() -> None:
     with pytest.raises(ValueError, match="expected the word of an optimizer, got 'psso', did you mean 'pso'"):
         run(Multistart(of="psso"), bowl)

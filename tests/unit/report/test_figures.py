@@ -185,3 +185,23 @@ def test_the_table_behind_a_figure_says_where_each_number_belongs():
 def test_all_models_of_a_comparison_fit_on_the_bars():
     figure = figures.rmse_bars([{"name": name, **model(name, 9.0)["rmse"]} for name in ("spring", "gehmann")])
     assert [trace["name"] for trace in figure.plot["data"]] == ["training runs", "held-out runs"]
+
+
+def test_a_model_keeps_its_dash_where_another_is_missing():
+    response = {"stiffness": np.ones(2), "loss_angle": np.ones(2)}
+    curve = {"run": "a", "frequency": np.arange(2.0), "measured": response}
+    both, one = (
+        curve | {"simulated": {"spring": response, "gehmann": response}},
+        curve | {"simulated": {"gehmann": response}},
+    )
+    traces = figures.dynamic_stiffness([both, one]).plot["data"]
+    assert len({trace["line"]["dash"] for trace in traces if trace["meta"]["series"] == "gehmann"}) == 1
+
+
+@pytest.mark.parametrize("models", [1, 2, 10])
+def test_many_models_do_not_make_the_page_larger(models):
+    time = np.linspace(0.0, 30.0, 30001)
+    x = 0.02 + 0.005 * np.sin(2.0 * np.pi * (time + 0.4 * time**2))
+    measured = {f"run {i}": {"time": time, "displacement": x, "force": 1e4 * x} for i in range(17)}
+    simulated = {f"model {k}": {run: 1.01e4 * x for run in measured} for k in range(models)}
+    assert len(json.dumps(plot_json(figures.loops(measured, simulated)))) < 1.1e6

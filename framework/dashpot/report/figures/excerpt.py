@@ -6,7 +6,12 @@ import itertools
 
 import numpy as np
 
-CYCLES, CYCLE_POINTS = 6, 300
+CYCLES, CYCLE_POINTS, LEAST_POINTS = 6, 300, 200
+
+
+def affordable(runs: int, columns: int, most: int, numbers: int) -> int:
+    """Points a run, at most `most`, with which a table of so many runs and columns keeps to its `numbers`."""
+    return max(LEAST_POINTS, min(most, numbers // (max(1, runs) * columns)))
 
 
 def cycle_excerpts(time: np.ndarray, displacement: np.ndarray, points: int) -> list[np.ndarray]:

@@ -13,7 +13,7 @@ from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, layout, plain, series_color
 
 POINTS_PER_TRACE = 2000
-POINTS_PER_FIGURE = 20000
+NUMBERS_PER_FIGURE = 100000
 WIDTHS = {"measured": 2.4, "before": 1.8}
 
 X, TIME, MEASURED = "displacement (mm)", "time (s)", "measured (N)"
@@ -31,7 +31,7 @@ def loops(
     them it is the run with the largest error of the first label. Long runs are drawn as cycles spread over the run.
     """
     table = TidyTable("run", TIME, X, MEASURED, *map(_heading, simulated))
-    points = max(200, min(POINTS_PER_TRACE, POINTS_PER_FIGURE // max(1, len(measured))))
+    points = excerpt.affordable(len(measured), 3 + len(simulated), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
     traces = []
     for run, signals in measured.items():
         block = table.add(_block(run, signals, simulated, points))

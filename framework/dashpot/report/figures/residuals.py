@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 
 from dashpot.report.figures import toggles
-from dashpot.report.figures.excerpt import envelope
+from dashpot.report.figures.excerpt import affordable, envelope
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, layout, plain, series_color
 
 TIME = "time (s)"
 POINTS_PER_TRACE = 2000
-POINTS_PER_FIGURE = 12000
+NUMBERS_PER_FIGURE = 40000
 
 
 def residual_traces(
@@ -27,7 +27,7 @@ def residual_traces(
     the run with the largest residual of the first label.
     """
     labels = list(residuals)
-    points = max(200, min(POINTS_PER_TRACE, POINTS_PER_FIGURE // max(1, len(time))))
+    points = affordable(len(time), 1 + len(labels), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
     table = TidyTable("run", TIME, *map(_heading, labels))
     traces = []
     for run, moments in time.items():

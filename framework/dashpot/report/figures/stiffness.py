@@ -38,7 +38,9 @@ def dynamic_stiffness(curves: Sequence[Curve]) -> Figure:
     for curve in curves:
         block = table.add(_block(curve))
         color = ordered_color(amplitudes.index(_amplitude(curve)), len(amplitudes))
-        traces += _traces(curve, block, color, panels.index(_panel(curve, panels)), len(panels))
+        panel = panels.index(_panel(curve, panels))
+        cells = [panel + level * len(panels) for level in range(len(ROWS))]
+        traces += _traces(curve, block, color, cells, labels)
     title = "Amplitude" if any(curve.get("amplitude") is not None for curve in curves) else "Runs"
     groups = _groups(amplitudes, labels, title)
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(panels, groups)}
@@ -53,22 +55,24 @@ def _block(curve: Curve) -> dict[str, Any]:
     return block
 
 
-def _traces(curve: Curve, block: Mapping[str, Any], color: str, panel: int, panels: int) -> list[dict[str, Any]]:
+def _traces(
+    curve: Curve, block: Mapping[str, Any], color: str, cells: Sequence[int], labels: Sequence[str]
+) -> list[dict[str, Any]]:
     return [
         {
-            **_look(label, color, list(curve["simulated"])),
+            **_look(label, color, labels),
             "type": "scatter",
             "name": f"{plain(curve['run'])}, {plain(toggles.series_name(label))}",
             "text": f"{plain(curve['run'])}, {plain(toggles.series_name(label))}",
             "meta": {"amplitude": _amplitude(curve), "series": label},
             "x": block[FREQUENCY],
             "y": block[_heading(label, row)],
-            "xaxis": axis_number("x", panel + level * panels),
-            "yaxis": axis_number("y", panel + level * panels),
+            "xaxis": axis_number("x", cell),
+            "yaxis": axis_number("y", cell),
             "hovertemplate": f"%{{text}}<br>%{{x:.2f}} Hz, %{{y:.4g}} {row[2]}<extra></extra>",
         }
         for label in _responses(curve)
-        for level, row in enumerate(ROWS)
+        for cell, row in zip(cells, ROWS, strict=True)
     ]
 
 

@@ -1,0 +1,201 @@
+"""Finding causes one after the other: screen, refit the finalists, accept the best, look again, prune.
+
+A cause is accepted when its refitted model is better by more than its parameters cost and by more than pure noise could
+fake, and when it makes runs better that nobody fitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.assess.contest import Bench, Model, Trial, try_finding
+from dashpot.assess.gain import Gain, measure_gain
+from dashpot.assess.noise import NoiseModel
+from dashpot.assess.screen import Finding
+from dashpot.assess.suspicion import Look, expected_gain, look_at
+from dashpot.contract.cause import Cause
+from dashpot.fit.objective import Objective
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.model.reading import parse_network
+
+Array = NDArray[np.float64]
+
+MOST_CAUSES = 5
+FINALISTS = 5
+TIE = 10.0
+TIE_SHARE = 5e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Accepted:
+    """A cause with its proof: the model after it, the gain on held-out runs, what could not be told from it."""
+
+    finding: Finding
+    trial: Trial
+    expected_gain: float
+    gain: Gain | None
+    rivals: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Rejection:
+    """A candidate that was refitted and did not hold."""
+
+    cause: str
+    form: str
+    reason: str
+    expected_gain: float | None = None
+    gain: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Pursuit:
+    """The way from the first look to the last one."""
+
+    first: Look
+    last: Look
+    accepted: tuple[Accepted, ...]
+    rejected: tuple[Rejection, ...]
+    tried: int
+
+
+@dataclass(eq=False)
+class Pursuer:
+    """Runs a pursuit; holds what all rounds share."""
+
+    bench: Bench
+    held_out: Sequence[ScoredRun]
+    causes: Sequence[type[Cause]]
+    seed: int
+    watch: Callable[[str, float], None]
+    rejected: list[Rejection] = field(default_factory=list)
+    tried: int = 0
+
+    def run(self, model: Model) -> Pursuit:
+        """Accept causes until nothing significant is left."""
+        self.watch("first look", 0.0)
+        first = look = look_at(self.bench, model, self.causes, None, self.seed)
+        accepted: list[Accepted] = []
+        while len(accepted) < MOST_CAUSES:
+            self.tried += len(look.screen.findings)
+            winner = self.best_trial(look)
+            if winner is None:
+                break
+            accepted.append(winner)
+            self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
+            look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
+            accepted, look = self.prune(accepted, look, first)
+        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried)
+
+    def best_trial(self, look: Look) -> Accepted | None:
+        """The best finalist that holds on runs that took no part, or None."""
+        finalists = choose_finalists(look)
+        trials = []
+        for finding in finalists:
+            self.watch(f"refit with {finding.candidate.cause.word}", 0.0)
+            trials.append(try_finding(self.bench, look.model, finding, look.noise, look.screen.samples))
+        ranked = sorted(trials, key=lambda trial: -trial.merit)
+        for trial in ranked:
+            foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
+            gain = self.gain_of(look.model, trial.model)
+            reason = self.objection(trial, gain, look)
+            if reason:
+                self.reject(trial, reason, foreseen, gain)
+                continue
+            chosen, rivals = settle_ties(trial, ranked)
+            gain = gain if chosen is trial else self.gain_of(look.model, chosen.model)
+            for other in ranked:
+                if other is not chosen and other.merit < trial.merit - tie_width(trial):
+                    self.reject(other, "explains less than the accepted cause", None, None)
+            return Accepted(chosen.finding, chosen, foreseen, gain, rivals)
+        return None
+
+    def objection(self, trial: Trial, gain: Gain | None, look: Look) -> str:
+        """Why a trial may not be accepted, or an empty text."""
+        if trial.failure:
+            return trial.failure
+        if trial.merit <= look.screen.threshold:
+            return "after the refit it explains no more than its own parameters would by chance"
+        if gain is not None and gain.interval[1] <= 0.0:
+            return "makes the held-out runs worse: not supported by the data"
+        return ""
+
+    def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:
+        """Note a candidate that did not hold, with the reason."""
+        candidate = trial.finding.candidate
+        self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen,
+                                       gain.value if gain else None))  # fmt: skip
+
+    def gain_of(self, before: Model, after: Model) -> Gain | None:
+        """The gain on the held-out runs."""
+        misfits = [held_out_misfits(model, self.held_out) for model in (before, after)]
+        return measure_gain(*misfits, [run.drive.dt for run in self.held_out], self.seed)
+
+    def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """Drop an earlier cause that a later one made superfluous."""
+        for number in range(len(accepted) - 1):
+            kept = [*accepted[:number], *accepted[number + 1 :]]
+            model = self.rebuild(kept, look.model, first, look.noise)
+            price = (look.model.point.size - model.point.size) * np.log(look.screen.samples)
+            if model.chi_square - look.model.chi_square < price + look.screen.threshold:
+                word = accepted[number].finding.candidate.cause.word
+                self.rejected.append(Rejection(word, accepted[number].finding.candidate.suspect.form,
+                                               "superfluous once the later causes are there"))  # fmt: skip
+                return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
+        return accepted, look
+
+    def rebuild(self, kept: Sequence[Accepted], model: Model, first: Look, noise: NoiseModel) -> Model:
+        """The first model with the patches of some causes, refitted from the present numbers."""
+        text = first.model.declared.document.text
+        for entry in kept:
+            text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
+        declared = parse_network(text, self.bench.elements)
+        return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise)
+
+
+def choose_finalists(look: Look) -> list[Finding]:
+    """The best form of each significant cause, and further forms that come near it; best first."""
+    significant = [finding for finding in look.screen.findings if finding.merit > look.screen.threshold]
+    best: dict[str, float] = {}
+    chosen = []
+    for finding in significant:
+        word = finding.candidate.cause.word
+        if word not in best or finding.gain > 0.9 * best[word]:
+            best.setdefault(word, finding.gain)
+            chosen.append(finding)
+    return chosen[:FINALISTS]
+
+
+def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[str, ...]]:
+    """Among trials that fit alike the one with fewest parameters; the other causes among them are its rivals."""
+    near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
+    chosen = min(near, key=lambda other: (other.model.point.size, -other.merit))
+    word = chosen.finding.candidate.cause.word
+    rivals = dict.fromkeys(other.finding.candidate.cause.word for other in near)
+    return chosen, tuple(rival for rival in rivals if rival != word)
+
+
+def tie_width(trial: Trial) -> float:
+    """How near two merits may be without saying which cause it is."""
+    return max(TIE, TIE_SHARE * trial.gain)
+
+
+def held_out_misfits(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
+    """Simulated minus measured force (samples,) of every run, warm-up cut off."""
+    if not runs:
+        return []
+    objective = Objective(compile_network(model.fitted), runs)
+    misfits = objective.misfits(model.values)[0]
+    return [misfits[piece] for piece in objective.pieces]
+
+
+def residuals_of(model: Model, runs: Mapping[str, ScoredRun]) -> dict[str, Array]:
+    """Measured minus simulated force (n,) of every run, warm-up included."""
+    objective = Objective(compile_network(model.fitted), list(runs.values()))
+    forces = objective.forces(model.values)
+    return {name: run.force - force[0] for (name, run), force in zip(runs.items(), forces, strict=True)}

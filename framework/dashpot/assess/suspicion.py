@@ -1,0 +1,122 @@
+"""One look at a fitted model: its residual, what a refit could absorb, and every suspect screened."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.assess.contest import Bench, Model
+from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
+from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_columns, rich_residual, screen
+from dashpot.assess.view import ModelView
+from dashpot.contract.cause import Cause
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import linearise
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.text.problem import InputError
+
+Array = NDArray[np.float64]
+
+NOISE_ROUNDS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """A model refitted under the noise that was found, and what the screen says about it."""
+
+    model: Model
+    noise: NoiseModel
+    view: ModelView
+    columns: Columns
+    screen: Screen
+    unavailable: tuple[tuple[str, str], ...]
+
+
+def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: NoiseModel | None, seed: int) -> Look:
+    """Learn the noise, refit the model under it, screen all suspects."""
+    noise = noise or first_noise(bench, model)
+    model = bench.fit(model.declared, model.fitted, noise)
+    view, residual, tangents = linear_view(bench, model)
+    candidates, unavailable = gather_candidates(causes, view, model)
+    nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors, residual)
+    columns = collect_columns(view, residual, tangents, candidates, nuisance, priors)
+    for _ in range(NOISE_ROUNDS):
+        noise = learn_noise(rich_residual(columns, noise))
+    model = bench.fit(model.declared, model.fitted, noise)
+    view, residual, tangents = linear_view(bench, model)
+    columns = Columns(residual, tangents, nuisance, columns.bank, priors, columns.candidates)
+    return Look(model, noise, view, columns, screen(columns, noise, seed), unavailable)
+
+
+def first_noise(bench: Bench, model: Model) -> NoiseModel:
+    """White noise as large as the misfit of each run."""
+    network = compile_network(model.fitted)
+    rmse = Objective(network, bench.runs, bench.jobs).rmse(network.start)[:, 0]
+    return flat_noise({run.name: float(r) for run, r in zip(bench.runs, rmse, strict=True)})
+
+
+def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array], dict[str, Array]]:
+    """The model as causes see it, its residual (n,) and its tangents (p, n) by run, warm-up cut off."""
+    network = compile_network(model.fitted)
+    objective = Objective(network, bench.runs, bench.jobs, whiten=lambda run, misfits: misfits)
+    misfit, jacobian = linearise(objective, model.coordinates, model.point)
+    forces = objective.forces(model.values)
+    names = [run.name for run in bench.runs]
+    view = ModelView(dict(zip(names, bench.runs, strict=True)),
+                     {name: force[0] for name, force in zip(names, forces, strict=True)}, bench.elements)  # fmt: skip
+    residual = {name: -misfit[piece] for name, piece in zip(names, objective.pieces, strict=True)}
+    return view, residual, {name: jacobian[:, piece] for name, piece in zip(names, objective.pieces, strict=True)}
+
+
+def gather_candidates(causes: Sequence[type[Cause]], view: ModelView, model: Model,
+                      ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:  # fmt: skip
+    """All forms of all causes with the places of their columns; a cause that cannot be tried is named with the reason."""
+    found: list[Candidate] = []
+    unavailable, first = [], 0
+    for cause in causes:
+        try:
+            suspects = list(cause().suspects(view, model.fitted))
+            for suspect in suspects:
+                suspect.columns(view, view.runs[0])
+        except InputError as error:
+            unavailable.append((cause.word, str(error)))
+            continue
+        for suspect in suspects:
+            found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid))))
+            first += len(suspect.grid)
+    return found, tuple(unavailable)
+
+
+def sensor_nuisance(runs: Sequence[ScoredRun], view: ModelView, sensors: Mapping[str, Mapping[str, float]],
+                    residual: Mapping[str, Array]) -> tuple[dict[str, Array], Array]:  # fmt: skip
+    """Columns of the force channel's errors within its specification, one of each per run, and how large they may be."""
+    rows: list[tuple[str, Array, float]] = []
+    for run in runs:
+        force, first = view.force(run.name), run.first
+        shapes = {"gain": force, "zero": np.ones(force.size), "delay": -np.gradient(force, run.drive.dt)}
+        for key, size in sensors.get(run.name, {}).items():
+            if key in shapes and size > 0.0:
+                rows.append((run.name, shapes[key][first:], size))
+    nuisance = {}
+    for name, values in residual.items():
+        nuisance[name] = np.array([row if owner == name else np.zeros(values.size) for owner, row, _ in rows])
+        nuisance[name] = nuisance[name].reshape(len(rows), values.size)
+    return nuisance, np.array([size for *_, size in rows])
+
+
+def expected_gain(columns: Columns, finding: Finding, runs: Sequence[ScoredRun]) -> float:
+    """The fall of the training error that the screen foresees, 1 - RMSE after / RMSE before, the rest readjusted."""
+    where = np.arange(finding.candidate.columns.start, finding.candidate.columns.stop)[list(finding.chosen)]
+    added = {run: finding.strengths @ columns.bank[run][where] for run in columns.residual}
+    weight = {run: 1.0 / columns.residual[run].size for run in columns.residual}
+    left = {run: columns.residual[run] - added[run] for run in columns.residual}
+    gram = sum(weight[run] * (t @ t.T) for run, t in columns.tangents.items())
+    right = sum(weight[run] * (t @ left[run]) for run, t in columns.tangents.items())
+    moves = np.linalg.lstsq(gram, right, rcond=1e-12)[0] if np.size(right) else np.zeros(0)
+    after = sum(weight[run] * float(np.sum((left[run] - moves @ columns.tangents[run]) ** 2)) for run in left)
+    before = sum(weight[run] * float(np.sum(columns.residual[run] ** 2)) for run in left)
+    return float(1.0 - np.sqrt(after / before)) if before > 0.0 else 0.0

@@ -1,0 +1,19 @@
+"""What is said in the end."""
+
+from __future__ import annotations
+
+from dashpot.assess.leftover import Leftover
+from dashpot.assess.pursuit import Pursuit
+
+
+def give_verdict(pursuit: Pursuit, leftover: Leftover) -> str:
+    """One of the verdict words of the result file.
+
+    ``ambiguous`` when an accepted cause has a rival that fits alike; ``partly_explained`` and ``unexplained`` when
+    structure is left that no suspect explains.
+    """
+    if any(entry.rivals for entry in pursuit.accepted):
+        return "ambiguous"
+    if pursuit.accepted:
+        return "partly_explained" if leftover.notable else "explained"
+    return "unexplained" if leftover.notable else "nothing_missing"
