@@ -71,28 +71,40 @@ def _read_table(lines: list[str], layout: Layout, header: Header) -> Table:
         for index in range(layout.first, len(lines))
         if lines[index].strip() and not is_comment(lines[index], layout.delimiter)
     ]
-    rows = [split_row(lines[index], layout.delimiter) for index in kept]
+    cells = _split_columns([lines[index] for index in kept], layout.delimiter)
     width = max(layout.width, len(header.names))
-    _refuse_long_rows(rows, kept, layout, width)
+    _refuse_long_rows(cells, kept, layout, width)
+    cells += [[""] * len(kept)] * (width - len(cells))
     names = [header.names[index] if index < len(header.names) else str(index + 1) for index in range(width)]
-    cells = zip_longest(*rows, [""] * width, fillvalue="")
-    columns = {name: _numbers(texts[:-1], layout.decimal) for name, texts in zip(names, cells, strict=False)}
+    columns = {name: _numbers(texts, layout.decimal) for name, texts in zip(names, cells, strict=False)}
     units = {name: unit for name, unit in zip(header.names, header.units, strict=False) if unit}
     return Table(columns, units, lines=np.array(kept) + 1)
 
 
-def _refuse_long_rows(rows: list[list[str]], kept: list[int], layout: Layout, width: int) -> None:
+def _split_columns(rows: list[str], delimiter: str | None) -> list[Sequence[str]]:
+    """The texts of every column. Rows that are all alike, the usual case, are split in one go."""
+    widths = {len(row.split(delimiter)) for row in rows}
+    if len(widths) == 1 and (delimiter is None or not any('"' in row for row in rows)):
+        (width,) = widths
+        cells = (delimiter or " ").join(rows).split(delimiter)
+        return [cells[index::width] for index in range(width)]
+    return list(zip_longest(*(split_row(row, delimiter) for row in rows), fillvalue=""))
+
+
+def _refuse_long_rows(cells: list[Sequence[str]], kept: list[int], layout: Layout, width: int) -> None:
     """More values than columns: a lost line break, say. Lines of text may have any number of words."""
-    for index, row in zip(kept, rows, strict=True):
-        if len(row) > width and any(row[width:]) and is_number(row[0], layout.decimal):
-            message = f"expected {width} values, got {len(row)}"
-            raise ReadingError(message, "correct the line; or name 'delimiter' and 'decimal'", index + 1)
+    for column in cells[width:]:
+        for row, text in enumerate(column):
+            if text.strip() and is_number(cells[0][row].strip(), layout.decimal):
+                count = sum(bool(other[row].strip()) for other in cells)
+                message = f"expected {width} values, got {count}"
+                raise ReadingError(message, "correct the line; or name 'delimiter' and 'decimal'", kept[row] + 1)
 
 
 def _numbers(texts: Sequence[str], decimal: str) -> np.ndarray:
     """Numbers (n,), or an object array of numbers and of the texts that are none; what is empty is NaN."""
     together = "\n".join(texts)
-    if "_" not in together:
+    if "_" not in together and not (decimal == "," and "." in together):
         try:
             return np.array(together.replace(decimal, ".").split("\n"), dtype=float)
         except ValueError:
@@ -103,6 +115,7 @@ def _numbers(texts: Sequence[str], decimal: str) -> np.ndarray:
 
 
 def _number(text: str, decimal: str) -> float | str:
+    text = text.strip()
     if is_number(text, decimal):
         return float(text.replace(decimal, "."))
     return float("nan") if text.lower() in NO_VALUE else text

@@ -40,8 +40,9 @@ def common_span(length: int, others: list[tuple[int, float]]) -> tuple[int, int]
         stop = min(stop, int(np.floor(other - _REACH - lag)))
     if stop - start < 2 * _REACH:
         raise ValueError(
-            f"expected runs that overlap, got lags {[round(lag, 1) for _, lag in others]} on {length} samples; "
-            "they do not repeat each other, or belong on one trigger"
+            f"expected runs that overlap by {2 * _REACH} samples beyond the ends, got lags "
+            f"{[round(lag, 1) for _, lag in others]} on {length} samples; "
+            "measure longer, start them on one trigger, or do not name them repeats"
         )
     return start, stop
 

@@ -89,7 +89,7 @@ def friction_start(displacement: np.ndarray, force: np.ndarray) -> FrictionStart
     """Limit and travel of friction from the width of a slow loop.
 
     Right after a reversal the loop opens like 2 limit (1 - exp(-way / travel)); the backbone cancels in its width.
-    Raises ValueError when one direction was not measured.
+    Raises ValueError when one direction was not measured, or loading is not above unloading.
     """
     loop = mean_loop(displacement, force)
     if not loop.complete:
@@ -98,6 +98,11 @@ def friction_start(displacement: np.ndarray, force: np.ndarray) -> FrictionStart
             "give the friction start values by hand, or a run that turns round"
         )
     limit = _interior_width(loop)
+    if limit <= 0.0:
+        raise ValueError(
+            f"expected a loop that dissipates, got a half width of {limit:.3g} N; there is no friction to start from, "
+            "or a channel has the wrong sign"
+        )
     return FrictionStart(limit, _opening_travel(loop, limit))
 
 

@@ -47,7 +47,7 @@ class NoiseSpectrum:
     def _below(self) -> float:
         """Power below the lowest frequency that was read, where the density goes on as a first-order shape."""
         lowest = self.frequency[0]
-        if lowest == 0.0:
+        if lowest == 0.0 or self.density[0] == 0.0:
             return 0.0
         grid = np.linspace(0.0, lowest, 65)
         shape = _first_order_shape(self.frequency, self.density)
@@ -128,6 +128,7 @@ def _first_order_shape(frequency: np.ndarray, density: np.ndarray) -> Callable[[
         return np.stack([np.ones_like(at), 1.0 / (1.0 + (at / corner) ** 2)], axis=-1)
 
     corners = np.geomspace(frequency[0] / 3.0, frequency[-1], 40)
-    fits = [nnls(parts(frequency, corner) / density[:, None], np.ones_like(density)) for corner in corners]
+    scale = np.maximum(density, 1e-9 * np.max(density))[:, None]
+    fits = [nnls(parts(frequency, corner) / scale, density / scale[:, 0]) for corner in corners]
     best = int(np.argmin([rest for _, rest in fits]))
     return lambda at: parts(at, corners[best]) @ fits[best][0]

@@ -57,10 +57,15 @@ def _neighbour(path: Path) -> str:
 def find_file(file: str, folder: Path, allow_outside: bool, place: Place) -> Path:
     """The path of a measurement file, below the folder unless said otherwise. Raises Unusable."""
     path = folder / file
-    if not allow_outside and not path.resolve().is_relative_to(folder.resolve()):
+    try:
+        is_below = path.resolve().is_relative_to(folder.resolve())
+        exists = path.is_file()
+    except (OSError, RuntimeError) as error:
+        raise Unusable([Trouble(f"this cannot be a file: {error}", "check its name", place)]) from None
+    if not is_below and not allow_outside:
         hint = "move it there, or write 'allow_outside: true' at the top of the dataset"
         raise Unusable([Trouble("it lies outside the folder of the dataset", hint, place)])
-    if not path.is_file():
+    if not exists:
         raise Unusable([Trouble("there is no such file", _neighbour(path), place)])
     return path
 

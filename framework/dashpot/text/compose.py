@@ -11,7 +11,7 @@ from dashpot.text.core_schema import resolve
 from dashpot.text.node import Mapping, Node, Scalar, Sequence
 from dashpot.text.problem import InputError, Place, Problem
 
-MAX_NODES = 200_000
+MAX_NODES = 100_000
 MAX_DEPTH = 64
 MAX_ALIASES = 16
 

@@ -155,10 +155,12 @@ class Form:
 
 
 def read_text(node: Node) -> str:
-    """The text of a scalar. ValueError for anything else, and for an empty one."""
-    if isinstance(node, Scalar) and node.value is not None and node.written.strip():
-        return node.written
-    raise ValueError(f"expected a text, got {node.describe()}")
+    """The text of a scalar. ValueError for anything else, for an empty one and for one with control characters."""
+    if not isinstance(node, Scalar) or node.value is None or not node.written.strip():
+        raise ValueError(f"expected a text, got {node.describe()}")
+    if any(ord(character) < 32 and character not in "\n\t" for character in node.written):
+        raise ValueError(f"expected a text without control characters, got {node.written!r}")
+    return node.written
 
 
 def read_number(node: Node) -> float:

@@ -160,6 +160,12 @@ def test_one_direction_alone_is_flagged():
         friction_start(displacement, spring(displacement))
 
 
+def test_a_loop_that_gives_energy_has_no_friction_to_start_from():
+    displacement = path(0.0, 0.03, 0.0)
+    with pytest.raises(ValueError, match="expected a loop that dissipates, got a half width of -.* wrong sign"):
+        friction_start(displacement, spring(displacement) - sliders(displacement))
+
+
 def test_friction_starts_at_the_limit_and_travel_of_a_dahl_slider(random):
     limit, travel = random.uniform(10, 200), random.uniform(0.3, 1.0) * MILLIMETRE
     displacement = path(0.0, *(0.03, 0.0) * 3)

@@ -95,6 +95,8 @@ def told(folder: Path, run: str) -> str:
         ("name: ^a/b, file: good.npz", "'a/b' cannot be the name of a run. leave out"),
         ("name: ^.b, file: good.npz", "'.b' cannot be the name of a run. leave out"),
         ("name: b, file: ^../good.npz", "it lies outside the folder of the dataset. move it there, or write"),
+        ('name: b, file: ^"a\\0b"', "'file': expected a text without control characters, got 'a\\x00b'"),
+        (f"name: b, file: ^{'x' * 300}.csv", "this cannot be a file"),
         ("name: b, file: ^/etc/passwd", "it lies outside the folder of the dataset"),
         ("name: b, file: good.npz, sampling: ^0", "expected a sampling rate above 0, got 0 Hz"),
         ("name: b, file: good.npz, sampling: ^1 ms", "'sampling': expected a quantity in Hz, got 'ms'"),

@@ -125,6 +125,11 @@ def test_an_empty_value_and_nan_are_missing_numbers(tmp_path):
     assert np.isnan(table.columns["x"]).tolist() == [False, True, True, False, False]
 
 
+def test_a_point_in_a_file_with_decimal_commas_is_not_guessed_at(tmp_path):
+    table = read(tmp_path, "t;x\n0,5;1,5\n1,5;2,5\n2,5;1.234\n3,5;2,5\n4,5;1_0\n")
+    assert table.columns["x"].tolist() == [1.5, 2.5, "1.234", 2.5, "1_0"]
+
+
 def test_names_may_be_separated_otherwise_than_the_numbers(tmp_path):
     table = read(tmp_path, "t, x, F\n" + rows_text("  "))
     assert list(table.columns) == ["t", "x", "F"]

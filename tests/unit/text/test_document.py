@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import pytest
-from hypothesis import given
+import yaml
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dashpot.text.compose import MAX_ALIASES, MAX_DEPTH, MAX_NODES
@@ -108,6 +110,42 @@ def test_replacing_a_scalar_by_its_span_changes_only_that_scalar(values, comment
     last = document.root.entries[f"k{len(values) - 1}"]
     changed = Document.parse(text[: last.start] + "42" + text[last.end :]).root.plain()
     assert changed == {f"k{index}": value for index, value in enumerate(values[:-1])} | {f"k{len(values) - 1}": 42}
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.text(st.sampled_from("abc:-[]{},'\"#&*!|>%@`?~ \n\t\r1.e\x00ä\ufeff"), max_size=60))
+def test_any_text_is_a_document_or_an_input_error(text):
+    try:
+        document = Document.parse(text)
+    except InputError as error:
+        assert all(problem.place.line >= 1 and problem.hint for problem in error.problems)
+        return
+    for node in scalars_of(document.root):
+        assert 0 <= node.start <= node.end <= len(text)
+        assert text_of(document, node) == text_of(document, node).strip()
+
+
+leaves = st.one_of(st.integers(), st.booleans(), st.text("ab c:#", max_size=8), st.floats(-1e9, 1e9))
+names = st.text("abcdef", min_size=1, max_size=5)
+trees = st.recursive(leaves, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(names, inner, max_size=3))
+
+
+@settings(max_examples=100, deadline=None)
+@given(tree=st.dictionaries(names, trees, min_size=1, max_size=4), flow=st.booleans())
+def test_what_json_or_yaml_writes_is_read_back_and_every_scalar_spans_its_own_text(tree, flow):
+    text = json.dumps(tree, indent=1) if flow else yaml.safe_dump(tree, allow_unicode=True)
+    document = Document.parse(text)
+    assert document.root.plain() == tree
+    for node in scalars_of(document.root):
+        again = Document.parse("key: " + text_of(document, node).replace("\n", "\n ")).root.plain()["key"]
+        assert again == node.value
+
+
+def scalars_of(node: Node) -> list[Scalar]:
+    if isinstance(node, Scalar):
+        return [node]
+    inner = node.entries.values() if isinstance(node, Mapping) else node.items
+    return [scalar for child in inner for scalar in scalars_of(child)]
 
 
 def test_an_empty_text_is_an_empty_scalar():
