@@ -13,6 +13,8 @@ class Inerter(Element):
     It stands for the part of a fixture that moves between the driven end and the load cell.
     """
 
+    passive = False  # a negative inertance stands for a mass that was subtracted from the measurement
+
     inertance = Parameter("kg", "moving mass", bounds=(-50.0, 50.0), scale="linear", symbol="b")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -22,6 +22,9 @@ from dashpot.model.reading import parse_network
 
 Array = NDArray[np.float64]
 
+STEPS = 20
+TOLERANCE = 1e-5
+
 
 @dataclass(frozen=True, eq=False)
 class Model:
@@ -52,11 +55,11 @@ class Bench:
     sensors: Mapping[str, Mapping[str, float]]
     jobs: int = 1
 
-    def fit(self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel, steps: int = 25) -> Model:
-        """Refit a network from the numbers of ``start``, against whitened misfits."""
-        objective = Objective(compile_network(start), self.runs, self.jobs, noise.whiten)
+    def fit(self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None) -> Model:
+        """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise."""
+        objective = Objective(compile_network(start), self.runs, self.jobs, noise.whiten if noise else None)
         coordinates = search_coordinates(start)
-        found = refine(objective, coordinates, coordinates.start, steps, tolerance=1e-6)
+        found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE)
         fitted = with_point(start, coordinates, found.point)
         return Model(declared, fitted, coordinates, found.point, found.loss**2 * objective.total, found.outcome)
 

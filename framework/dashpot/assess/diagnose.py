@@ -18,6 +18,7 @@ from dashpot.assess.suspicion import linear_view
 from dashpot.assess.verdict import give_verdict
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, measure_errors, prepare, silent
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.objective import Objective
@@ -62,7 +63,7 @@ class Diagnosis:
         """The extended network with its numbers, comments of the original intact."""
         if self.extended_name is None:
             return None
-        declared = self.pursuit.last.model.declared
+        declared = self.pursuit.ladder[-1].declared
         record = {"data": self.setting.dataset.digest[:16], "seed": str(self.seed), "version": dashpot.__version__,
                   "rmse": pretty(self.after.train, "N", 4), "predecessor": self.model.name}  # fmt: skip
         head = [f"{self.model.name}, extended by a diagnosis."]
@@ -103,7 +104,7 @@ class Diagnosis:
         return {
             "cause": cause.word, "class": cause.kind, "rank": rank, "accepted": True,
             "branch": next(iter(slots)).rpartition(".")[0] if slots else None,
-            "evidence": _evidence_words(entry), "expected_gain": entry.expected_gain,
+            "evidence": _evidence_words(entry), "title": cause.about, "expected_gain": entry.expected_gain,
             "gain": entry.gain.value if entry.gain else None,
             "gain_interval": list(entry.gain.interval) if entry.gain else None,
             "parameters": {path.rpartition(".")[2]: {"value": value.number, "unit": value.unit,
@@ -124,6 +125,7 @@ class Diagnosis:
                 if slot.path in mine and slot.path.partition("[")[0] not in known}  # fmt: skip
 
 
+@single_threaded_algebra
 def diagnose(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = None,
              options: Mapping[str, Any] | None = None, seed: int = 0, jobs: int = 1, registry: Registry,
              progress: Progress | None = None) -> Diagnosis:  # fmt: skip
@@ -140,7 +142,7 @@ def diagnose(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = Non
     pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name))
     pursuit = pursuer.run(model_of(fit))
     final = known_to(bench, pursuit)
-    first = pursuit.first.model
+    first = pursuit.ladder[0]
     misfit = describe_misfit(dataset.runs, residuals_of(first, setting.scored))
     runs = [run for run in dataset.runs if run.name in setting.split.train]
     last = pursuit.last
@@ -160,8 +162,8 @@ def model_of(fit: FitResult) -> Model:
 
 def known_to(bench: Bench, pursuit: Pursuit) -> NetworkSpec:
     """The final network with the intervals of its numbers."""
-    model = pursuit.last.model
-    objective = Objective(compile_network(model.fitted), bench.runs, bench.jobs, pursuit.last.noise.whiten)
+    model = pursuit.ladder[-1]
+    objective = Objective(compile_network(model.fitted), bench.runs, bench.jobs)
     known = assess_uncertainty(objective, model.coordinates, model.point)
     return with_intervals(model.fitted, dict(zip(model.coordinates.paths, known.intervals, strict=True)))
 

@@ -28,9 +28,9 @@ POINTS = 40
 def gather_evidence(diagnosis: Diagnosis) -> dict[str, Any]:
     """The evidence of a diagnosis: see ``report.evidence.Evidence``."""
     pursuit, setting = diagnosis.pursuit, diagnosis.setting
-    residuals = {"before": residuals_of(pursuit.first.model, setting.scored)}
+    residuals = {"before": residuals_of(pursuit.ladder[0], setting.scored)}
     if pursuit.accepted:
-        residuals["after"] = residuals_of(pursuit.last.model, setting.scored)
+        residuals["after"] = residuals_of(pursuit.ladder[-1], setting.scored)
     runs = setting.dataset.runs
     return {
         **signal_evidence(runs, residuals),

@@ -7,7 +7,7 @@ fake, and when it makes runs better that nobody fitted.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ MOST_CAUSES = 5
 FINALISTS = 5
 TIE = 10.0
 TIE_SHARE = 5e-4
+SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,13 +56,17 @@ class Rejection:
 
 @dataclass(frozen=True, eq=False)
 class Pursuit:
-    """The way from the first look to the last one."""
+    """The way from the first look to the last one.
+
+    ``ladder`` holds the first model and the model after each accepted cause, refitted to the plain error in N.
+    """
 
     first: Look
     last: Look
     accepted: tuple[Accepted, ...]
     rejected: tuple[Rejection, ...]
     tried: int
+    ladder: tuple[Model, ...]
 
 
 @dataclass(eq=False)
@@ -83,16 +88,25 @@ class Pursuer:
         accepted: list[Accepted] = []
         while len(accepted) < MOST_CAUSES:
             self.tried += len(look.screen.findings)
-            winner = self.best_trial(look)
+            winner = self.best_trial(look, bool(accepted))
             if winner is None:
                 break
             accepted.append(winner)
             self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
             accepted, look = self.prune(accepted, look, first)
-        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried)
+        ladder = self.polish_ladder(first.model, accepted, look)
+        accepted = [replace(entry, gain=self.gain_of(before, after))
+                    for entry, before, after in zip(accepted, ladder, ladder[1:], strict=False)]  # fmt: skip
+        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
 
-    def best_trial(self, look: Look) -> Accepted | None:
+    def polish_ladder(self, first: Model, accepted: Sequence[Accepted], last: Look) -> list[Model]:
+        """The first model and the one after each cause, all fitted to the plain error, so that their gains compare."""
+        self.watch("final refits", 0.0)
+        models = [first, *(entry.trial.model for entry in accepted[:-1])]
+        return [self.bench.fit(m.declared, m.fitted, None) for m in (*models, *([last.model] if accepted else []))]
+
+    def best_trial(self, look: Look, later: bool) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
         finalists = choose_finalists(look)
         trials = []
@@ -103,7 +117,7 @@ class Pursuer:
         for trial in ranked:
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
             gain = self.gain_of(look.model, trial.model)
-            reason = self.objection(trial, gain, look)
+            reason = self.objection(trial, gain, look, later)
             if reason:
                 self.reject(trial, reason, foreseen, gain)
                 continue
@@ -115,14 +129,16 @@ class Pursuer:
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals)
         return None
 
-    def objection(self, trial: Trial, gain: Gain | None, look: Look) -> str:
+    def objection(self, trial: Trial, gain: Gain | None, look: Look, later: bool) -> str:
         """Why a trial may not be accepted, or an empty text."""
         if trial.failure:
             return trial.failure
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
-        if gain is not None and gain.interval[1] <= 0.0:
-            return "makes the held-out runs worse: not supported by the data"
+        if gain is not None and gain.value <= 0.0:
+            return "does not make the held-out runs better: not supported by the data"
+        if gain is not None and later and gain.value < SMALLEST_LATER_GAIN:
+            return f"makes the held-out runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
         return ""
 
     def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:

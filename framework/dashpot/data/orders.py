@@ -6,7 +6,9 @@ The weights are a Hann window over the phase, so that neighbouring orders do not
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 
@@ -30,13 +32,17 @@ class Windows:
     periods: float
     step: float
 
-    def sums(self, angle: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """Hann-weighted sums (m, c) of columns (n, c) over every window, by differences of running sums."""
-        lean = np.exp(1j * np.nan_to_num(angle) / self.periods)[:, None]
-        turn = np.exp(-1j * self.centre / self.periods)[:, None]
-        plain = self._plain_sums(columns)
-        ahead, behind = self._plain_sums(columns * lean), self._plain_sums(columns * lean.conj())
-        return 0.5 * plain + 0.25 * (turn * ahead + turn.conj() * behind)
+    def sums(self, angle: np.ndarray, columns: Iterable[np.ndarray]) -> np.ndarray:
+        """Hann-weighted sums (m, c) of columns (n,) over every window, by differences of running sums."""
+        lean = np.exp(1j * np.nan_to_num(angle) / self.periods)
+        turn = np.exp(-1j * self.centre / self.periods)
+        sums = [
+            0.5 * self._plain_sums(column)
+            + 0.25 * turn * self._plain_sums(column * lean)
+            + 0.25 * turn.conj() * self._plain_sums(column * lean.conj())
+            for column in columns
+        ]
+        return np.stack(sums, axis=1)
 
     def select(self, chosen: np.ndarray) -> Windows:
         """The windows named by a mask or by numbers."""
@@ -45,8 +51,8 @@ class Windows:
     def __len__(self) -> int:
         return len(self.centre)
 
-    def _plain_sums(self, columns: np.ndarray) -> np.ndarray:
-        running = np.concatenate([np.zeros((1, columns.shape[1]), columns.dtype), np.cumsum(columns, axis=0)])
+    def _plain_sums(self, column: np.ndarray) -> np.ndarray:
+        running = np.concatenate([[0.0], np.cumsum(column)])
         return running[self.stop] - running[self.start]
 
 
@@ -97,7 +103,7 @@ def fit_orders(angle: np.ndarray, windows: Windows, signals: np.ndarray, orders:
     level = np.mean(signals, axis=0)
     tones = _tones(angle, 2 * orders)
     middle, gram = _normal_matrix(angle, windows, tones)
-    right, power = _right_sides(angle, windows, tones[:, : orders + 1], signals - level, middle)
+    right, power = _right_sides(angle, windows, tones[: orders + 1], signals - level, middle)
     countable = np.minimum(orders, countable_orders(windows))
     solution, explained = np.full(right.shape, np.nan + 0j), np.empty(power.shape)
     for count in np.unique(countable):
@@ -125,21 +131,22 @@ def countable_orders(windows: Windows) -> np.ndarray:
     return np.maximum(1, (0.5 * _NYQUIST_SHARE * samples_per_period).astype(int))
 
 
-def _tones(angle: np.ndarray, highest: int) -> np.ndarray:
-    """exp(j k theta), k = 0 ... highest, as columns."""
+def _tones(angle: np.ndarray, highest: int) -> list[np.ndarray]:
+    """exp(j k theta), k = 0 ... highest."""
     turns = np.exp(1j * np.nan_to_num(angle))
-    return np.cumprod(np.column_stack([np.ones_like(turns), *[turns] * highest]), axis=1)
+    return list(accumulate([turns] * highest, np.multiply, initial=np.ones_like(turns)))
 
 
-def _normal_matrix(angle: np.ndarray, windows: Windows, tones: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _normal_matrix(angle: np.ndarray, windows: Windows, tones: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
     """Middle (m,) and Gram matrices (m, 2K+2, 2K+2) of exp(j k theta), k = -K ... K, and of the local time.
 
     Products of tones are tones: sum w exp(j (l - k) theta) depends on l - k alone.
     """
-    orders = (tones.shape[1] - 1) // 2
-    time = np.arange(len(angle), dtype=float)[:, None]
-    sums = windows.sums(angle, np.hstack([tones, time * tones[:, : orders + 1], time**2]))
-    plain, timed, squared = sums[:, : 2 * orders + 1], sums[:, 2 * orders + 1 : -1], sums[:, -1].real
+    orders = (len(tones) - 1) // 2
+    time = np.arange(len(angle), dtype=float)
+    plain = windows.sums(angle, tones)
+    timed = windows.sums(angle, (time * tone for tone in tones[: orders + 1]))
+    squared = windows.sums(angle, [time**2])[:, 0].real
     total = plain[:, 0].real
     middle = timed[:, 0].real / total
     timed = timed - middle[:, None] * plain[:, : orders + 1]
@@ -154,15 +161,15 @@ def _normal_matrix(angle: np.ndarray, windows: Windows, tones: np.ndarray) -> tu
 
 
 def _right_sides(
-    angle: np.ndarray, windows: Windows, tones: np.ndarray, signals: np.ndarray, middle: np.ndarray
+    angle: np.ndarray, windows: Windows, tones: list[np.ndarray], signals: np.ndarray, middle: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Products of the signals with exp(j k theta), k = -K ... K, and with the local time; weighted power (m, s)."""
-    time = np.arange(len(angle), dtype=float)[:, None]
+    time = np.arange(len(angle), dtype=float)
     right, power = [], []
     for signal in signals.T:
-        column = signal[:, None]
-        sums = windows.sums(angle, np.hstack([column * tones, column * time, column**2]))
-        with_tones, timed = sums[:, :-2], sums[:, -2] - middle * sums[:, 0]
+        with_tones = windows.sums(angle, (signal * tone for tone in tones))
+        timed, squared = windows.sums(angle, [signal * time, signal**2]).T
+        timed = timed - middle * with_tones[:, 0]
         right.append(np.column_stack([with_tones[:, :0:-1], with_tones.conj(), timed]))
-        power.append(sums[:, -1].real)
+        power.append(squared.real)
     return np.stack(right, axis=-1), np.stack(power, axis=-1)

@@ -13,8 +13,8 @@ _NOISE_SPAN = 10.0
 def turning_points(signal: np.ndarray, threshold: float) -> np.ndarray:
     """Samples at which the signal reverses by more than `threshold`, in time order, high and low in turn.
 
-    The first and the last sample never count. Smaller wiggles, noise say, are passed over: a turning point is the
-    extreme value between two reversals larger than the threshold.
+    Smaller wiggles, noise say, are passed over: a turning point is the extreme value between two ways that are longer
+    than the threshold. Start and end are none.
     """
     points: list[int] = []
     high = low = rising = 0
@@ -23,12 +23,12 @@ def turning_points(signal: np.ndarray, threshold: float) -> np.ndarray:
         high = sample if value > signal[high] else high
         low = sample if value < signal[low] else low
         if rising >= 0 and signal[high] - value > threshold:
-            points.append(high)
+            points += [high] * rising
             rising, low = -1, sample
         elif rising <= 0 and value - signal[low] > threshold:
-            points.append(low)
+            points += [low] * -rising
             rising, high = 1, sample
-    return np.array([point for point in points if 0 < point < len(signal) - 1], dtype=int)
+    return np.array(points, dtype=int)
 
 
 def noise_threshold(signal: np.ndarray) -> float:

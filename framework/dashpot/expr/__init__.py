@@ -1,1 +1,6 @@
-"""The scalar graph of a law: traced from numpy code, interpreted, derived and printed. Imports nothing of ours."""
+"""The scalar graph of a law. Imports nothing of ours.
+
+node      - what a graph is made of, and how numpy calls become nodes
+derive    - tangents, as graphs again
+interpret - running a graph in plain numpy
+"""

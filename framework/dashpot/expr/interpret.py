@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,15 +12,16 @@ from dashpot.expr.node import Node, compute, walk
 Tables = Mapping[str, Callable[[Any, int], Any]]
 
 
-def interpret(roots: list[Node], values: Mapping[str, Any], tables: Tables | None = None) -> list[Any]:
+def interpret(roots: Sequence[Node], values: Mapping[str, Any], tables: Tables | None = None,
+              nodes: Sequence[Node] | None = None) -> list[Any]:  # fmt: skip
     """The values of the roots for the given symbols; arrays broadcast as in numpy.
 
-    ``tables`` maps the name of a curve to a function of (argument, derivative order).
-    Raises KeyError for a symbol or curve without a value.
+    ``tables`` maps the name of a curve to a function of (argument, derivative order). ``nodes`` is ``walk(roots)``,
+    for who interprets the same roots again and again. Raises KeyError for a symbol or curve without a value.
     """
     results: dict[int, Any] = {}
     with np.errstate(all="ignore"):
-        for node in walk(roots):
+        for node in walk(roots) if nodes is None else nodes:
             results[node.serial] = _evaluate(node, results, values, tables or {})
     return [results[root.serial] for root in roots]
 

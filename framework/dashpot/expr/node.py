@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -36,8 +36,8 @@ class TraceError(TypeError):
 class Node(np.lib.mixins.NDArrayOperatorsMixin):
     """One operation of the graph: ``operation`` on ``arguments``, or a ``constant``, ``symbol`` or ``table``.
 
-    ``payload`` is the value of a constant, the name of a symbol, or the name of the curve of a table. ``serial``
-    grows with creation, so sorting by it is a topological order.
+    ``payload`` is the value of a constant, the name of a symbol, or the curve of a table with the order of its
+    derivative. ``serial`` identifies the node.
     """
 
     __slots__ = ("arguments", "operation", "payload", "serial")
@@ -48,8 +48,11 @@ class Node(np.lib.mixins.NDArrayOperatorsMixin):
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **kwargs: Any) -> Node:
         operation = UFUNCS.get(ufunc.__name__)
-        if method != "__call__" or kwargs or operation is None:
-            raise TraceError(f"a law may not use numpy.{ufunc.__name__} here; usable are {', '.join(sorted(UFUNCS))}")
+        if operation is None:
+            raise TraceError(f"a law may not use numpy.{ufunc.__name__}; usable are {', '.join(sorted(UFUNCS))}")
+        if method != "__call__" or kwargs:
+            raise TraceError(f"a law may call numpy.{ufunc.__name__} with its arguments only; "
+                             "instead of changing a value in place (a += b) write a = a + b")  # fmt: skip
         return apply(operation, *(as_node(value) for value in inputs))
 
     def __array_function__(self, function: Callable[..., Any], types: Any, args: Any, kwargs: Any) -> Node:
@@ -57,7 +60,8 @@ class Node(np.lib.mixins.NDArrayOperatorsMixin):
             return apply("where", *(as_node(value) for value in args))
         if function is np.clip and len(args) == 3:
             return np.minimum(np.maximum(args[0], args[1]), args[2])
-        raise TraceError(f"a law may not use numpy.{function.__name__}; of the functions only where and clip are traced")
+        raise TraceError(f"a law may not use numpy.{function.__name__}; traced are where, clip and the ufuncs "
+                         f"{', '.join(sorted(UFUNCS))}")  # fmt: skip
 
     def __bool__(self) -> bool:
         raise TraceError("a law may not branch on a traced value; use np.where(condition, yes, no)")
@@ -115,16 +119,29 @@ def compute(operation: str) -> Callable[..., Any]:
     return np.where if operation == "where" else getattr(np, operation)
 
 
-def walk(roots: list[Node]) -> list[Node]:
-    """Every node that the roots need, arguments first."""
-    seen: dict[int, Node] = {}
-    stack = list(roots)
+def walk(roots: Iterable[Node]) -> list[Node]:
+    """Every node that the roots need, arguments first.
+
+    The order follows from the form of the graph alone, not from when its nodes were made: equal networks give equal
+    lists, whatever was traced before.
+    """
+    done: dict[int, Node] = {}
+    stack = [(root, False) for root in reversed(list(roots))]
     while stack:
-        node = stack.pop()
-        if node.serial not in seen:
-            seen[node.serial] = node
-            stack.extend(node.arguments)
-    return [seen[serial] for serial in sorted(seen)]
+        node, ready = stack.pop()
+        if node.serial in done:
+            continue
+        if ready:
+            done[node.serial] = node
+        else:
+            stack.append((node, True))
+            stack.extend((argument, False) for argument in reversed(node.arguments))
+    return list(done.values())
+
+
+def symbols_of(node: Node) -> set[str]:
+    """The names of all symbols that a node needs."""
+    return {inner.payload for inner in walk([node]) if inner.operation == "symbol"}
 
 
 def _intern(operation: str, arguments: tuple[Node, ...], payload: Any) -> Node:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
@@ -80,6 +81,7 @@ def fit_network(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = 
     return fit_prepared(spec, prepare(dataset, seed), method, seed, jobs, progress or silent)
 
 
+@single_threaded_algebra
 def fit_prepared(spec: NetworkSpec, setting: Setting, method: Optimizer | None, seed: int, jobs: int,
                  progress: Progress) -> FitResult:  # fmt: skip
     """Identify a network on a dataset made ready."""

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork
+from dashpot.kernel.parts import Parts, take_apart
 
 Array = NDArray[np.float64]
 
@@ -31,6 +34,34 @@ class Objective:
         ends = np.cumsum([0] + [run.samples for run in self.runs])
         self.pieces = [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
         self.total = int(ends[-1])
+
+    @cached_property
+    def parts(self) -> tuple[Parts, list[list[Rows]]]:
+        """The branches of the network alone, and the runs as they see them."""
+        parts = take_apart(self.network.spec)
+        return parts, [parts.prepare(run.drive) for run in self.runs]
+
+    def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
+        """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots are shifted."""
+        block = np.empty((1 + len(which), self.total))
+
+        def fill(number: int) -> None:
+            parts, rows = self.parts
+            run, piece = self.runs[number], self.pieces[number]
+            seen = self.network.observation(values).linear(
+                *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt)  # fmt: skip
+            block[0, piece] = seen[0][run.first :] - run.force[run.first :]
+            block[1:, piece] = seen[1][:, run.first :]
+            for k in np.flatnonzero([parts.owner[slot] is None for slot in which]):
+                moved = values.copy()
+                moved[which[k]] += shifts[k]
+                other = self.network.observation(moved).see(seen[2][None], run.drive.dt)[0]
+                block[1 + k, piece] = (other - seen[0])[run.first :]
+            self._weigh(number, block)
+
+        self.parts  # noqa: B018  (built once, before threads share it)
+        self._map(fill)
+        return block[0], block[1:]
 
     def forces(self, values: Array) -> list[Array]:
         """What the load cell would show: for every run (lanes, samples), the warm-up included."""

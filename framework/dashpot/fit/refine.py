@@ -70,9 +70,11 @@ def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> t
     """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates."""
     shifts = STEP * coordinates.unit
     shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
-    block = np.concatenate([point[None], point + np.diag(shifts)])
-    residuals = objective.residuals(coordinates.to_values(block))
-    return residuals[0], (residuals[1:] - residuals[0]) * (coordinates.unit / shifts)[:, None]
+    values = coordinates.to_values(np.concatenate([point[None], point + np.diag(shifts)]))
+    moves = values[np.arange(1, len(values)), coordinates.which] - values[0, coordinates.which]
+    residual, changes = objective.linearise(values[0], coordinates.which.tolist(), moves)
+    changes *= (coordinates.unit / shifts)[:, None]
+    return residual, changes
 
 
 def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.expr.interpret import interpret
+from dashpot.expr.node import symbols_of
 from dashpot.kernel.curves import segment_of
 from dashpot.kernel.source import SEGMENT
 from dashpot.kernel.tiers import Program
@@ -71,22 +72,15 @@ def see_samples(drive: Drive) -> dict[str, Array | float]:
 def see_turns(drive: Drive) -> dict[str, Array | float]:
     """The drive at its turning points; only rate-independent branches move there."""
     place, step = drive.turn_displacement, drive.turn_step
-    again = np.concatenate([[False], step[1:] == step[:-1]])
-    earlier = np.concatenate([[0.0], place[:-1]]) if place.size else place
-    return {"dt": drive.dt, "monotone.old": np.where(again, earlier, drive.displacement[step - 1]),
-            "monotone.new": place}  # fmt: skip
+    old = drive.displacement[step - 1]
+    second = np.flatnonzero(step[1:] == step[:-1]) + 1
+    old[second] = place[second - 1]
+    return {"dt": drive.dt, "monotone.old": old, "monotone.new": place}
 
 
 def _evaluate(program: Program, values: Mapping[str, Array | float], count: int) -> Array:
-    rows = np.zeros((count, len(program.columns)))
-    known = [(number, node) for number, node in enumerate(program.columns) if _symbols(node) <= set(values)]
-    found = interpret([node for _, node in known], values)
-    for (number, _), column in zip(known, found, strict=True):
-        rows[:, number] = column
-    return rows
-
-
-def _symbols(node) -> set[str]:  # noqa: ANN001
-    from dashpot.expr.node import walk
-
-    return {inner.payload for inner in walk([node]) if inner.operation == "symbol"}
+    found = np.zeros((count, len(program.columns)))
+    known = [(number, node) for number, node in enumerate(program.columns) if symbols_of(node) <= set(values)]
+    for (number, _), column in zip(known, interpret([node for _, node in known], values), strict=True):
+        found[:, number] = column
+    return found

@@ -15,7 +15,10 @@ import tempfile
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import ModuleType
 from typing import Any
+
+from dashpot.text.problem import InputError, Place
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,10 @@ def cache_folder() -> Path:
 
 
 def load_native(source: str) -> Native:
-    """The compiled functions of a source text, from the cache where they are known."""
+    """The compiled functions of a source text, from the cache where they are known.
+
+    Raises InputError when the cache folder cannot be written.
+    """
     return _load(source, str(cache_folder()))
 
 
@@ -47,18 +53,30 @@ def _load(source: str, folder: str) -> Native:
     name = f"network_{digest}"
     file = Path(folder) / "kernels" / f"{name}.py"
     _write_once(file, source)
-    loader = importlib.util.spec_from_file_location(name, file)
-    module = importlib.util.module_from_spec(loader)
-    sys.modules[name] = module
-    loader.loader.exec_module(module)
+    module = _import(name, file)
     return Native(module.simulate, module.score, file)
+
+
+def _import(name: str, file: Path) -> ModuleType:
+    found = importlib.util.spec_from_file_location(name, file)
+    if found is None or found.loader is None:
+        raise ImportError(f"{file} cannot be imported")
+    module = importlib.util.module_from_spec(found)
+    sys.modules[name] = module
+    found.loader.exec_module(module)
+    return module
 
 
 def _write_once(file: Path, text: str) -> None:
     if file.is_file() and file.read_text(encoding="utf-8") == text:
         return
-    file.parent.mkdir(parents=True, exist_ok=True)
-    handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
-    with os.fdopen(handle, "w", encoding="utf-8") as stream:
-        stream.write(text)
-    os.replace(temporary, file)
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
+        with os.fdopen(handle, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        os.replace(temporary, file)
+    except OSError as error:
+        message = f"compiled networks cannot be kept here: {error.strerror}"
+        hint = "let the environment variable DASHPOT_CACHE name a folder that may be written"
+        raise InputError.at(Place(str(file.parent)), message, hint) from None

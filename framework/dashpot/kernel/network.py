@@ -18,11 +18,11 @@ from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.source import WIDTH, print_source, rows
 from dashpot.kernel.tiers import Program, sort_tiers
-from dashpot.kernel.trace import trace_network
+from dashpot.kernel.trace import refuse_missing_numbers, trace_network
 from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
-VECTOR = 16
+VECTOR = 8
 
 
 @dataclass(frozen=True)
@@ -119,10 +119,11 @@ class CompiledNetwork:
 
 
 def compile_network(spec: NetworkSpec) -> CompiledNetwork:
-    """Trace, sort, print, compile. Curves that come from data must have been filled in.
+    """Trace, sort, print, compile.
 
-    Raises InputError for a network that cannot be compiled and says what to do.
+    Raises InputError for a network that cannot be compiled, such as one whose curve is still to come from data.
     """
+    refuse_missing_numbers(spec)
     program = sort_tiers(trace_network(spec))
     return CompiledNetwork(spec, program, load_native(print_source(program)))
 

@@ -34,6 +34,18 @@ class Observation:
         return self.gain[:, None] * late + self.offset[:, None]
 
 
+    def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
+        """What a single lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
+
+        The changes are shifted along straight lines between samples, which is near enough for a search direction.
+        """
+        if self.plain:
+            return force, changes, force
+        at = np.arange(force.size) - self.delay[0] / dt
+        late = np.array([np.interp(at, np.arange(force.size), row) for row in changes]).reshape(changes.shape)
+        return self.see(force[None], dt)[0], self.gain[0] * late, force
+
+
 def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
     """The observation in a block of values (lanes, slots)."""
 
@@ -50,6 +62,8 @@ def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
 def _shift(force: Array, samples: float) -> Array:
     if samples == 0.0:
         return force
+    if not (np.isfinite(samples) and np.isfinite(force).all()):
+        return np.full(force.shape, np.nan)
     from scipy.interpolate import CubicSpline
 
     at = np.arange(force.size)

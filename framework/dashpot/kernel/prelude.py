@@ -1,10 +1,10 @@
 """The branch-free functions that every generated kernel file begins with.
 
-A call into the C mathematics library inside the loop over lanes would keep it from being vectorised, so exp, log and the
-Wright omega function are written out. NaN passes through each of them; relative errors stay below 1e-14.
+A call into the C mathematics library inside the loop over lanes would keep it from being vectorised, so exp, log and
+the Wright omega function are written out. NaN passes through each of them; relative errors stay below 1e-14.
 """
 
-PRELUDE = '''
+PRELUDE = """
 import math
 
 import numpy as np
@@ -126,4 +126,4 @@ def sign(a):
     side = 1.0 if a > 0.0 else 0.0
     side = -1.0 if a < 0.0 else side
     return a if a != a else side
-'''
+"""

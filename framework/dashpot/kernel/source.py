@@ -7,7 +7,10 @@ and moves the states of rate-independent branches; the second one makes the step
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Sequence
+from typing import Literal
 
 from dashpot.expr.node import Node
 from dashpot.kernel.prelude import PRELUDE
@@ -33,7 +36,7 @@ def print_source(program: Program) -> str:
 
     Both take ``columns`` (samples, columns), ``index`` and ``local`` (samples, lookups), ``turn_at`` (turns,),
     ``turn_columns`` (turns, columns), ``tables``, the workspace ``w`` and the number of ``lanes`` in it.
-    ``simulate`` fills ``out`` (samples, lanes); ``score`` adds weight * (force - measured)^2 to the workspace's last row.
+    ``simulate`` fills ``out`` (samples, lanes); ``score`` adds weight * (force - measured)^2 to the last row of ``w``.
     """
     names = _Names(program)
     last = WIDTH * names.rows
@@ -53,6 +56,10 @@ def rows(program: Program) -> int:
     return len(program.constants) + len(program.states)
 
 
+# where the loop finds a node: printed as it is, hoisted per lane, hoisted per sample, a memory, a table, or computed
+_Kind = Literal["number", "lane", "drive", "state", "table", "result"]
+
+
 class _Names:
     """Which name every node has in the printed loop."""
 
@@ -64,32 +71,46 @@ class _Names:
         self.lookups = {(look.curve, look.argument.serial): number for number, look in enumerate(program.lookups)}
         self.rows = rows(program)
 
-    def of(self, node: Node) -> str:
+    def kind(self, node: Node) -> _Kind:
         if node.operation == "constant":
-            return repr(node.payload)
+            return "number"
         if node.serial in self.constants:
-            return f"a{self.constants[node.serial]}"
+            return "lane"
         if node.serial in self.columns:
+            return "drive"
+        return {"symbol": "state", "table": "table"}.get(node.operation, "result")
+
+    def of(self, node: Node) -> str:
+        kind = self.kind(node)
+        if kind == "number":
+            return _number(node.payload)
+        if kind == "lane":
+            return f"a{self.constants[node.serial]}"
+        if kind == "drive":
             return f"c{self.columns[node.serial]}"
-        if node.operation == "symbol":
-            return f"z{self.states[node.payload]}"
-        return f"t{node.serial}"
+        return f"z{self.states[node.payload]}" if kind == "state" else f"t{node.serial}"
+
+    def row(self, node: Node) -> int:
+        """The row of the workspace that holds a constant or a state."""
+        return self.constants[node.serial] if self.kind(node) == "lane" else self.states[node.payload]
 
     def inner(self, turning: bool) -> list[Node]:
         """The nodes that the loop has to compute or load, arguments first."""
         found: dict[int, Node] = {}
-        stack = list(self.program.roots(turning))
+        stack = [(root, False) for root in reversed(self.program.roots(turning))]
         while stack:
-            node = stack.pop()
-            if node.serial in found or node.operation == "constant":
+            node, ready = stack.pop()
+            if node.serial in found or self.kind(node) == "number":
                 continue
-            found[node.serial] = node
-            if self.of(node)[0] == "t" and node.operation != "table":
-                stack.extend(node.arguments)
-        return [found[serial] for serial in sorted(found)]
+            if ready or self.kind(node) != "result":
+                found[node.serial] = node
+            else:
+                stack.append((node, True))
+                stack.extend((argument, False) for argument in reversed(node.arguments))
+        return list(found.values())
 
 
-def _function(name: str, extra: str, types: str, names: _Names, ending: list[str], beginning: str) -> str:
+def _function(name: str, extra: str, types: str, names: _Names, ending: Sequence[str], beginning: str) -> str:
     lines = [f'@njit("void({_TYPES}{types})", cache=True, **LOOP)', f"def {name}({_ARGUMENTS}{extra}):"]
     if names.program.turning:
         lines += ["    m = 0"]
@@ -103,23 +124,29 @@ def _function(name: str, extra: str, types: str, names: _Names, ending: list[str
     return _renumber("\n".join(lines)) + "\n"
 
 
-def _loop(names: _Names, turning: bool, ending: list[str]) -> list[str]:
+def _loop(names: _Names, turning: bool, ending: Sequence[str]) -> list[str]:
     nodes = names.inner(turning)
     program = names.program
     row, place = ("turn_columns", "m") if turning else ("columns", "k")
-    head = [f"{names.of(n)} = {row}[{place}, {names.columns[n.serial]}]" for n in nodes if names.of(n)[0] == "c"]
-    body = [f"{names.of(n)} = w[{WIDTH * int(names.of(n)[1:])} + l]" for n in nodes if names.of(n)[0] in "az"]
+    head = [f"{names.of(n)} = {row}[{place}, {names.columns[n.serial]}]" for n in nodes if names.kind(n) == "drive"]
+    body = [f"{names.of(n)} = w[{WIDTH * names.row(n)} + l]" for n in nodes if names.kind(n) in ("lane", "state")]
     for node in nodes:
-        if node.operation == "table":
+        if names.kind(node) == "table":
             number = names.lookups[node.payload[0], node.arguments[0].serial]
             head += [f"h{number} = tables[index[k, {number}] : index[k, {number}] + {SEGMENT}]",
                      f"u{number} = local[k, {number}]"]  # fmt: skip
             body += [f"{names.of(node)} = {_cubic(number)}"]
-        elif names.of(node)[0] == "t":
+        elif names.kind(node) == "result":
             body += [f"{names.of(node)} = {_expression(node, names)}"]
     states = program.turning if turning else program.states
     body += [f"w[{WIDTH * names.states[s]} + l] = {names.of(program.updates[s])}" for s in states]
-    return [*head, "for l in range(lanes):", *_indent(4, body + ending)]
+    return [*head, "for l in range(lanes):", *_indent(4, [*body, *ending])]
+
+
+def _number(value: float | bool) -> str:
+    if isinstance(value, bool) or math.isfinite(value):
+        return repr(value) if isinstance(value, bool) or value >= 0.0 else f"({value!r})"
+    return "math.inf" if value > 0.0 else "(-math.inf)"
 
 
 def _cubic(number: int) -> str:
@@ -140,7 +167,7 @@ def _expression(node: Node, names: _Names) -> str:
     return f"{_CALLS[node.operation]}({', '.join(arguments)})"
 
 
-def _indent(width: int, lines: list[str]) -> list[str]:
+def _indent(width: int, lines: Sequence[str]) -> list[str]:
     return [" " * width + line for line in lines]
 
 

@@ -8,6 +8,7 @@ quotient k / F_c leaves the loop and the division with it.
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntFlag
 
@@ -19,7 +20,7 @@ DRIVE_SYMBOLS = {f"{sight}.{key}" for sight in ("still", "path", "monotone") for
 
 
 class Tier(IntFlag):
-    """What a node depends on. ``NOTHING`` is a constant or the step; both ``LANE`` and ``DRIVE`` means the inner loop."""
+    """What a node depends on; ``NOTHING`` is a constant or the step, ``LANE | DRIVE`` belongs to the inner loop."""
 
     NOTHING = 0
     LANE = 1
@@ -44,9 +45,9 @@ class Program:
     lookups: tuple[Lookup, ...]
     states: tuple[str, ...]
     force: Node
-    updates: dict[str, Node]
+    updates: Mapping[str, Node]
     turning: tuple[str, ...]
-    tiers: dict[int, Tier]
+    tiers: Mapping[int, Tier]
 
     def roots(self, turning: bool) -> list[Node]:
         """What the loop computes: at a turning point the states of rate-independent branches only."""
@@ -55,7 +56,7 @@ class Program:
         return [self.force, *self.updates.values()]
 
 
-def sort_tiers(branches: tuple[TracedBranch, ...]) -> Program:
+def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
     """Regroup the laws of a network and decide what leaves the inner loop."""
     states = tuple(name for branch in branches for name in branch.states)
     total = ZERO
@@ -78,7 +79,7 @@ def sort_tiers(branches: tuple[TracedBranch, ...]) -> Program:
     )  # fmt: skip
 
 
-def _shared(roots: list[Node]) -> set[int]:
+def _shared(roots: Sequence[Node]) -> set[int]:
     # nodes with more than one use: regrouping must not dissolve them, or their work would be done twice
     uses = Counter(root.serial for root in roots)
     for node in walk(roots):
@@ -94,7 +95,7 @@ def _is_lane(node: Node, tier: Tier) -> bool:
     return node.operation != "constant" and tier in (Tier.LANE, Tier.NOTHING)
 
 
-def _unique(nodes) -> tuple[Node, ...]:  # noqa: ANN001
+def _unique(nodes: Iterable[Node]) -> tuple[Node, ...]:
     return tuple({node.serial: node for node in nodes}.values())
 
 
@@ -151,7 +152,7 @@ class _Regrouping:
         below: dict[Tier, Node] = {}
         self.collect_factors(node, above, below)
         hoisted = [tier for tier in (Tier.NOTHING, Tier.LANE, Tier.DRIVE) if tier in above or tier in below]
-        groups = [_quotient(above.pop(tier, ONE), below.pop(tier, ONE)) for tier in hoisted]
+        groups = [apply("divide", above.pop(tier, ONE), below.pop(tier, ONE)) for tier in hoisted]
         for group in groups:
             self.settle(group)
         inner = [part for part in above.values() if part is not ONE]
@@ -205,7 +206,3 @@ class _Regrouping:
             terms[tier] = apply("add" if side > 0.0 else "subtract", terms[tier], node)
         else:
             terms[tier] = node if side > 0.0 else apply("negative", node)
-
-
-def _quotient(above: Node, below: Node) -> Node:
-    return apply("divide", above, below)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any, Literal
 
-from dashpot.expr.node import Node, as_node, symbol, table, walk
-from dashpot.model.element import Motion
+from dashpot.expr.node import Node, TraceError, as_node, symbol, symbols_of, table, walk
+from dashpot.model.element import Motion, Response
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec
-from dashpot.text.problem import InputError
+from dashpot.text.problem import InputError, Place
 
 # how a branch sees the drive: "still" without memory, "path" along the cubic of a whole step, "monotone" from turning
 # point to turning point
@@ -25,12 +26,17 @@ class TracedBranch:
     name: str
     sight: Sight
     force: Node
-    states: dict[str, Node]
+    states: Mapping[str, Node]
+
+    @property
+    def roots(self) -> list[Node]:
+        """Everything that the law computes."""
+        return [self.force, *self.states.values()]
 
 
 @dataclass(frozen=True)
 class CurveLaw:
-    """A curve as a law meets it: called with its argument."""
+    """A curve as a traced law meets it: called with its argument."""
 
     path: str
     form: str
@@ -49,39 +55,65 @@ class CurveLaw:
 
 
 def trace_network(spec: NetworkSpec) -> tuple[TracedBranch, ...]:
-    """The laws of all branches. Raises InputError where the network needs unknown nodes."""
+    """The laws of all branches. Raises InputError where the network needs what this version cannot solve."""
     _refuse_series(spec.root)
     return tuple(trace_branch(branch) for branch in spec.leaves())
 
 
+def refuse_missing_numbers(spec: NetworkSpec) -> None:
+    """Raise InputError for a curve that is to come from data and has not been taken from any yet."""
+    for path, curve in spec.data_curves().items():
+        if curve.form == "data":
+            place = curve.node.place if curve.node else Place()
+            raise InputError.at(place, f"the curve '{path}' is to come from data and has no numbers yet",
+                                "fit the network first, or write a table")  # fmt: skip
+
+
 def trace_branch(branch: Branch) -> TracedBranch:
-    """The law of a branch, seen as widely as it needs: rates and duration make it follow the whole path."""
+    """The law of a branch, seen as widely as it needs: rates and duration make it follow the whole path.
+
+    Raises TraceError, naming the element, for a law that cannot be traced.
+    """
+    try:
+        traced = _see(branch)
+    except TraceError as error:
+        raise TraceError(f"element '{branch.element.word}': {error}") from None
+    _refuse_moving_tables(branch, traced)
+    return traced
+
+
+def _see(branch: Branch) -> TracedBranch:
     traced = _trace(branch, "path")
-    used = {node.payload for node in walk(_roots(traced)) if node.operation == "symbol"}
     if not traced.states:
         return _trace(branch, "still")
+    used = {name for root in traced.roots for name in symbols_of(root)}
     needs_rates = "dt" in used or any(f"path.{rate}" in used for rate in RATES)
     return traced if needs_rates else _trace(branch, "monotone")
 
 
 def _trace(branch: Branch, sight: Sight) -> TracedBranch:
-    law = branch.element()
     motion = Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
     declared = branch.element.declares
     states = {key: f"{branch.name}|{key}" for key in declared.states}
-    response = law.step(
+    response = branch.element().step(
         motion,
         SimpleNamespace(**{key: symbol(name) for key, name in states.items()}),
         SimpleNamespace(**{key: _parameter(branch, key) for key in (*declared.parameters, *declared.curves)}),
         symbol("dt"),
     )
-    if set(response.states) != set(states):
-        raise TypeError(f"element '{branch.element.word}' declares the states {sorted(states)} but its step answers "
-                        f"{sorted(response.states)}; answer Response(force, <state>=...) for each")  # fmt: skip
+    check_states(branch, response)
     force = as_node(response.force)
     if branch.scale:
         force = force * CurveLaw(f"{branch.name}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
     return TracedBranch(branch.name, sight, force, {states[k]: as_node(v) for k, v in response.states.items()})
+
+
+def check_states(branch: Branch, response: Response) -> None:
+    """Raise TraceError where a law does not answer exactly the states that it declares."""
+    declared, answered = sorted(branch.element.declares.states), sorted(response.states)
+    if declared != answered:
+        raise TraceError(f"it declares the states {declared} but its step answers {answered}; "
+                         "answer Response(force, <state>=...) with each of them")  # fmt: skip
 
 
 def _parameter(branch: Branch, key: str) -> Node | CurveLaw | float | None:
@@ -93,15 +125,32 @@ def _parameter(branch: Branch, key: str) -> Node | CurveLaw | float | None:
     return branch.element.declares.parameters[key].default
 
 
-def _roots(traced: TracedBranch) -> list[Node]:
-    return [traced.force, *traced.states.values()]
-
-
 def _refuse_series(group: Group) -> None:
     for member in group.members:
         if isinstance(member, Group):
             if member.kind == "series":
-                raise InputError.at(member.place, f"the branch '{member.name}' is a series connection, whose inner node "
-                                    "this version cannot solve", "use an element that contains the series, such as "
-                                    "maxwell or prandtl")  # fmt: skip
+                message = f"the branch '{member.name}' is a series connection: its inner node cannot be solved yet"
+                hint = "use an element that contains the series; `dashpot list elements` shows all"
+                raise InputError.at(member.place, message, hint)
             _refuse_series(member)
+
+
+def _refuse_moving_tables(branch: Branch, traced: TracedBranch) -> None:
+    # the kernel looks tables up once per sample for all lanes, so their arguments may depend on the drive alone, and a
+    # memory that moves at turning points, between the samples, may not read one
+    for node in walk(traced.roots):
+        if node.operation == "table":
+            used = symbols_of(node.arguments[0])
+            moving = {name for name in used if name.startswith(f"{traced.sight}.")}
+            if not moving or used - moving - {"dt"}:
+                _refuse_table(branch, node, f"at {', '.join(sorted(used - moving)) or 'a constant'}")
+    if traced.sight == "monotone":
+        for node in walk(traced.states.values()):
+            if node.operation == "table":
+                _refuse_table(branch, node, "for its memory between two samples")
+
+
+def _refuse_table(branch: Branch, node: Node, where: str) -> None:
+    path, _ = node.payload
+    message = f"the element '{branch.element.word}' looks up the table '{path}' {where}, expected along the drive"
+    raise InputError.at(branch.place, message, "write the curve as a constant or as a polynomial")

@@ -106,12 +106,15 @@ class Element(ABC):
     """A law of force between two ends.
 
     Subclasses declare ``Parameter``, ``Curve`` and ``State`` as class attributes and implement ``step``. ``word`` is
-    the name in a file; it defaults to the name of the module that holds the class.
+    the name in a file; it defaults to the name of the module that holds the class. ``source`` is the publication that
+    the law follows. ``exact`` claims that one step is the same as two over its halves, ``passive`` that the law never
+    gives back more work than was put in, whatever its numbers; set to False what does not hold.
     """
 
     word: ClassVar[str] = ""
     source: ClassVar[str] = ""
     exact: ClassVar[bool] = True
+    passive: ClassVar[bool] = True
     declares: ClassVar[Declaration] = Declaration()
 
     def __init_subclass__(cls, **kwargs: Any) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -17,7 +18,11 @@ Form = Literal["constant", "polynomial", "table", "data"]
 
 @dataclass(frozen=True)
 class Value:
-    """A number of a file: fixed, free (``start``) or identified earlier (``value`` with ``bounds``). SI throughout."""
+    """A number of a file: fixed, free (``start``) or identified earlier (``value`` with ``bounds``). SI throughout.
+
+    ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``node``
+    where it stands.
+    """
 
     number: float
     unit: str
@@ -25,12 +30,17 @@ class Value:
     bounds: tuple[float, float] | None = None
     scale: Scale = "log"
     interval: tuple[float, float] | None = None
+    sensible: tuple[float, float] = (-math.inf, math.inf)
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property
     def searched(self) -> bool:
         """Whether an identification may move the number."""
         return self.role != "fixed"
+
+    def as_role(self, role: Role) -> Value:
+        """The same number in another role."""
+        return replace(self, role=role)
 
 
 @dataclass(frozen=True)
@@ -48,13 +58,17 @@ class Characteristic:
 
 @dataclass(frozen=True)
 class Branch:
-    """One element between two ends, with its numbers; ``scale`` multiplies its force, over its deflection."""
+    """One element between two ends, with its numbers; ``scale`` multiplies its force, over its deflection.
+
+    ``family`` is the name as it stands in the file: the copies of a repeated branch share it.
+    """
 
     name: str
     element: type[Element]
     values: Mapping[str, Value]
     curves: Mapping[str, Characteristic]
     scale: Characteristic | None = None
+    family: str = ""
     place: Place = field(default_factory=Place, compare=False)
 
     def characteristics(self) -> dict[str, Characteristic]:
@@ -109,13 +123,18 @@ class NetworkSpec:
         return (*found, *(Slot(f"measurement.{key}", value) for key, value in self.measurement.items()))
 
     def with_values(self, values: Mapping[str, Value]) -> NetworkSpec:
-        """The same network with the values of some slots replaced, by path."""
+        """The same network with the values of some slots replaced, by path. KeyError for a path that it has not."""
+        unknown = set(values) - {slot.path for slot in self.slots()}
+        if unknown:
+            raise KeyError(f"'{self.name}' has no slot {', '.join(sorted(unknown))}")
         measurement = {key: values.get(f"measurement.{key}", value) for key, value in self.measurement.items()}
         return replace(self, root=_regroup(self.root, lambda branch: _revalue(branch, values)), measurement=measurement)
 
     def with_curve(self, path: str, characteristic: Characteristic) -> NetworkSpec:
-        """The same network with the curve at ``branch.curve`` replaced."""
+        """The same network with the curve at ``branch.curve`` replaced. KeyError for a path that it has not."""
         name, _, key = path.rpartition(".")
+        if path not in self.curves():
+            raise KeyError(f"'{self.name}' has no curve {path}")
 
         def swap(branch: Branch) -> Branch:
             if branch.name != name:
@@ -126,14 +145,15 @@ class NetworkSpec:
 
         return replace(self, root=_regroup(self.root, swap))
 
+    def curves(self) -> dict[str, Characteristic]:
+        """Every curve by path, the scalings among them."""
+        return {
+            f"{branch.name}.{key}": curve for branch in self.leaves() for key, curve in branch.characteristics().items()
+        }
+
     def data_curves(self) -> dict[str, Characteristic]:
         """The curves that are to be taken from data, by path."""
-        return {
-            f"{branch.name}.{key}": curve
-            for branch in self.leaves()
-            for key, curve in branch.characteristics().items()
-            if curve.data
-        }
+        return {path: curve for path, curve in self.curves().items() if curve.data}
 
 
 def _branch_slots(branch: Branch) -> Iterator[Slot]:
@@ -154,7 +174,7 @@ def _curve_slots(path: str, curve: Characteristic) -> Iterator[Slot]:
         yield Slot(f"{path}[{number}]", value)
 
 
-def _regroup(group: Group, change) -> Group:  # noqa: ANN001
+def _regroup(group: Group, change: Callable[[Branch], Branch]) -> Group:
     members = tuple(_regroup(m, change) if isinstance(m, Group) else change(m) for m in group.members)
     return replace(group, members=members)
 

@@ -31,3 +31,16 @@ def find_network(path_or_name: str | Path) -> Path:
         return shipped[str(path_or_name)]
     hint = nearest(str(path_or_name), shipped) or f"shipped networks: {', '.join(shipped)}"
     raise InputError.at(Place(str(path_or_name)), "there is no such file and no shipped network of that name", hint)
+
+
+def find_used_network(word: str, folder: Path) -> Path:
+    """The file of a network that another one in ``folder`` uses: a shipped name, or a file in or below that folder.
+
+    Raises InputError when there is none.
+    """
+    if Path(word).suffix not in SUFFIXES:
+        return find_network(word)
+    path = folder / word
+    if not path.resolve().is_relative_to(folder.resolve()):
+        raise InputError.at(Place(word), f"expected a file in or below {folder}", "move it there")
+    return path

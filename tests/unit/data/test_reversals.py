@@ -36,7 +36,7 @@ def test_noise_makes_no_turning_points(random):
     np.testing.assert_allclose(found / 1000, np.arange(40) / 2 + 0.25, atol=0.1)
 
 
-def test_the_first_and_the_last_sample_are_no_turning_points():
+def test_start_and_end_are_no_turning_points():
     assert len(turning_points(np.linspace(0.0, 1.0, 100), 0.1)) == 0
     assert len(turning_points(np.linspace(1.0, 0.0, 100), 0.1)) == 0
     assert len(turning_points(np.ones(100), 0.0)) == 0

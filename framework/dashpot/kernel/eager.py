@@ -1,0 +1,153 @@
+"""Running a network in plain numpy, step by step: the reference that compiled networks are held against.
+
+Eagerly, every element's own ``step`` computes with arrays over lanes; nothing is traced. Interpreted, the traced graph
+does. Both see the drive as the kernel does: rate-independent branches also move at turning points between samples.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive
+from dashpot.expr.interpret import interpret
+from dashpot.expr.node import walk
+from dashpot.kernel.columns import see_samples, see_turns
+from dashpot.kernel.curves import TableLaw, cubic_coefficients
+from dashpot.kernel.trace import RATES, Sight, TracedBranch, check_states, refuse_missing_numbers, trace_network
+from dashpot.model.element import Motion
+from dashpot.model.network import Branch, Characteristic, NetworkSpec
+
+Array = NDArray[np.float64]
+Numbers = Mapping[str, Array]
+
+
+def simulate_eagerly(spec: NetworkSpec, drive: Drive, values: Array | None = None) -> Array:
+    """The force (lanes, samples) in N for ``values`` (lanes, slots), by the elements' own numpy code.
+
+    ``values`` are in the order of ``spec.slots()``; a single lane (slots,), or None for the numbers of the network, is
+    answered as (samples,).
+    """
+    block = _block(spec, values)
+    numbers = _numbers(spec, block)
+    walkers = [_EagerWalker(branch, traced.sight, numbers, block.shape[0])
+               for branch, traced in zip(spec.leaves(), trace_network(spec), strict=True)]  # fmt: skip
+    return _answer(_march(walkers, drive, block.shape[0]), values)
+
+
+def simulate_interpreted(spec: NetworkSpec, drive: Drive, values: Array | None = None) -> Array:
+    """The same as ``simulate_eagerly`` by interpreting the traced graph."""
+    block = _block(spec, values)
+    numbers = _numbers(spec, block)
+    tables = {path: _table(path, curve, numbers) for path, curve in _tabulated(spec).items()}
+    walkers = [_GraphWalker(traced, numbers, tables, block.shape[0]) for traced in trace_network(spec)]
+    return _answer(_march(walkers, drive, block.shape[0]), values)
+
+
+class _Walker(ABC):
+    """A branch that is moved step by step and keeps its own memory."""
+
+    sight: Sight
+
+    @abstractmethod
+    def move(self, motion: Mapping[str, float], dt: float) -> Any:
+        """The force after a step; changes the memory."""
+
+
+class _EagerWalker(_Walker):
+    """A branch whose element computes with arrays."""
+
+    def __init__(self, branch: Branch, sight: Sight, numbers: Numbers, lanes: int) -> None:
+        self.branch, self.sight, self.law = branch, sight, branch.element()
+        declared = branch.element.declares
+        self.states: dict[str, Any] = dict.fromkeys(declared.states, np.zeros(lanes))
+        self.parameters = SimpleNamespace(
+            **{key: numbers.get(f"{branch.name}.{key}", law.default) for key, law in declared.parameters.items()},
+            **{key: _curve(f"{branch.name}.{key}", curve, numbers) for key, curve in branch.curves.items()},
+        )
+        self.scale = _curve(f"{branch.name}.scale", branch.scale, numbers) if branch.scale else None
+
+    def move(self, motion: Mapping[str, float], dt: float) -> Any:
+        # what a law of this sight does not depend on is not there to be used
+        x = Motion(motion["old"], motion["new"], *(motion.get(rate, np.nan) for rate in RATES))
+        response = self.law.step(x, SimpleNamespace(**self.states), self.parameters, dt)
+        check_states(self.branch, response)
+        self.states = dict(response.states)
+        return response.force if self.scale is None else response.force * self.scale(x.new)
+
+
+class _GraphWalker(_Walker):
+    """A branch whose traced graph is interpreted."""
+
+    def __init__(self, traced: TracedBranch, numbers: Numbers, tables: Mapping[str, TableLaw], lanes: int) -> None:
+        self.traced, self.numbers, self.tables, self.sight = traced, numbers, tables, traced.sight
+        self.states: dict[str, Any] = dict.fromkeys(traced.states, np.zeros(lanes))
+        self.nodes = walk(traced.roots)
+
+    def move(self, motion: Mapping[str, float], dt: float) -> Any:
+        seen = {f"{self.sight}.{key}": value for key, value in motion.items()}
+        known = {**self.numbers, **self.states, **seen, "dt": dt}
+        force, *states = interpret(self.traced.roots, known, self.tables, self.nodes)
+        self.states = dict(zip(self.traced.states, states, strict=True))
+        return force
+
+
+def _march(walkers: Sequence[_Walker], drive: Drive, lanes: int) -> Array:
+    samples, turns = see_samples(drive), see_turns(drive)
+    turning = [walker for walker in walkers if walker.sight == "monotone"]
+    force, turn = np.zeros((lanes, drive.samples)), 0
+    with np.errstate(all="ignore"):
+        for k in range(drive.samples):
+            while turn < drive.turn_step.size and drive.turn_step[turn] == k:
+                for walker in turning:
+                    walker.move(_motion(turns, "monotone", turn), drive.dt)
+                turn += 1
+            for walker in walkers:
+                force[:, k] += walker.move(_motion(samples, walker.sight, k), drive.dt)
+    return force
+
+
+def _motion(seen: Mapping[str, Array | float], sight: Sight, number: int) -> dict[str, float]:
+    names = {key: f"{sight}.{key}" for key in ("old", "new", *RATES)}
+    return {key: np.asarray(seen[name])[number] for key, name in names.items() if name in seen}
+
+
+def _block(spec: NetworkSpec, values: Array | None) -> Array:
+    refuse_missing_numbers(spec)
+    return np.atleast_2d([slot.value.number for slot in spec.slots()] if values is None else values)
+
+
+def _answer(force: Array, values: Array | None) -> Array:
+    return force[0] if values is None or np.ndim(values) == 1 else force
+
+
+def _numbers(spec: NetworkSpec, block: Array) -> Numbers:
+    return {slot.path: column for slot, column in zip(spec.slots(), block.T, strict=True)}
+
+
+def _curve(path: str, curve: Characteristic, numbers: Numbers) -> Callable[[Any], Any]:
+    if curve.form == "table":
+        return _table(path, curve, numbers)
+    if curve.form == "constant":
+        return lambda argument: numbers[path] * argument
+    powers = [numbers[f"{path}[{number}]"] for number in range(len(curve.values))]
+    return lambda argument: sum(factor * argument**power for power, factor in enumerate(powers, 1))
+
+
+def _table(path: str, curve: Characteristic, numbers: Numbers) -> TableLaw:
+    knots = np.array([numbers[f"{path}[{number}]"] for number in range(len(curve.at))])
+    return TableLaw(curve, cubic_coefficients(curve, knots))
+
+
+def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:
+    return {
+        f"{branch.name}.{key}": curve
+        for branch in spec.leaves()
+        for key, curve in branch.characteristics().items()
+        if curve.form == "table"
+    }

@@ -1,0 +1,129 @@
+"""Reading the branches of a network."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from collections.abc import Mapping as MappingType
+from dataclasses import replace
+from typing import Literal
+
+from dashpot.model.curves import read_curve, read_scale
+from dashpot.model.element import Element
+from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.model.values import ONLY, Copy, Reading, kind_of, read_value
+from dashpot.text.form import Form
+from dashpot.text.problem import InputError, Problem, nearest
+
+MAXIMUM_COPIES = 100
+NAME = re.compile(r"\w[\w+-]*")
+WAYS = ("element", "series", "parallel", "use")
+FOR_ALL = ("repeat", "about", "scale")
+
+
+class BranchReader:
+    """Reads named branches and notes mistakes in ``problems``; ``use`` finds another network by the word for it."""
+
+    def __init__(self, elements: MappingType[str, type[Element]], problems: list[Problem],
+                 use: Callable[[str], NetworkSpec]) -> None:  # fmt: skip
+        self.elements, self.problems, self.use = elements, problems, use
+
+    def members(self, form: Form, key: str, copy: Copy = ONLY) -> tuple[Branch | Group, ...]:
+        """The branches named below a key."""
+        named = form.named(key) or {}
+        return tuple(member for name, entry in named.items() for member in self._copies(name, entry, copy))
+
+    def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
+        if not NAME.fullmatch(name) or name == "measurement":
+            form.complain(None, f"expected a name of letters, digits, '_', '-' and '+' other than 'measurement', got "
+                          f"'{name}'", "rename the branch")  # fmt: skip
+        count = self._count(form, outer)
+        first, found = len(self.problems), []
+        for number in range(count):
+            title = name if count == 1 else f"{name}_{number + 1}"
+            member = self._single(title, form, Copy(number, count) if count > 1 else outer)
+            if member:
+                found.append(_named(member, title, name))
+            # every copy would repeat the same complaints
+            if len(self.problems) > first:
+                break
+        return found
+
+    def _count(self, form: Form, outer: Copy) -> int:
+        count = form.integer("repeat", 1)
+        if not 1 <= count <= MAXIMUM_COPIES:
+            form.complain("repeat", f"expected 1 to {MAXIMUM_COPIES} copies, got {count}")
+            return 1
+        if count > 1 and outer.of > 1:
+            form.complain("repeat", "a branch inside a repeated group cannot be repeated again", "write its copies out")
+            return 1
+        return count
+
+    def _single(self, name: str, form: Form, copy: Copy) -> Branch | Group | None:
+        form.text("about", "")
+        if "series" in form:
+            return self._group(form, "series", copy)
+        if "parallel" in form:
+            return self._group(form, "parallel", copy)
+        return self._used(form) if "use" in form else self._element(name, form, copy)
+
+    def _group(self, form: Form, kind: Literal["series", "parallel"], copy: Copy) -> Group:
+        members = self.members(form, kind, copy)
+        form.close()
+        return Group("", kind, members, form.place)
+
+    def _used(self, form: Form) -> Group | None:
+        other = form.text("use")
+        form.close()
+        try:
+            return Group("", "parallel", self.use(other).root.members, form.place) if other else None
+        except InputError as error:
+            form.complain("use", f"the network '{other}' cannot be used", "correct what is said about it")
+            self.problems.extend(error.problems)
+            return None
+
+    def _element(self, name: str, form: Form, copy: Copy) -> Branch | None:
+        word = form.text("element")
+        law = self.elements.get(word)
+        if law is None:
+            self._complain_of_element(word, form)
+            return None
+        reading = Reading(name, self.problems, copy)
+        values = {key: value for key in law.declares.parameters if (value := self._value(key, law, form, reading))}
+        curves = {key: curve for key in law.declares.curves if (curve := self._curve(key, law, form, reading))}
+        node = form.node("scale")
+        scale = read_scale(node, reading.named(f"{name}.scale")) if node else None
+        form.close()
+        return Branch("", law, values, curves, scale, place=form.place)
+
+    def _complain_of_element(self, word: str | None, form: Form) -> None:
+        if word:
+            known = nearest(word, self.elements) or f"known elements: {', '.join(sorted(self.elements))}"
+            form.complain("element", f"there is no element '{word}'", known)
+            return
+        for key in form.rest:
+            if hint := nearest(key, (*WAYS, *FOR_ALL)):
+                self.problems.append(Problem(form.key_place(key), f"{form.what} has no key '{key}'", hint))
+
+    def _value(self, key: str, law: type[Element], form: Form, reading: Reading) -> Value | None:
+        parameter, node = law.declares.parameters[key], form.node(key)
+        if node is not None:
+            return read_value(node, kind_of(parameter), reading.named(f"{reading.what}.{key}"))
+        if parameter.default is None:
+            form.complain(None, f"'{reading.what}' lacks '{key}' ({parameter.about}, {parameter.unit})",
+                          f"add '{key}: ...'")  # fmt: skip
+        return None
+
+    def _curve(self, key: str, law: type[Element], form: Form, reading: Reading) -> Characteristic | None:
+        curve, node = law.declares.curves[key], form.node(key)
+        if node is not None:
+            return read_curve(node, curve, reading.named(f"{reading.what}.{key}"))
+        form.complain(None, f"'{reading.what}' lacks '{key}' ({curve.about})", f"add '{key}: ...'")
+        return None
+
+
+def _named(member: Branch | Group, name: str, family: str) -> Branch | Group:
+    if isinstance(member, Branch):
+        return replace(member, name=f"{name}.{member.name}".rstrip("."), family=f"{family}.{member.family}".rstrip("."))
+    return replace(member, name=f"{name}.{member.name}".rstrip("."),
+                   members=tuple(_named(inner, name, family) for inner in member.members))  # fmt: skip
