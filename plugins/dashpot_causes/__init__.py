@@ -19,5 +19,13 @@ def dashpot_causes() -> list[type]:
     from dashpot_causes.stiffness_curve import StiffnessCurve
     from dashpot_causes.viscous_damping import ViscousDamping
 
-    return [Friction, Relaxation, ViscousDamping, QuadraticDamping, PreloadDependentDamping, StiffnessCurve,
-            MovingMass, Delay]  # fmt: skip
+    return [
+        Friction,
+        Relaxation,
+        ViscousDamping,
+        QuadraticDamping,
+        PreloadDependentDamping,
+        StiffnessCurve,
+        MovingMass,
+        Delay,
+    ]

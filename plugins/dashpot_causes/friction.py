@@ -9,8 +9,9 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"limit": "N", "stiffness": "N/m"}
-PLACES = 14
+UNITS = {"limit": "N", "stiffness": "N/m", "creep_velocity": "m/s"}
+PLACES = 18
+SPEEDS = 8
 MOST = 3
 
 
@@ -27,10 +28,18 @@ class Friction(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Smooth sliders, and sliders behind a spring, on a grid of yield travels."""
-        grid = np.geomspace(2e-3 * view.stroke, 0.6 * view.stroke, PLACES)
+        """Smooth sliders and sliders behind a spring on a grid of yield travels; a rigid contact on one of velocities."""
+        grid = np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES)
         for element in ("dahl", "prandtl"):
             yield added_branch(
-                element, "friction", tuple(grid), lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
-                UNITS, most=MOST,
-            )  # fmt: skip
+                element,
+                "friction",
+                tuple(grid),
+                lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
+                UNITS,
+                most=MOST,
+            )
+        speeds = np.geomspace(1e-3 * view.speed, 0.3 * view.speed, SPEEDS)
+        yield added_branch(
+            "coulomb", "friction", tuple(speeds), lambda limit, speed: {"limit": limit, "creep_velocity": speed}, UNITS
+        )

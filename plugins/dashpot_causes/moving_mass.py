@@ -22,5 +22,12 @@ class MovingMass(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One inerter in parallel."""
-        yield added_branch("inerter", "moving_mass", (0.0,), lambda mass, _: {"inertance": mass}, {"inertance": "kg"},
-                           sign=0, unknowns=0)  # fmt: skip
+        yield added_branch(
+            "inerter",
+            "moving_mass",
+            (0.0,),
+            lambda mass, _: {"inertance": mass},
+            {"inertance": "kg"},
+            sign=0,
+            unknowns=0,
+        )

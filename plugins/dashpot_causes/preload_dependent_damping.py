@@ -48,7 +48,12 @@ def _extend(text: str, atoms: Sequence[Atom]) -> str:
     bounds = "bounds: [0.02, 50]"
     texts = ["1" if k == reference else f"{{start: {factor:.5g}, {bounds}}}" for k, factor in enumerate(factors)]
     at = ", ".join(pretty(place, "m", 6) for _, place in atoms)
-    lines = [f"{free_name(text, 'preload_dependent_damping')}:", "  element: damper",
-             f"  damping: {{start: {pretty(strengths[reference], 'N*s/m', 6)}}}", "  scale:",
-             f"    deflection: [{at}]", f"    factor: [{', '.join(texts)}]"]  # fmt: skip
+    lines = [
+        f"{free_name(text, 'preload_dependent_damping')}:",
+        "  element: damper",
+        f"  damping: {{start: {pretty(strengths[reference], 'N*s/m', 6)}}}",
+        "  scale:",
+        f"    deflection: [{at}]",
+        f"    factor: [{', '.join(texts)}]",
+    ]
     return add_branch(text, "\n".join(lines))

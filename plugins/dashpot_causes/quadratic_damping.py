@@ -21,5 +21,11 @@ class QuadraticDamping(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One quadratic dashpot in parallel."""
-        yield added_branch("quadratic_damper", "quadratic_damping", (0.0,), lambda damping, _: {"damping": damping},
-                           {"damping": "N*s^2/m^2"}, unknowns=0)  # fmt: skip
+        yield added_branch(
+            "quadratic_damper",
+            "quadratic_damping",
+            (0.0,),
+            lambda damping, _: {"damping": damping},
+            {"damping": "N*s^2/m^2"},
+            unknowns=0,
+        )

@@ -31,6 +31,10 @@ class Relaxation(Cause):
         """Maxwell branches on a logarithmic grid of relaxation times."""
         grid = np.geomspace(2.0 * view.dt, 0.3 * view.duration, PLACES)
         yield added_branch(
-            "maxwell", "relaxation", tuple(grid), lambda k, time: {"stiffness": k, "relaxation_time": time},
-            UNITS, most=MOST,
-        )  # fmt: skip
+            "maxwell",
+            "relaxation",
+            tuple(grid),
+            lambda k, time: {"stiffness": k, "relaxation_time": time},
+            UNITS,
+            most=MOST,
+        )

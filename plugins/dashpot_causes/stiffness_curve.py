@@ -13,7 +13,7 @@ from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
-KNOTS = (6, 11)
+KNOTS = (6, 12, 24)
 
 
 class StiffnessCurve(Cause):
@@ -31,8 +31,15 @@ class StiffnessCurve(Cause):
         """A correction curve through few or through many knots over the covered deflections."""
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
-            yield Suspect(f"{count} knots", knots, lambda view, run, knots=knots: hats(knots, view.displacement(run)),
-                          _extend, joint=True, sign=0, unknowns=0)  # fmt: skip
+            yield Suspect(
+                f"{count} knots",
+                knots,
+                lambda view, run, knots=knots: hats(knots, view.displacement(run)),
+                _extend,
+                joint=True,
+                sign=0,
+                unknowns=0,
+            )
 
 
 def hats(knots: Sequence[float], x: Array) -> Array:
@@ -48,6 +55,11 @@ def _extend(text: str, atoms: Sequence[Atom]) -> str:
     span = 20.0 * max(max(abs(strength) for strength, _ in atoms), 1.0)
     bounds = f"bounds: [{pretty(-span, 'N')}, {pretty(span, 'N')}]"
     forces = ", ".join(f"{{start: {pretty(strength, 'N', 6)}, {bounds}}}" for strength, _ in atoms)
-    lines = [f"{free_name(text, 'stiffness_correction')}:", "  element: spring", "  stiffness:",
-             f"    deflection: [{at}]", f"    force: [{forces}]"]  # fmt: skip
+    lines = [
+        f"{free_name(text, 'stiffness_correction')}:",
+        "  element: spring",
+        "  stiffness:",
+        f"    deflection: [{at}]",
+        f"    force: [{forces}]",
+    ]
     return add_branch(text, "\n".join(lines))

@@ -22,5 +22,11 @@ class ViscousDamping(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One dashpot in parallel."""
-        yield added_branch("damper", "viscous_damping", (0.0,), lambda damping, _: {"damping": damping},
-                           {"damping": "N*s/m"}, unknowns=0)  # fmt: skip
+        yield added_branch(
+            "damper",
+            "viscous_damping",
+            (0.0,),
+            lambda damping, _: {"damping": damping},
+            {"damping": "N*s/m"},
+            unknowns=0,
+        )

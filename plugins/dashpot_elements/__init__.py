@@ -10,6 +10,7 @@ hookimpl = pluggy.HookimplMarker("dashpot")
 @hookimpl
 def dashpot_elements() -> list[type]:
     """Every element of this package."""
+    from dashpot_elements.coulomb import Coulomb
     from dashpot_elements.dahl import Dahl
     from dashpot_elements.damper import Damper
     from dashpot_elements.inerter import Inerter
@@ -18,4 +19,4 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.quadratic_damper import QuadraticDamper
     from dashpot_elements.spring import Spring
 
-    return [Spring, Damper, QuadraticDamper, Maxwell, Dahl, Prandtl, Inerter]
+    return [Spring, Damper, QuadraticDamper, Maxwell, Dahl, Coulomb, Prandtl, Inerter]

@@ -11,11 +11,11 @@ import numpy as np
 import dashpot
 from dashpot.assess.evidence import signal_evidence
 from dashpot.contract.registry import Registry
+from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.objective import Objective
 from dashpot.fit.result import FitResult, floor_of, parameters_of
 from dashpot.kernel.network import compile_network
-from dashpot.data.dataset import Dataset
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError
 
@@ -32,16 +32,23 @@ class Comparison:
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``compare.json``; errors in N, ``nrmse`` in units of the standard deviation of the force."""
         dataset = self.setting.dataset
-        failed = [{"name": name, "parameters": {}, "rmse": None, "nrmse": None, "per_run": {}, "status": reason}
-                  for name, reason in self.failures.items()]  # fmt: skip
+        failed = [
+            {"name": name, "parameters": {}, "rmse": None, "nrmse": None, "per_run": {}, "status": reason}
+            for name, reason in self.failures.items()
+        ]
         return {
             "format": "dashpot-comparison/1",
-            "dataset": {"name": dataset.name, "digest": dataset.digest, "runs": [run.name for run in dataset.runs],
-                        "held_out": list(self.setting.split.held_out), "held_out_reason": self.setting.split.reason},
+            "dataset": {
+                "name": dataset.name,
+                "digest": dataset.digest,
+                "runs": [run.name for run in dataset.runs],
+                "held_out": list(self.setting.split.held_out),
+                "held_out_reason": self.setting.split.reason,
+            },
             "noise_floor": floor_of(self.setting.floor),
             "models": [self._model(fit) for fit in self.fits] + failed,
             "seed": self.seed,
-        }  # fmt: skip
+        }
 
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report: all models in loops and dynamic stiffness."""
@@ -50,32 +57,57 @@ class Comparison:
         for fit in self.fits:
             network = compile_network(fit.fitted)
             forces = Objective(network, runs).forces(network.start)
-            residuals[fit.declared.name] = {run.name: run.force - force[0]
-                                            for run, force in zip(runs, forces, strict=True)}  # fmt: skip
+            residuals[fit.declared.name] = {
+                run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)
+            }
         warnings = [str(problem) for problem in self.setting.dataset.problems]
-        warnings += [f"{fit.declared.name}: {path} is at the end of its range" for fit in self.fits
-                     for path in fit.at_bound]  # fmt: skip
+        warnings += [
+            f"{fit.declared.name}: {path} is at the end of its range" for fit in self.fits for path in fit.at_bound
+        ]
         return {
             **signal_evidence(self.setting.dataset.runs, residuals),
-            "history": {fit.declared.name: {"evaluations": [float(count) for count, _ in fit.history],
-                                            "best": [loss for _, loss in fit.history]} for fit in self.fits},
+            "history": {
+                fit.declared.name: {
+                    "evaluations": [float(count) for count, _ in fit.history],
+                    "best": [loss for _, loss in fit.history],
+                }
+                for fit in self.fits
+            },
             "warnings": warnings,
-            "provenance": {"dashpot": dashpot.__version__, "seed": self.seed, "data": self.setting.dataset.digest,
-                           "held out": ", ".join(self.setting.split.held_out) or self.setting.split.reason},
-        }  # fmt: skip
+            "provenance": {
+                "dashpot": dashpot.__version__,
+                "seed": self.seed,
+                "data": self.setting.dataset.digest,
+                "held out": ", ".join(self.setting.split.held_out) or self.setting.split.reason,
+            },
+        }
 
     def _model(self, fit: FitResult) -> dict[str, Any]:
         errors = {"train": fit.errors.train, "held_out": fit.errors.held_out, "all": fit.errors.all}
         spreads = {name: float(np.std(run.force[run.first :])) for name, run in self.setting.scored.items()}
         groups = {"train": self.setting.split.train, "held_out": self.setting.split.held_out, "all": tuple(spreads)}
         relative = {key: _relative(fit, spreads, names) for key, names in groups.items()}
-        return {"name": fit.declared.name, "parameters": parameters_of(fit.fitted), "rmse": errors, "nrmse": relative,
-                "per_run": dict(fit.errors.per_run), "status": fit.ending}  # fmt: skip
+        return {
+            "name": fit.declared.name,
+            "parameters": parameters_of(fit.fitted),
+            "rmse": errors,
+            "nrmse": relative,
+            "per_run": dict(fit.errors.per_run),
+            "status": fit.ending,
+        }
 
 
-def compare(specs: Sequence[NetworkSpec], dataset: Dataset, *, optimizer: str | None = None,
-            options: Mapping[str, Any] | None = None, seed: int = 0, jobs: int = 1, registry: Registry,
-            progress: Progress | None = None) -> Comparison:  # fmt: skip
+def compare(
+    specs: Sequence[NetworkSpec],
+    dataset: Dataset,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry,
+    progress: Progress | None = None,
+) -> Comparison:
     """Identify every network on the training runs and judge it on all runs.
 
     A network that cannot be fitted is named with its reason; the others go on.

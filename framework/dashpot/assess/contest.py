@@ -48,7 +48,7 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """What every refit needs: the training runs and the elements; ``sensors`` is the force channel's data sheet by run."""
+    """What every refit needs; ``sensors`` is the data sheet of the force channel by run."""
 
     runs: Sequence[ScoredRun]
     elements: Mapping[str, type[Element]]
@@ -96,11 +96,13 @@ def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, 
 
 def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
     """A network with the fitted numbers and curves of another one, wherever the two share a path."""
-    curves = {f"{branch.name}.{key}": curve for branch in fitted.leaves()
-              for key, curve in branch.characteristics().items()}  # fmt: skip
+    curves = {
+        f"{branch.name}.{key}": curve for branch in fitted.leaves() for key, curve in branch.characteristics().items()
+    }
     for path in declared.data_curves():
         declared = declared.with_curve(path, curves[path])
     known = {slot.path: slot.value for slot in fitted.slots()}
-    shared = {slot.path: replace(known[slot.path], node=slot.value.node) for slot in declared.slots()
-              if slot.path in known}  # fmt: skip
+    shared = {
+        slot.path: replace(known[slot.path], node=slot.value.node) for slot in declared.slots() if slot.path in known
+    }
     return declared.with_values(shared)

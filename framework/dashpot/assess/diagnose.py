@@ -11,9 +11,11 @@ from typing import Any
 import dashpot
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.evidence import gather_evidence
+from dashpot.assess.gain import Gain
 from dashpot.assess.leftover import Leftover, look_for_leftover
 from dashpot.assess.misfit import Misfit, describe_misfit
-from dashpot.assess.pursuit import Accepted, Pursuer, Pursuit, residuals_of
+from dashpot.assess.named import NamedCause, name_causes
+from dashpot.assess.pursuit import Pursuer, Pursuit, residuals_of
 from dashpot.assess.suspicion import linear_view
 from dashpot.assess.verdict import give_verdict
 from dashpot.contract.registry import Registry
@@ -52,10 +54,15 @@ class Diagnosis:
         """The network that was diagnosed."""
         return self.fit.declared
 
+    @cached_property
+    def named(self) -> tuple[NamedCause, ...]:
+        """The accepted causes, one entry a word."""
+        return tuple(name_causes(self.pursuit, self.final))
+
     @property
     def extended_name(self) -> str | None:
         """File name of the extended network, None without an accepted cause."""
-        words = [entry.finding.candidate.cause.word for entry in self.pursuit.accepted]
+        words = [named.cause.word for named in self.named]
         return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
 
     @cached_property
@@ -64,10 +71,15 @@ class Diagnosis:
         if self.extended_name is None:
             return None
         declared = self.pursuit.ladder[-1].declared
-        record = {"data": self.setting.dataset.digest[:16], "seed": str(self.seed), "version": dashpot.__version__,
-                  "rmse": pretty(self.after.train, "N", 4), "predecessor": self.model.name}  # fmt: skip
+        record = {
+            "data": self.setting.dataset.digest[:16],
+            "seed": str(self.seed),
+            "version": dashpot.__version__,
+            "rmse": pretty(self.after.train, "N", 4),
+            "predecessor": self.model.name,
+        }
         head = [f"{self.model.name}, extended by a diagnosis."]
-        head += [f"cause: {entry.finding.candidate.cause.about}; {_gain_words(entry)}" for entry in self.pursuit.accepted]
+        head += [f"cause: {named.cause.about}; {_gain_words(named.gain)}" for named in self.named]
         head.append(f"predecessor: {self.model.name}")
         return rename(fill_numbers(declared, self.final, record), self.extended_name.removesuffix(".yaml"), head)
 
@@ -82,7 +94,7 @@ class Diagnosis:
             "noise_floor": floor_of(self.setting.floor),
             "rmse": {"before": _pair(self.before), "after": _pair(self.after)},
             "misfit": [{"what": m.what, "share": m.share, "where": dict(m.where)} for m in self.misfit],
-            "causes": [self._cause(number, entry) for number, entry in enumerate(self.pursuit.accepted, 1)],
+            "causes": [self._cause(rank, named) for rank, named in enumerate(self.named, 1)],
             "extended_model": self.extended_name,
             "held_out": list(self.setting.split.held_out),
             "tried": self.pursuit.tried,
@@ -95,40 +107,41 @@ class Diagnosis:
         """Arrays and texts for the report."""
         return gather_evidence(self)
 
-    def _cause(self, rank: int, entry: Accepted) -> dict[str, Any]:
-        cause = entry.finding.candidate.cause
-        rivals = {word: cause.confused_with.get(word) or self.causes[word].confused_with.get(cause.word)
-                  for word in entry.rivals}  # fmt: skip
-        slots = self._added(rank)
-        measurements = [text for text in rivals.values() if text]
+    def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
+        telling = [text for rival in named.rivals if (text := self.measurement_between(named.cause.word, rival))]
         return {
-            "cause": cause.word, "class": cause.kind, "rank": rank, "accepted": True,
-            "branch": next(iter(slots)).rpartition(".")[0] if slots else None,
-            "evidence": _evidence_words(entry), "title": cause.about, "expected_gain": entry.expected_gain,
-            "gain": entry.gain.value if entry.gain else None,
-            "gain_interval": list(entry.gain.interval) if entry.gain else None,
-            "parameters": {path.rpartition(".")[2]: {"value": value.number, "unit": value.unit,
-                                                     "interval": list(value.interval) if value.interval else None}
-                           for path, value in slots.items()},
-            "indistinguishable_from": list(rivals), "next_measurement": measurements[0] if measurements else None,
-        }  # fmt: skip
+            "cause": named.cause.word,
+            "class": named.cause.kind,
+            "title": named.cause.about,
+            "rank": rank,
+            "accepted": True,
+            "branch": named.branch,
+            "evidence": named.evidence,
+            "expected_gain": named.steps[0].expected_gain,
+            "gain": named.gain.value if named.gain else None,
+            "gain_interval": list(named.gain.interval) if named.gain else None,
+            "parameters": named.parameters(),
+            "indistinguishable_from": list(named.rivals),
+            "next_measurement": telling[0] if telling else None,
+        }
 
-    def _added(self, rank: int) -> dict[str, Any]:
-        before = {slot.path for slot in self.pursuit.first.model.declared.slots()}
-        before |= {path for path in before if "[" in path}
-        known = {path.partition("[")[0] for path in before}
-        for entry in self.pursuit.accepted[: rank - 1]:
-            known |= {slot.path.partition("[")[0] for slot in entry.trial.model.declared.slots()}
-        known |= set(self.pursuit.first.model.declared.data_curves())
-        mine = {slot.path for slot in self.pursuit.accepted[rank - 1].trial.model.declared.slots()}
-        return {slot.path: slot.value for slot in self.final.slots()
-                if slot.path in mine and slot.path.partition("[")[0] not in known}  # fmt: skip
+    def measurement_between(self, word: str, rival: str) -> str:
+        """The measurement that tells two causes apart, or an empty text when neither of them says."""
+        return self.causes[word].confused_with.get(rival) or self.causes[rival].confused_with.get(word, "")
 
 
 @single_threaded_algebra
-def diagnose(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = None,
-             options: Mapping[str, Any] | None = None, seed: int = 0, jobs: int = 1, registry: Registry,
-             progress: Progress | None = None) -> Diagnosis:  # fmt: skip
+def diagnose(
+    spec: NetworkSpec,
+    dataset: Dataset,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry,
+    progress: Progress | None = None,
+) -> Diagnosis:
     """Fit, look at what is left, pursue its causes, and say how sure that is.
 
     Raises InputError for a network that does not compile on these data.
@@ -148,10 +161,18 @@ def diagnose(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = Non
     last = pursuit.last
     leftover = look_for_leftover(*linear_view(bench, last.model), last.noise, runs)
     return Diagnosis(
-        setting=setting, fit=fit, pursuit=pursuit, final=final, before=measure_errors(first.fitted, setting, jobs),
-        after=measure_errors(final, setting, jobs), misfit=tuple(misfit), leftover=leftover,
-        verdict=give_verdict(pursuit, leftover), causes=causes, seed=seed,
-    )  # fmt: skip
+        setting=setting,
+        fit=fit,
+        pursuit=pursuit,
+        final=final,
+        before=measure_errors(first.fitted, setting, jobs),
+        after=measure_errors(final, setting, jobs),
+        misfit=tuple(misfit),
+        leftover=leftover,
+        verdict=give_verdict(pursuit, leftover),
+        causes=causes,
+        seed=seed,
+    )
 
 
 def model_of(fit: FitResult) -> Model:
@@ -186,14 +207,8 @@ def _watch(progress: Progress, name: str) -> Callable[[str, float], None]:
     return lambda what, done: progress(f"{name}: {what}", done or None, None, None)
 
 
-def _gain_words(entry: Accepted) -> str:
-    if entry.gain is None:
+def _gain_words(gain: Gain | None) -> str:
+    if gain is None:
         return "gain not measured, no run could be held out"
-    low, high = entry.gain.interval
-    return f"gain on held-out runs {entry.gain.value:.1%} [{low:.1%}, {high:.1%}]"
-
-
-def _evidence_words(entry: Accepted) -> str:
-    cause = entry.finding.candidate.cause
-    return (f"{cause.shows}; as {entry.finding.candidate.suspect.form} it lowers chi square by {entry.trial.gain:.4g}, "
-            f"{entry.trial.merit:.4g} more than its parameters cost")  # fmt: skip
+    low, high = gain.interval
+    return f"gain on held-out runs {gain.value:.1%} [{low:.1%}, {high:.1%}]"

@@ -41,26 +41,32 @@ def gather_evidence(diagnosis: Diagnosis) -> dict[str, Any]:
         "next_measurement": _next_measurements(diagnosis),
         "warnings": _warnings(diagnosis),
         "history": {diagnosis.model.name: _history(diagnosis.fit.history)},
-        "provenance": {"dashpot": dashpot.__version__, "seed": diagnosis.seed, "data": setting.dataset.digest,
-                       "held out": ", ".join(setting.split.held_out) or setting.split.reason},
-    }  # fmt: skip
+        "provenance": {
+            "dashpot": dashpot.__version__,
+            "seed": diagnosis.seed,
+            "data": setting.dataset.digest,
+            "held out": ", ".join(setting.split.held_out) or setting.split.reason,
+        },
+    }
 
 
 def signal_evidence(runs: tuple[Run, ...], residuals: Mapping[str, Mapping[str, Array]]) -> dict[str, Any]:
-    """Loops, residuals, dynamic stiffness, harmonics and the misfit map of labelled residuals (measured - simulated)."""
+    """Loops, residuals, dynamic stiffness, harmonics and misfit map of labelled residuals (measured - simulated)."""
     tracked = {run.name: track for run in runs if (track := _track(run)) is not None}
     return {
         "loops": {
-            "measured": {run.name: {"time": run.time, "displacement": run.displacement, "force": run.force}
-                         for run in runs},
-            "simulated": {label: {run.name: run.force - found[run.name] for run in runs}
-                          for label, found in residuals.items()},
+            "measured": {
+                run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs
+            },
+            "simulated": {
+                label: {run.name: run.force - found[run.name] for run in runs} for label, found in residuals.items()
+            },
         },
         "residuals": {"time": {run.name: run.time for run in runs}, "residuals": residuals},
         "dynamic_stiffness": [_curve(run, tracked[run.name], residuals) for run in runs if run.name in tracked],
         "harmonics": {label: _harmonics(found, tracked) for label, found in residuals.items()} if tracked else {},
         "misfit_map": _misfit_map(runs, tracked, residuals),
-    }  # fmt: skip
+    }
 
 
 def detection_limits(diagnosis: Diagnosis) -> list[dict[str, Any]]:
@@ -68,8 +74,15 @@ def detection_limits(diagnosis: Diagnosis) -> list[dict[str, Any]]:
     found = []
     screen = diagnosis.pursuit.last.screen
     for limit in screen.limits:
-        found.append({"cause": limit.cause.word, "title": limit.cause.about, "quantity": f"as {limit.form}, force RMS",
-                      "value": limit.force, "unit": "N"})  # fmt: skip
+        found.append(
+            {
+                "cause": limit.cause.word,
+                "title": limit.cause.about,
+                "quantity": f"as {limit.form}, force RMS",
+                "value": limit.force,
+                "unit": "N",
+            }
+        )
     return found
 
 
@@ -84,9 +97,14 @@ def _track(run: Run) -> Oscillation | None:
 
 def _curve(run: Run, track: Oscillation, residuals: Mapping[str, Mapping[str, Array]]) -> dict[str, Any]:
     measured = _averaged(harmonics_of(run.force, track))
-    curve = {"run": run.name, "amplitude": float(np.median(measured.amplitude)),
-             "preload": float(np.median(measured.preload)), "frequency": measured.frequency,
-             "measured": _response(measured), "simulated": {}}  # fmt: skip
+    curve = {
+        "run": run.name,
+        "amplitude": float(np.median(measured.amplitude)),
+        "preload": float(np.median(measured.preload)),
+        "frequency": measured.frequency,
+        "measured": _response(measured),
+        "simulated": {},
+    }
     for label, found in residuals.items():
         simulated = _averaged(harmonics_of(run.force - found[run.name], track))
         curve["simulated"][label] = _response(simulated)
@@ -99,8 +117,10 @@ def _averaged(stiffness: DynamicStiffness) -> DynamicStiffness:
 
 
 def _response(stiffness: Any) -> dict[str, Array]:
-    return {"stiffness": np.hypot(stiffness.storage, stiffness.loss),
-            "loss_angle": np.arctan2(stiffness.loss, stiffness.storage)}  # fmt: skip
+    return {
+        "stiffness": np.hypot(stiffness.storage, stiffness.loss),
+        "loss_angle": np.arctan2(stiffness.loss, stiffness.storage),
+    }
 
 
 def _harmonics(residuals: Mapping[str, Array], tracked: Mapping[str, Oscillation]) -> dict[str, list[float]]:
@@ -112,8 +132,9 @@ def _harmonics(residuals: Mapping[str, Array], tracked: Mapping[str, Oscillation
     return {group: np.mean(sizes, axis=0).tolist() for group, sizes in groups.items()}
 
 
-def _misfit_map(runs: tuple[Run, ...], tracked: Mapping[str, Oscillation],
-                residuals: Mapping[str, Mapping[str, Array]]) -> list[dict[str, Any]]:  # fmt: skip
+def _misfit_map(
+    runs: tuple[Run, ...], tracked: Mapping[str, Oscillation], residuals: Mapping[str, Mapping[str, Array]]
+) -> list[dict[str, Any]]:
     rows = []
     for run in runs:
         if run.name not in tracked:
@@ -134,20 +155,32 @@ def _rms(residuals: Mapping[str, Mapping[str, Array]], run: str, where: Any) -> 
 def _patch(diagnosis: Diagnosis) -> dict[str, str]:
     if diagnosis.extended_text is None:
         return {}
-    return {"before": diagnosis.model.document.text, "after": diagnosis.extended_text,
-            "before_name": f"{diagnosis.model.name}.yaml", "after_name": diagnosis.extended_name}  # fmt: skip
+    return {
+        "before": diagnosis.model.document.text,
+        "after": diagnosis.extended_text,
+        "before_name": f"{diagnosis.model.name}.yaml",
+        "after_name": diagnosis.extended_name,
+    }
 
 
 def _rejected(diagnosis: Diagnosis, rejection: Any) -> dict[str, Any]:
     title = f"{diagnosis.causes[rejection.cause].about} ({rejection.form})"
-    return {"cause": rejection.cause, "title": title, "reason": rejection.reason,
-            "expected_gain": rejection.expected_gain, "gain": rejection.gain}  # fmt: skip
+    return {
+        "cause": rejection.cause,
+        "title": title,
+        "reason": rejection.reason,
+        "expected_gain": rejection.expected_gain,
+        "gain": rejection.gain,
+    }
 
 
 def _next_measurements(diagnosis: Diagnosis) -> list[str]:
-    return [f"{diagnosis.causes[entry['cause']].about} or {diagnosis.causes[rival].about}: {entry['next_measurement']}"
-            for entry in diagnosis.as_dict()["causes"] if entry["next_measurement"]
-            for rival in entry["indistinguishable_from"][:1]]  # fmt: skip
+    return [
+        f"{diagnosis.causes[entry['cause']].about} or {diagnosis.causes[rival].about}: {entry['next_measurement']}"
+        for entry in diagnosis.as_dict()["causes"]
+        if entry["next_measurement"]
+        for rival in entry["indistinguishable_from"][:1]
+    ]
 
 
 def _warnings(diagnosis: Diagnosis) -> list[str]:

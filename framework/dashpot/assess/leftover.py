@@ -36,15 +36,24 @@ class Leftover:
         return self.score > SIGNIFICANT and self.size > SMALLEST_SIZE
 
 
-def look_for_leftover(view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array], noise: NoiseModel,
-                      runs: Sequence[Run]) -> Leftover:  # fmt: skip
+def look_for_leftover(
+    view: ModelView,
+    residual: Mapping[str, Array],
+    tangents: Mapping[str, Array],
+    noise: NoiseModel,
+    runs: Sequence[Run],
+) -> Leftover:
     """The more telling one of the two tests."""
-    return max(_correlation(view, residual, tangents, noise), _agreement(residual, noise, runs),
-               key=lambda leftover: (leftover.notable, leftover.size))  # fmt: skip
+    return max(
+        _correlation(view, residual, tangents, noise),
+        _agreement(residual, noise, runs),
+        key=lambda leftover: (leftover.notable, leftover.size),
+    )
 
 
-def _correlation(view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array],
-                 noise: NoiseModel) -> Leftover:  # fmt: skip
+def _correlation(
+    view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array], noise: NoiseModel
+) -> Leftover:
     gram, right, samples = 0.0, 0.0, 0
     for run in residual:
         first = view.scored[run].first
@@ -71,9 +80,29 @@ def general_functions(view: ModelView, run: str) -> Array:
     local = local / max(float(np.std(local)), 1e-300)
     v = view.velocity(run) / view.speed
     a = np.gradient(v)
-    plain = [x, x**2, x**3, x**4, v, v * np.abs(v), np.abs(v), v**3, v * x, v * x**2, v * local, v * local**2,
-             np.tanh(20.0 * v), np.tanh(20.0 * v) * x, np.tanh(20.0 * v) * local, local**2, local**3, np.tanh(4.0 * x),
-             a, a * local, view.force(run) * v]  # fmt: skip
+    plain = [
+        x,
+        x**2,
+        x**3,
+        x**4,
+        v,
+        v * np.abs(v),
+        np.abs(v),
+        v**3,
+        v * x,
+        v * x**2,
+        v * local,
+        v * local**2,
+        np.tanh(20.0 * v),
+        np.tanh(20.0 * v) * x,
+        np.tanh(20.0 * v) * local,
+        local**2,
+        local**3,
+        np.tanh(4.0 * x),
+        a,
+        a * local,
+        view.force(run) * v,
+    ]
     remembered = [_low_pass(signal, view.step(run) / lag) for lag in LAGS for signal in (local, local**2, np.abs(v))]
     return np.array([*plain, *remembered])
 

@@ -49,8 +49,11 @@ def describe_misfit(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list
         return _by_run(runs, residuals)
     total = sum(part.total for part in parts)
     shares = {kind: sum(float(part.energy[kind].mean()) for part in parts) / total for kind in parts[0].energy}
-    found = [Misfit(_words(kind, parts), share, _where(kind, parts)) for kind, share in shares.items()
-             if share >= SMALLEST_SHARE]  # fmt: skip
+    found = [
+        Misfit(_words(kind, parts), share, _where(kind, parts))
+        for kind, share in shares.items()
+        if share >= SMALLEST_SHARE
+    ]
     return sorted(found, key=lambda misfit: -misfit.share)
 
 
@@ -64,11 +67,21 @@ def _split(run: Run, residual: Array) -> _Parts | None:
     orders = harmonics_of(residual, oscillation)
     half = 0.5 * (orders.sine**2 + orders.cosine**2)
     energy = {
-        "storage": 0.5 * orders.sine[:, 0] ** 2, "loss": 0.5 * orders.cosine[:, 0] ** 2, "even": half[:, 1],
-        "odd": half[:, 2] + half[:, 4], "mean": orders.offset**2,
-    }  # fmt: skip
-    return _Parts(energy, float(np.mean(orders.sine[:, 0])), float(np.mean(orders.cosine[:, 0])), orders.amplitude,
-                  orders.preload, orders.frequency, float(np.mean(residual**2)))  # fmt: skip
+        "storage": 0.5 * orders.sine[:, 0] ** 2,
+        "loss": 0.5 * orders.cosine[:, 0] ** 2,
+        "even": half[:, 1],
+        "odd": half[:, 2] + half[:, 4],
+        "mean": orders.offset**2,
+    }
+    return _Parts(
+        energy,
+        float(np.mean(orders.sine[:, 0])),
+        float(np.mean(orders.cosine[:, 0])),
+        orders.amplitude,
+        orders.preload,
+        orders.frequency,
+        float(np.mean(residual**2)),
+    )
 
 
 def _words(kind: str, parts: Sequence[_Parts]) -> str:
@@ -76,9 +89,11 @@ def _words(kind: str, parts: Sequence[_Parts]) -> str:
     if kind in ("storage", "loss"):
         error = heaviest.storage if kind == "storage" else heaviest.loss
         return f"{kind} stiffness of the model too {'small' if error > 0.0 else 'large'}{_condition(kind, parts)}"
-    return {"even": "second harmonic not reproduced (one-sided effect)",
-            "odd": "third and fifth harmonic not reproduced (symmetric nonlinear effect)",
-            "mean": "mean force wrong"}[kind]  # fmt: skip
+    return {
+        "even": "second harmonic not reproduced (one-sided effect)",
+        "odd": "third and fifth harmonic not reproduced (symmetric nonlinear effect)",
+        "mean": "mean force wrong",
+    }[kind]
 
 
 def _condition(kind: str, parts: Sequence[_Parts]) -> str:
@@ -100,8 +115,12 @@ def _where(kind: str, parts: Sequence[_Parts]) -> dict[str, str]:
     preload, _ = _gather(parts, "preload", kind)
     frequency, _ = _gather(parts, "frequency", kind)
     edges = np.linspace(frequency.min(), frequency.max(), BANDS + 1)
-    means = [float(energy[(frequency >= a) & (frequency <= b)].mean()) if ((frequency >= a) & (frequency <= b)).any()
-             else 0.0 for a, b in zip(edges, edges[1:], strict=False)]  # fmt: skip
+    means = [
+        float(energy[(frequency >= a) & (frequency <= b)].mean())
+        if ((frequency >= a) & (frequency <= b)).any()
+        else 0.0
+        for a, b in zip(edges, edges[1:], strict=False)
+    ]
     k = int(np.argmax(means))
     return {
         "amplitude": pretty(_heaviest(amplitude, energy), "m", 2),
@@ -111,8 +130,10 @@ def _where(kind: str, parts: Sequence[_Parts]) -> dict[str, str]:
 
 
 def _gather(parts: Sequence[_Parts], key: str, kind: str) -> tuple[Array, Array]:
-    return (np.concatenate([getattr(part, key) for part in parts]),
-            np.concatenate([part.energy[kind] for part in parts]))  # fmt: skip
+    return (
+        np.concatenate([getattr(part, key) for part in parts]),
+        np.concatenate([part.energy[kind] for part in parts]),
+    )
 
 
 def _heaviest(condition: Array, energy: Array) -> float:
@@ -124,5 +145,10 @@ def _by_run(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list[Misfit]
     squares = {run.name: float(np.mean(residuals[run.name] ** 2)) for run in runs}
     total = sum(squares.values()) or 1.0
     worst = max(squares, key=lambda name: squares[name])
-    return [Misfit(f"force wrong, most of all in run '{worst}'", 1.0,
-                   {"run": worst, "share of this run": f"{squares[worst] / total:.0%}"})]  # fmt: skip
+    return [
+        Misfit(
+            f"force wrong, most of all in run '{worst}'",
+            1.0,
+            {"run": worst, "share of this run": f"{squares[worst] / total:.0%}"},
+        )
+    ]

@@ -96,15 +96,18 @@ class Pursuer:
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
             accepted, look = self.prune(accepted, look, first)
         ladder = self.polish_ladder(first.model, accepted, look)
-        accepted = [replace(entry, gain=self.gain_of(before, after))
-                    for entry, before, after in zip(accepted, ladder, ladder[1:], strict=False)]  # fmt: skip
+        accepted = [
+            replace(entry, gain=self.gain_of(before, after))
+            for entry, before, after in zip(accepted, ladder, ladder[1:], strict=False)
+        ]
         return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
 
     def polish_ladder(self, first: Model, accepted: Sequence[Accepted], last: Look) -> list[Model]:
         """The first model and the one after each cause, all fitted to the plain error, so that their gains compare."""
         self.watch("final refits", 0.0)
-        models = [first, *(entry.trial.model for entry in accepted[:-1])]
-        return [self.bench.fit(m.declared, m.fitted, None) for m in (*models, *([last.model] if accepted else []))]
+        models = [self.rebuild(accepted[:count], last.model, first, None) for count in range(1, len(accepted))]
+        steps = [first, *models, last.model] if accepted else [first]
+        return [self.bench.fit(step.declared, step.fitted, None) for step in steps]
 
     def best_trial(self, look: Look, later: bool) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
@@ -144,8 +147,9 @@ class Pursuer:
     def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:
         """Note a candidate that did not hold, with the reason."""
         candidate = trial.finding.candidate
-        self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen,
-                                       gain.value if gain else None))  # fmt: skip
+        self.rejected.append(
+            Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, gain.value if gain else None)
+        )
 
     def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs."""
@@ -156,18 +160,23 @@ class Pursuer:
         """Drop an earlier cause that a later one made superfluous."""
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
-            model = self.rebuild(kept, look.model, first, look.noise)
+            model = self.rebuild(kept, look.model, first.model, look.noise)
             price = (look.model.point.size - model.point.size) * np.log(look.screen.samples)
             if model.chi_square - look.model.chi_square < price + look.screen.threshold:
                 word = accepted[number].finding.candidate.cause.word
-                self.rejected.append(Rejection(word, accepted[number].finding.candidate.suspect.form,
-                                               "superfluous once the later causes are there"))  # fmt: skip
+                self.rejected.append(
+                    Rejection(
+                        word,
+                        accepted[number].finding.candidate.suspect.form,
+                        "superfluous once the later causes are there",
+                    )
+                )
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
 
-    def rebuild(self, kept: Sequence[Accepted], model: Model, first: Look, noise: NoiseModel) -> Model:
+    def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers."""
-        text = first.model.declared.document.text
+        text = first.declared.document.text
         for entry in kept:
             text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
         declared = parse_network(text, self.bench.elements)

@@ -1,8 +1,8 @@
 """Every suspect against the residual of the fitted model, without a refit.
 
-Each run gives whitened columns [residual | tangents of the fitted parameters | sensor errors | all suspects]. Their Gram
-matrix, summed over runs, holds all there is to know: what a refit of the present model could absorb is projected out
-(Neyman's C(alpha) test), so a suspect may claim only what the model cannot explain by other numbers.
+Each run gives whitened columns [residual | tangents of the fitted parameters | sensor errors | all suspects]. Their
+Gram matrix, summed over runs, holds all there is to know: what a refit of the present model could absorb is projected
+out (Neyman's C(alpha) test), so a suspect may claim only what the model cannot explain by other numbers.
 """
 
 from __future__ import annotations
@@ -85,8 +85,14 @@ class Screen:
         return self.findings[0] if self.findings and self.findings[0].merit > self.threshold else None
 
 
-def collect_columns(view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array],
-                    candidates: Sequence[Candidate], nuisance: Mapping[str, Array], priors: Array) -> Columns:  # fmt: skip
+def collect_columns(
+    view: ModelView,
+    residual: Mapping[str, Array],
+    tangents: Mapping[str, Array],
+    candidates: Sequence[Candidate],
+    nuisance: Mapping[str, Array],
+    priors: Array,
+) -> Columns:
     """Evaluate the bank of all candidates on every run."""
     bank = {}
     for run in view.runs:
@@ -166,7 +172,9 @@ def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Array, 
     suspect, best = candidate.suspect, None
     chosen: list[int] = []
     for _ in range(suspect.most):
-        options = [(*_solve(s, matrix, (*chosen, k), suspect.sign), k) for k in np.flatnonzero(usable) if k not in chosen]
+        options = [
+            (*_solve(s, matrix, (*chosen, k), suspect.sign), k) for k in np.flatnonzero(usable) if k not in chosen
+        ]
         if not options:
             break
         gain, strengths, k = max(options, key=lambda option: option[0])
@@ -230,8 +238,10 @@ def _null_quantile(candidates: Sequence[Candidate], spread: Array, original: Arr
         matrix = spread[where, where]
         usable = np.diag(matrix) > KEPT * original[where]
         if usable.any():
-            best = np.maximum(best, _null_merits(candidate.suspect, draws[:, where][:, usable],
-                                                 matrix[np.ix_(usable, usable)], samples))  # fmt: skip
+            best = np.maximum(
+                best,
+                _null_merits(candidate.suspect, draws[:, where][:, usable], matrix[np.ix_(usable, usable)], samples),
+            )
     return float(np.quantile(best, 1.0 - FALSE_ALARMS)) if np.isfinite(best).any() else 0.0
 
 

@@ -13,6 +13,7 @@ from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
 from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_columns, rich_residual, screen
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Cause
+from dashpot.data.sensor_errors import error_shapes
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise
 from dashpot.fit.scored import ScoredRun
@@ -66,15 +67,21 @@ def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array]
     misfit, jacobian = linearise(objective, model.coordinates, model.point)
     forces = objective.forces(model.values)
     names = [run.name for run in bench.runs]
-    view = ModelView(dict(zip(names, bench.runs, strict=True)),
-                     {name: force[0] for name, force in zip(names, forces, strict=True)}, bench.elements)  # fmt: skip
+    view = ModelView(
+        dict(zip(names, bench.runs, strict=True)),
+        {name: force[0] for name, force in zip(names, forces, strict=True)},
+        bench.elements,
+    )
     residual = {name: -misfit[piece] for name, piece in zip(names, objective.pieces, strict=True)}
     return view, residual, {name: jacobian[:, piece] for name, piece in zip(names, objective.pieces, strict=True)}
 
 
-def gather_candidates(causes: Sequence[type[Cause]], view: ModelView, model: Model,
-                      ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:  # fmt: skip
-    """All forms of all causes with the places of their columns; a cause that cannot be tried is named with the reason."""
+def gather_candidates(
+    causes: Sequence[type[Cause]],
+    view: ModelView,
+    model: Model,
+) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
+    """All forms of all causes with the places of their columns, and the causes that cannot be tried with the reason."""
     found: list[Candidate] = []
     unavailable, first = [], 0
     for cause in causes:
@@ -91,13 +98,17 @@ def gather_candidates(causes: Sequence[type[Cause]], view: ModelView, model: Mod
     return found, tuple(unavailable)
 
 
-def sensor_nuisance(runs: Sequence[ScoredRun], view: ModelView, sensors: Mapping[str, Mapping[str, float]],
-                    residual: Mapping[str, Array]) -> tuple[dict[str, Array], Array]:  # fmt: skip
-    """Columns of the force channel's errors within its specification, one of each per run, and how large they may be."""
+def sensor_nuisance(
+    runs: Sequence[ScoredRun],
+    view: ModelView,
+    sensors: Mapping[str, Mapping[str, float]],
+    residual: Mapping[str, Array],
+) -> tuple[dict[str, Array], Array]:
+    """The force channel's errors within its specification, one of each kind per run, and how large they may be."""
     rows: list[tuple[str, Array, float]] = []
     for run in runs:
         force, first = view.force(run.name), run.first
-        shapes = {"gain": force, "zero": np.ones(force.size), "delay": -np.gradient(force, run.drive.dt)}
+        shapes = error_shapes(force, run.drive.dt)
         for key, size in sensors.get(run.name, {}).items():
             if key in shapes and size > 0.0:
                 rows.append((run.name, shapes[key][first:], size))

@@ -90,7 +90,10 @@ class ModelView:
 def _probe(element: type[Element], keys: tuple[str, ...]) -> CompiledNetwork:
     declared = element.declares
     values = {key: Value(1.0, declared.parameters[key].unit) for key in keys if key in declared.parameters}
-    curves = {key: Characteristic(declared.curves[key], "constant", (Value(1.0, declared.curves[key].slope_unit),))
-              for key in keys if key in declared.curves}  # fmt: skip
+    curves = {
+        key: Characteristic(declared.curves[key], "constant", (Value(1.0, declared.curves[key].slope_unit),))
+        for key in keys
+        if key in declared.curves
+    }
     branch = Branch("probe", element, values, curves)
     return compile_network(NetworkSpec("probe", Group("", "parallel", (branch,))))

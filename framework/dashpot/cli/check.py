@@ -29,9 +29,11 @@ def verb(specs: tuple[str, ...], switches: Switches) -> None:
 
 
 def problems_of(spec: str, session: Session) -> tuple[Problem, ...]:
-    """What is wrong with one network."""
+    """What is wrong with one network: with its text, or with solving it."""
+    from dashpot.kernel.trace import trace_network
+
     try:
-        session.network(spec)
+        trace_network(session.network(spec))
     except InputError as error:
         return error.problems
     return ()

@@ -82,10 +82,16 @@ class Cause(ABC):
 
 
 def added_branch(
-    element: str, branch: str, grid: Sequence[float], values: Callable[[float, float], Mapping[str, float]],
-    units: Mapping[str, str], sign: Literal[0, 1] = 1, most: int = 1, unknowns: int = 1, bounds: bool = True,
-) -> Suspect:  # fmt: skip
-    """The suspect that an element is missing in parallel: ``values(strength, place)`` are its parameters in ``units``."""
+    element: str,
+    branch: str,
+    grid: Sequence[float],
+    values: Callable[[float, float], Mapping[str, float]],
+    units: Mapping[str, str],
+    sign: Literal[0, 1] = 1,
+    most: int = 1,
+    unknowns: int = 1,
+) -> Suspect:
+    """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``."""
 
     def columns(view: View, run: str) -> Array:
         return view.respond(run, element, [values(1.0, place) for place in grid])

@@ -64,7 +64,7 @@ _PARTIALS: dict[str, tuple[Callable[..., Node | float], ...]] = {
     "divide": (lambda f, a, b: 1.0 / b, lambda f, a, b: -f / b),
     "power": (lambda f, a, b: b * a ** (b - 1.0), lambda f, a, b: f * np.log(a)),
     "negative": (lambda f, a: -1.0,),
-    "absolute": (lambda f, a: np.where(a < 0.0, -1.0, 1.0),),
+    "absolute": (lambda f, a: apply("where", apply("less", a, ZERO), constant(-1.0), constant(1.0)),),
     "sqrt": (lambda f, a: 0.5 / f,),
     "exp": (lambda f, a: f,),
     "expm1": (lambda f, a: f + 1.0,),

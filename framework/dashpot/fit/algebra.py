@@ -1,7 +1,7 @@
 """Linear algebra on one thread.
 
-Runs are spread over threads already. A second level of threads inside the algebra would wait for itself on a busy machine
-and would round differently with their number; results are the same on one worker or many without it.
+Runs are spread over threads already. A second level of threads inside the algebra would wait for itself on a busy
+machine, and would round differently with their number; without it results are the same on one worker or many.
 """
 
 from __future__ import annotations

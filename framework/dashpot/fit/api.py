@@ -65,13 +65,22 @@ class Setting:
 
 def prepare(dataset: Dataset, seed: int = 0) -> Setting:
     """Score the runs, split them, find the noise floor."""
-    return Setting(dataset, {run.name: score_run(run) for run in dataset.runs}, split_runs(dataset, seed),
-                   noise_floor(dataset))  # fmt: skip
+    return Setting(
+        dataset, {run.name: score_run(run) for run in dataset.runs}, split_runs(dataset, seed), noise_floor(dataset)
+    )
 
 
-def fit_network(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = None,
-                options: Mapping[str, Any] | None = None, seed: int = 0, jobs: int = 1, registry: Registry | None = None,
-                progress: Progress | None = None) -> FitResult:  # fmt: skip
+def fit_network(
+    spec: NetworkSpec,
+    dataset: Dataset,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry | None = None,
+    progress: Progress | None = None,
+) -> FitResult:
     """Identify the searched numbers of a network; see the module for the stages.
 
     ``optimizer`` is a plugged-in method for stage 2; without one the framework's own Gauss-Newton from several starts.
@@ -82,8 +91,9 @@ def fit_network(spec: NetworkSpec, dataset: Dataset, *, optimizer: str | None = 
 
 
 @single_threaded_algebra
-def fit_prepared(spec: NetworkSpec, setting: Setting, method: Optimizer | None, seed: int, jobs: int,
-                 progress: Progress) -> FitResult:  # fmt: skip
+def fit_prepared(
+    spec: NetworkSpec, setting: Setting, method: Optimizer | None, seed: int, jobs: int, progress: Progress
+) -> FitResult:
     """Identify a network on a dataset made ready."""
     watch = _Watch(progress, spec.name, setting.floor.value)
     grounded = with_ranges(ground_curves(spec, setting.train), natural_sizes(setting.train))
@@ -99,12 +109,21 @@ def fit_prepared(spec: NetworkSpec, setting: Setting, method: Optimizer | None, 
     fitted = with_point(corrected, coordinates, polished.point)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(
-        declared=spec, fitted=with_intervals(fitted, intervals), errors=measure_errors(fitted, setting, jobs),
-        noise_floor=setting.floor, split=setting.split, dataset=setting.dataset,
-        optimizer=method.word if method else OWN_METHOD, seed=seed, ending=polished.outcome.value,
-        evaluations=best.evaluations + polished.evaluations, at_bound=known.at_bound, idle=known.idle,
-        spread=best.spread, history=best.history,
-    )  # fmt: skip
+        declared=spec,
+        fitted=with_intervals(fitted, intervals),
+        errors=measure_errors(fitted, setting, jobs),
+        noise_floor=setting.floor,
+        split=setting.split,
+        dataset=setting.dataset,
+        optimizer=method.word if method else OWN_METHOD,
+        seed=seed,
+        ending=polished.outcome.value,
+        evaluations=best.evaluations + polished.evaluations,
+        at_bound=known.at_bound,
+        idle=known.idle,
+        spread=best.spread,
+        history=best.history,
+    )
 
 
 def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors:
@@ -119,8 +138,15 @@ def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors
     return Errors(pooled(setting.split.train), pooled(setting.split.held_out), pooled(tuple(per_run)), per_run)
 
 
-def _search(spec: NetworkSpec, runs: Sequence[ScoredRun], chosen: Callable[[Slot], bool], method: Optimizer | None,
-            seed: int, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Best]:  # fmt: skip
+def _search(
+    spec: NetworkSpec,
+    runs: Sequence[ScoredRun],
+    chosen: Callable[[Slot], bool],
+    method: Optimizer | None,
+    seed: int,
+    jobs: int,
+    watch: _Watch,
+) -> tuple[NetworkSpec, Best]:
     objective = Objective(compile_network(spec), runs, jobs)
     coordinates = search_coordinates(spec, chosen)
     if method is None or not coordinates.paths:
@@ -131,8 +157,10 @@ def _search(spec: NetworkSpec, runs: Sequence[ScoredRun], chosen: Callable[[Slot
         method,
         lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
         lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
-        space, seed, progress=lambda standing: watch.stage(method.word, None, standing.loss),
-    )  # fmt: skip
+        space,
+        seed,
+        progress=lambda standing: watch.stage(method.word, None, standing.loss),
+    )
     point = coordinates.from_cube(found.best)
     history = tuple((standing.evaluations, standing.loss) for standing in found.history)
     refined = refine(objective, coordinates, point, steps=0)

@@ -64,16 +64,23 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
     bounds = np.array([value.bounds for value in values], dtype=float).reshape(-1, 2)
     low, high = (np.where(log, np.log(np.where(log, side, 1.0)), side) for side in bounds.T)
     return Coordinates(
-        tuple(slots[number].path for number in which), np.array(which, dtype=np.int64), log, low, high,
-        _units(slots, which), np.array([slot.value.number for slot in slots]),
-    )  # fmt: skip
+        tuple(slots[number].path for number in which),
+        np.array(which, dtype=np.int64),
+        log,
+        low,
+        high,
+        _units(slots, which),
+        np.array([slot.value.number for slot in slots]),
+    )
 
 
 def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
     """The network with the numbers of a point."""
     values = coordinates.to_values(point)[0]
     slots = spec.slots()
-    return spec.with_values({slots[k].path: replace(slots[k].value, number=float(values[k])) for k in coordinates.which})
+    return spec.with_values(
+        {slots[k].path: replace(slots[k].value, number=float(values[k])) for k in coordinates.which}
+    )
 
 
 def _units(slots: Sequence[Slot], which: Sequence[int]) -> Array:

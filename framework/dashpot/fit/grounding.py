@@ -1,4 +1,4 @@
-"""Taking the curves of a network out of the data: from the quasi-static loop, or from the sweeps where there is none."""
+"""Taking curves of a network out of the data: from the quasi-static loop, or from the sweeps where there is none."""
 
 from __future__ import annotations
 
@@ -54,8 +54,9 @@ def widest(runs: Sequence[ScoredRun]) -> ScoredRun | None:
 def table_of(curve: Characteristic, at: Array, force: Array) -> Characteristic:
     """A searched table in the place of a curve from data."""
     span = max(float(np.ptp(force)), 1.0)
-    values = tuple(Value(float(f), curve.curve.value[1], "identified", (float(f) - span, float(f) + span), "linear")
-                   for f in force)  # fmt: skip
+    values = tuple(
+        Value(float(f), curve.curve.value[1], "identified", (float(f) - span, float(f) + span), "linear") for f in force
+    )
     return Characteristic(curve.curve, "table", values, tuple(map(float, at)), curve.data, curve.knots, curve.node)
 
 

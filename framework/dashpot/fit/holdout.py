@@ -34,8 +34,11 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
         return _split(dataset, {run.group for run in dataset.runs if run.held_out})
     groups = list(dict.fromkeys(run.group for run in dataset.runs if run.kind not in ALWAYS_TRAIN))
     if len(groups) < FEWEST_GROUPS:
-        return Split(tuple(run.name for run in dataset.runs), (), f"{len(groups)} independent dynamic runs are too few "
-                     f"to hold one out; {FEWEST_GROUPS} would do")  # fmt: skip
+        return Split(
+            tuple(run.name for run in dataset.runs),
+            (),
+            f"{len(groups)} independent dynamic runs are too few to hold one out; {FEWEST_GROUPS} would do",
+        )
     wanted = max(1, round(SHARE * len(groups)))
     chosen: set[str] = set()
     for strict in (True, False):

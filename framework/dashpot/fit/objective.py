@@ -27,8 +27,9 @@ class Objective:
     squared error, in N. With ``whiten(run, misfits)`` a loss is the root mean square of all whitened misfits.
     """
 
-    def __init__(self, network: CompiledNetwork, runs: Sequence[ScoredRun], jobs: int = 1,
-                 whiten: Whiten | None = None) -> None:  # fmt: skip
+    def __init__(
+        self, network: CompiledNetwork, runs: Sequence[ScoredRun], jobs: int = 1, whiten: Whiten | None = None
+    ) -> None:
         self.network, self.runs, self.jobs, self.whiten = network, tuple(runs), jobs, whiten
         self.rows = [network.prepare(run.drive) for run in self.runs]
         ends = np.cumsum([0] + [run.samples for run in self.runs])
@@ -42,14 +43,15 @@ class Objective:
         return parts, [parts.prepare(run.drive) for run in self.runs]
 
     def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
-        """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots are shifted."""
+        """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots move."""
         block = np.empty((1 + len(which), self.total))
 
         def fill(number: int) -> None:
             parts, rows = self.parts
             run, piece = self.runs[number], self.pieces[number]
             seen = self.network.observation(values).linear(
-                *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt)  # fmt: skip
+                *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
+            )
             block[0, piece] = seen[0][run.first :] - run.force[run.first :]
             block[1:, piece] = seen[1][:, run.first :]
             for k in np.flatnonzero([parts.owner[slot] is None for slot in which]):

@@ -21,7 +21,7 @@ DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
 class Outcome(Enum):
     """How a refinement ended; the value is the message."""
 
-    CONVERGED = "no step improves the fit any more"
+    CONVERGED = "converged"
     STEPS_SPENT = "the largest number of steps was reached before the fit stood still; allow more steps"
     FAILED = "the simulation is not finite at the start; check the start values"
 
@@ -36,8 +36,14 @@ class Refined:
     evaluations: int
 
 
-def refine(objective: Objective, coordinates: Coordinates, start: Array, steps: int = 40, tolerance: float = 1e-7,
-           watch: Callable[[float], None] = lambda loss: None) -> Refined:  # fmt: skip
+def refine(
+    objective: Objective,
+    coordinates: Coordinates,
+    start: Array,
+    steps: int = 40,
+    tolerance: float = 1e-7,
+    watch: Callable[[float], None] = lambda loss: None,
+) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block.

@@ -101,10 +101,14 @@ def floor_of(floor: NoiseFloor) -> dict[str, Any]:
 def parameters_of(spec: NetworkSpec) -> dict[str, Any]:
     """Every number of a network as it stands in result files."""
     return {
-        slot.path: {"value": slot.value.number, "unit": slot.value.unit, "role": slot.value.role,
-                    "interval": list(slot.value.interval) if slot.value.interval else None}
+        slot.path: {
+            "value": slot.value.number,
+            "unit": slot.value.unit,
+            "role": slot.value.role,
+            "interval": list(slot.value.interval) if slot.value.interval else None,
+        }
         for slot in spec.slots()
-    }  # fmt: skip
+    }
 
 
 def with_intervals(spec: NetworkSpec, intervals: Mapping[str, tuple[float, float]]) -> NetworkSpec:

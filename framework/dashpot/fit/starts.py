@@ -30,8 +30,9 @@ class Best:
     history: tuple[tuple[int, float], ...]
 
 
-def refine_from_starts(objective: Objective, coordinates: Coordinates, seed: int,
-                       watch: Callable[[float, float], None]) -> Best:  # fmt: skip
+def refine_from_starts(
+    objective: Objective, coordinates: Coordinates, seed: int, watch: Callable[[float, float], None]
+) -> Best:
     """The file's start and the best of a block of random ones, a few steps each; the best of them to its end.
 
     ``watch(done, loss)`` hears of the progress.

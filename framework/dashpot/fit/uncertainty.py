@@ -49,9 +49,11 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
-        covariance, tuple(_interval(coordinates, k, point[k], width[k]) for k in range(point.size)),
-        tuple(np.array(coordinates.paths)[bound]), tuple(np.array(coordinates.paths)[idle]),
-    )  # fmt: skip
+        covariance,
+        tuple(_interval(coordinates, k, point[k], width[k]) for k in range(point.size)),
+        tuple(np.array(coordinates.paths)[bound]),
+        tuple(np.array(coordinates.paths)[idle]),
+    )
 
 
 def _blocks(objective: Objective) -> list[slice]:

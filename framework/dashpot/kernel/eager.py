@@ -20,7 +20,7 @@ from dashpot.expr.node import walk
 from dashpot.kernel.columns import see_samples, see_turns
 from dashpot.kernel.curves import TableLaw, cubic_coefficients
 from dashpot.kernel.trace import RATES, Sight, TracedBranch, check_states, refuse_missing_numbers, trace_network
-from dashpot.model.element import Motion
+from dashpot.model.element import Motion, Response
 from dashpot.model.network import Branch, Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
@@ -49,6 +49,30 @@ def simulate_interpreted(spec: NetworkSpec, drive: Drive, values: Array | None =
     return _answer(_march(walkers, drive, block.shape[0]), values)
 
 
+class EagerBranch:
+    """A branch whose element computes with arrays; ``numbers`` holds the values (lanes,) of its slots by path."""
+
+    def __init__(self, branch: Branch, numbers: Numbers) -> None:
+        self.branch, self.law = branch, branch.element()
+        declared = branch.element.declares
+        self.parameters = SimpleNamespace(
+            **{key: numbers.get(f"{branch.name}.{key}", law.default) for key, law in declared.parameters.items()},
+            **{key: _curve(f"{branch.name}.{key}", curve, numbers) for key, curve in branch.curves.items()},
+        )
+        self.scale = _curve(f"{branch.name}.scale", branch.scale, numbers) if branch.scale else None
+
+    def rest(self, lanes: int) -> dict[str, Array]:
+        """The states of the unloaded specimen."""
+        return {key: np.zeros(lanes) for key in self.branch.element.declares.states}
+
+    def respond(self, x: Motion, states: Mapping[str, Any], dt: float) -> Response:
+        """The force at the end of a step, scaled as the file says, and the new states."""
+        response = self.law.step(x, SimpleNamespace(**states), self.parameters, dt)
+        check_states(self.branch, response)
+        force = response.force if self.scale is None else response.force * self.scale(x.new)
+        return Response(force, **response.states)
+
+
 class _Walker(ABC):
     """A branch that is moved step by step and keeps its own memory."""
 
@@ -63,22 +87,15 @@ class _EagerWalker(_Walker):
     """A branch whose element computes with arrays."""
 
     def __init__(self, branch: Branch, sight: Sight, numbers: Numbers, lanes: int) -> None:
-        self.branch, self.sight, self.law = branch, sight, branch.element()
-        declared = branch.element.declares
-        self.states: dict[str, Any] = dict.fromkeys(declared.states, np.zeros(lanes))
-        self.parameters = SimpleNamespace(
-            **{key: numbers.get(f"{branch.name}.{key}", law.default) for key, law in declared.parameters.items()},
-            **{key: _curve(f"{branch.name}.{key}", curve, numbers) for key, curve in branch.curves.items()},
-        )
-        self.scale = _curve(f"{branch.name}.scale", branch.scale, numbers) if branch.scale else None
+        self.sight, self.eager = sight, EagerBranch(branch, numbers)
+        self.states: Mapping[str, Any] = self.eager.rest(lanes)
 
     def move(self, motion: Mapping[str, float], dt: float) -> Any:
         # what a law of this sight does not depend on is not there to be used
         x = Motion(motion["old"], motion["new"], *(motion.get(rate, np.nan) for rate in RATES))
-        response = self.law.step(x, SimpleNamespace(**self.states), self.parameters, dt)
-        check_states(self.branch, response)
-        self.states = dict(response.states)
-        return response.force if self.scale is None else response.force * self.scale(x.new)
+        response = self.eager.respond(x, self.states, dt)
+        self.states = response.states
+        return response.force
 
 
 class _GraphWalker(_Walker):

@@ -78,7 +78,9 @@ class _Names:
             return "lane"
         if node.serial in self.columns:
             return "drive"
-        return {"symbol": "state", "table": "table"}.get(node.operation, "result")
+        if node.operation == "table":
+            return "table"
+        return "state" if node.operation == "symbol" else "result"
 
     def of(self, node: Node) -> str:
         kind = self.kind(node)

@@ -78,9 +78,17 @@ class BranchReader:
         try:
             return Group("", "parallel", self.use(other).root.members, form.place) if other else None
         except InputError as error:
-            form.complain("use", f"the network '{other}' cannot be used", "correct what is said about it")
-            self.problems.extend(error.problems)
+            self._complain_of_use(other, form, error)
             return None
+
+    def _complain_of_use(self, other: str, form: Form, error: InputError) -> None:
+        for problem in error.problems:
+            if problem.place.line is None:
+                form.complain("use", f"'{other}' cannot be used: {problem.message}", problem.hint)
+        placed = [problem for problem in error.problems if problem.place.line is not None]
+        if placed:
+            form.complain("use", f"'{other}' cannot be used: {len(placed)} mistakes stand in it", "correct them there")
+            self.problems.extend(placed)
 
     def _element(self, name: str, form: Form, copy: Copy) -> Branch | None:
         word = form.text("element")
@@ -123,7 +131,12 @@ class BranchReader:
 
 
 def _named(member: Branch | Group, name: str, family: str) -> Branch | Group:
+    # a member that was read has no name yet, one from a group or another network is called by its path
     if isinstance(member, Branch):
-        return replace(member, name=f"{name}.{member.name}".rstrip("."), family=f"{family}.{member.family}".rstrip("."))
-    return replace(member, name=f"{name}.{member.name}".rstrip("."),
-                   members=tuple(_named(inner, name, family) for inner in member.members))  # fmt: skip
+        return replace(member, name=_join(name, member.name), family=_join(family, member.family))
+    members = tuple(_named(inner, name, family) for inner in member.members)
+    return replace(member, name=_join(name, member.name), members=members)
+
+
+def _join(*names: str) -> str:
+    return ".".join(name for name in names if name)

@@ -31,8 +31,8 @@ def _curves_from_the_same_data(spec: NetworkSpec) -> Iterator[Problem]:
     for path, curve in spec.data_curves().items():
         if curve.data in seen:
             place = curve.node.place if curve.node else Place()
-            yield Problem(place, f"'{path}' is taken from {curve.data} data, and so is '{seen[curve.data]}': together they "
-                          "would count the same force twice", "write a number or a table for one of them")  # fmt: skip
+            message = f"'{path}' and '{seen[curve.data]}' both come from {curve.data} data: the force would count twice"
+            yield Problem(place, message, "write a number or a table for one of them")
         seen.setdefault(curve.data, path)
 
 

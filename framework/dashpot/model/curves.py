@@ -126,7 +126,7 @@ def _read_whole_column(entry: Node, kind: Kind, reading: Reading) -> list[Value 
         reading.complain(entry.place, f"expected a list of numbers, got {entry.describe()}")
         return []
     if reading.copy.of > 1:
-        reading.complain(entry.place, "expected a list with one entry for each knot in a repeated branch, got one for all",
+        reading.complain(entry.place, "expected a list with an entry for each knot, as the branch is repeated",
                          "write [{start: ...}, {start: ...}]")  # fmt: skip
         return []
     count, before = len(numbers.items), len(reading.problems)

@@ -2,148 +2,165 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
 
+from dashpot.model.inserting import Edit, add_entry, apply_edits, is_flow, plain_or_quoted, replace_entry
 from dashpot.model.network import Characteristic, NetworkSpec, Value
+from dashpot.model.written_out import write_out_uses
 from dashpot.text.document import Document
 from dashpot.text.node import Mapping as MappingNode
+from dashpot.text.node import Node
+from dashpot.text.problem import InputError, Place, nearest
 from dashpot.text.quantity import pretty
 
 DIGITS = 8
 INTERVAL_DIGITS = 4
 
 
-@dataclass(frozen=True)
-class Edit:
-    """Replace ``text[start:end]`` by ``new``."""
-
-    start: int
-    end: int
-    new: str
-
-
-def apply_edits(text: str, edits: Iterable[Edit]) -> str:
-    """The text after all edits, which must not overlap."""
-    for edit in sorted(edits, key=lambda edit: edit.start, reverse=True):
-        text = text[: edit.start] + edit.new + text[edit.end :]
-    return text
-
-
 def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, str]) -> str:
     """The text of ``spec`` with the numbers of ``fitted``: ``start`` becomes ``value``, with its interval.
 
-    ``fitted`` is the same network with other values; curves from data become tables. ``record`` is written at the end
-    under ``identified:`` and says where the numbers came from.
+    ``fitted`` is the same network with other values; curves from data become tables, and a network that is used and
+    has searched numbers is written out. ``record`` is written at the end under ``identified:`` and says where the
+    numbers came from. ValueError for a network that was not read from a text.
     """
-    document = spec.document
-    before = {slot.path: slot.value for slot in spec.slots()}
-    after = {slot.path: slot.value for slot in fitted.slots()}
-    edits = [_curve_edit(document, curve, fitted, path) for path, curve in spec.data_curves().items()]
-    written = {path for path in spec.data_curves()}
-    shared: dict[int, list[tuple[Value, Value]]] = {}
-    for path, value in before.items():
-        if value.searched and path.partition("[")[0] not in written:
-            shared.setdefault(id(value.node), []).append((value, after[path]))
-    for pairs in shared.values():
-        edits += _number_edits(document, [old for old, _ in pairs], [new for _, new in pairs])
-    return _with_record(apply_edits(document.text, edits), document, record)
+    document, spec = write_out_uses(spec)
+    edits = [_curve_edit(curve, fitted.curves()[path]) for path, curve in spec.data_curves().items()]
+    for old, new in _pair_up(spec, fitted):
+        edits += _number_edits(document, old, new)
+    return _with_record(apply_edits(document.text, edits), record, document.file)
 
 
 def add_branch(text: str, lines: str) -> str:
-    """The text with a branch, given as unindented lines, added at the end of ``branches:``."""
+    """The text with a branch, given as unindented lines ``name:`` ..., at the end of ``branches:``.
+
+    ValueError when there is a branch of that name.
+    """
     document = Document.parse(text)
-    branches = document.root.entries["branches"]
-    last = list(branches.entries.values())[-1]
-    column = next(iter(branches.keys.values())).place.column - 1
-    end = text.find("\n", last.end)
-    end = len(text) if end < 0 else end
-    block = "".join(f"\n{' ' * column}{line}".rstrip() for line in lines.strip("\n").split("\n"))
-    return text[:end] + block + text[end:]
+    return add_entry(document, _mapping(document.root, "branches"), lines)
 
 
 def add_to_branch(text: str, branch: str, lines: str) -> str:
-    """The text with lines added to the mapping of a branch."""
+    """The text with an entry, given as unindented lines, added to a branch; ``group.branch`` is one inside a group.
+
+    Raises InputError when there is no such branch, ValueError when it has that entry already.
+    """
     document = Document.parse(text)
-    node = document.root.entries["branches"].entries[branch]
-    if _is_flow(document, node):
-        closing = node.end - 1
-        inner = ", ".join(line.strip() for line in lines.strip("\n").split("\n"))
-        return text[:closing].rstrip() + f", {inner}" + text[closing:]
-    column = next(iter(node.keys.values())).place.column - 1
-    end = text.find("\n", list(node.entries.values())[-1].end)
-    end = len(text) if end < 0 else end
-    block = "".join(f"\n{' ' * column}{line}".rstrip() for line in lines.strip("\n").split("\n"))
-    return text[:end] + block + text[end:]
+    node: Node = document.root
+    for name in branch.split("."):
+        members = next((_mapping(node, key) for key in ("branches", "series", "parallel") if _has(node, key)), None)
+        if members is None or name not in members.entries:
+            hint = nearest(name, members.entries) if members else ""
+            raise InputError.at(Place(document.file), f"the network has no branch '{branch}'", hint)
+        node = members.entries[name]
+    return add_entry(document, node, lines)
 
 
 def add_measurement(text: str, key: str, entry: str) -> str:
-    """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``) under ``measurement: force:``."""
+    """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``) under ``measurement: force:``.
+
+    An entry of that key is replaced.
+    """
     document = Document.parse(text)
-    present = document.root.entries.get("measurement")
-    if present is None:
-        return text.rstrip("\n") + f"\nmeasurement:\n  force:\n    {key}: {entry}\n"
-    force = present.entries["force"]
-    if _is_flow(document, force):
-        closing = force.end - 1
-        return text[:closing].rstrip() + f", {key}: {entry}" + text[closing:]
-    column = next(iter(force.keys.values())).place.column - 1
-    last = list(force.entries.values())[-1].end
-    return text[:last] + f"\n{' ' * column}{key}: {entry}" + text[last:]
+    if not _has(document.root, "measurement"):
+        return add_entry(document, document.root, f"measurement:\n  force:\n    {key}: {entry}")
+    measurement = _mapping(document.root, "measurement")
+    if "force" not in measurement.entries:
+        return add_entry(document, measurement, f"force:\n  {key}: {entry}")
+    force = _mapping(measurement, "force")
+    if key in force.entries:
+        return apply_edits(text, [replace_entry(force, key, entry)])
+    return add_entry(document, force, f"{key}: {entry}")
 
 
 def rename(text: str, name: str, comment: Iterable[str]) -> str:
     """The text with another ``name:`` and comment lines at its head."""
-    node = Document.parse(text).root.entries["name"]
-    head = "".join(f"# {line}\n" for line in comment)
-    return head + text[: node.start] + name + text[node.end :]
+    head = "".join(f"# {line}".rstrip() + "\n" for line in comment)
+    edit = replace_entry(_mapping(Document.parse(text).root), "name", plain_or_quoted(name))
+    return head + apply_edits(text, [edit])
 
 
-def _number_edits(document: Document, old: list[Value], new: list[Value]) -> list[Edit]:
+def _pair_up(spec: NetworkSpec, fitted: NetworkSpec) -> Iterable[tuple[list[Value], list[Value]]]:
+    # several numbers stand in one place: the copies of a repeated branch, the knots of a table in one entry
+    after = {slot.path: slot.value for slot in fitted.slots()}
+    tables = set(spec.data_curves())
+    shared: dict[int, tuple[list[Value], list[Value]]] = {}
+    for slot in spec.slots():
+        if slot.value.searched and slot.path.partition("[")[0] not in tables:
+            old, new = shared.setdefault(id(slot.value.node), ([], []))
+            old.append(slot.value)
+            new.append(after[slot.path])
+    return shared.values()
+
+
+def _number_edits(document: Document, old: Sequence[Value], new: Sequence[Value]) -> list[Edit]:
     node = old[0].node
+    assert isinstance(node, MappingNode)
     key = "value" if "value" in node.entries else "start"
     number = node.entries[key]
-    edits = [Edit(number.start, number.end, _list([pretty(v.number, v.unit, DIGITS) for v in new]))]
-    edits.append(Edit(node.keys[key].start, node.keys[key].end, "value"))
-    if all(value.interval for value in new):
+    edits = [
+        Edit(node.keys[key].start, node.keys[key].end, "value"),
+        Edit(number.start, number.end, _list([pretty(value.number, value.unit, DIGITS) for value in new])),
+    ]
+    intervals = [value.interval for value in new]
+    if None not in intervals:
         text = _list([_pair(value) for value in new])
-        if "interval" in node.entries:
-            edits.append(Edit(node.entries["interval"].start, node.entries["interval"].end, text))
-        elif _is_flow(document, node):
-            edits.append(Edit(number.end, number.end, f", interval: {text}"))
-        else:
-            column = node.keys[key].place.column - 1
-            edits.append(Edit(number.end, number.end, f"\n{' ' * column}interval: {text}"))
+        edits.append(_interval_edit(document, node, number, text))
     return edits
 
 
-def _curve_edit(document: Document, curve: Characteristic, fitted: NetworkSpec, path: str) -> Edit:
-    name, _, key = path.rpartition(".")
-    found = next(branch for branch in fitted.leaves() if branch.name == name).characteristics()[key]
-    at = _list([pretty(x, curve.curve.over[1], DIGITS) for x in found.at])
-    values = _list([pretty(value.number, curve.curve.value[1], DIGITS) for value in found.values])
-    text = f"{{from: {curve.data}, {curve.curve.over[0]}: {at}, {curve.curve.value[0]}: {values}}}"
+def _interval_edit(document: Document, node: MappingNode, number: Node, text: str) -> Edit:
+    if "interval" in node.entries:
+        return replace_entry(node, "interval", text)
+    if is_flow(document, node):
+        return Edit(number.end, number.end, f", interval: {text}")
+    column = next(iter(node.keys.values())).place.column or 1
+    return Edit(number.end, number.end, f"\n{' ' * (column - 1)}interval: {text}")
+
+
+def _curve_edit(curve: Characteristic, found: Characteristic) -> Edit:
+    assert curve.node is not None
+    (value, unit), (over, over_unit) = curve.curve.value, curve.curve.over
+    at = ", ".join(pretty(x, over_unit, DIGITS) for x in found.at)
+    values = ", ".join(pretty(knot.number, unit, DIGITS) for knot in found.values)
+    text = f"{{from: {curve.data}, {over}: [{at}], {value}: [{values}]}}"
     return Edit(curve.node.start, curve.node.end, text)
 
 
-def _with_record(text: str, document: Document, record: Mapping[str, str]) -> str:
-    if "identified" in document.root.entries:
-        node, key = document.root.entries["identified"], document.root.keys["identified"]
-        cut = Document.parse(text).root
-        node, key = cut.entries["identified"], cut.keys["identified"]
-        text = text[: key.start].rstrip("\n") + "\n" + text[node.end :].lstrip("\n")
-    lines = "".join(f"  {key}: {value}\n" for key, value in record.items())
+def _with_record(text: str, record: Mapping[str, str], file: str | None) -> str:
+    document = Document.parse(text, file)
+    root = _mapping(document.root)
+    entries = [f"{key}: {plain_or_quoted(value)}" for key, value in record.items()]
+    known = "identified" in root.entries
+    if is_flow(document, root):
+        flow = f"{{{', '.join(entries)}}}"
+        if known:
+            return apply_edits(text, [replace_entry(root, "identified", flow)])
+        return add_entry(document, root, f"identified: {flow}")
+    if known:
+        start, end = root.keys["identified"].start, root.entries["identified"].end
+        text = text[:start].rstrip("\n") + "\n" + text[end:].lstrip("\n")
+    lines = "".join(f"  {entry}\n" for entry in entries)
     return text.rstrip("\n") + f"\nidentified:                         # where the numbers came from\n{lines}"
 
 
 def _pair(value: Value) -> str:
+    assert value.interval is not None
     low, high = value.interval
     return f"[{pretty(low, value.unit, INTERVAL_DIGITS)}, {pretty(high, value.unit, INTERVAL_DIGITS)}]"
 
 
-def _list(texts: list[str]) -> str:
+def _list(texts: Sequence[str]) -> str:
     return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
 
 
-def _is_flow(document: Document, node: MappingNode) -> bool:
-    return document.text[node.start] == "{"
+def _has(node: Node, key: str) -> bool:
+    return isinstance(node, MappingNode) and key in node.entries
+
+
+def _mapping(node: Node, *keys: str) -> MappingNode:
+    for key in keys:
+        node = node.entries[key] if isinstance(node, MappingNode) else node
+    if not isinstance(node, MappingNode):
+        raise InputError.at(node.place, f"expected a mapping, got {node.describe()}", "`dashpot check` tells more")
+    return node

@@ -18,9 +18,9 @@ from dashpot.text.problem import InputError, Place, Problem
 
 FORMAT = "dashpot-network/1"
 MEASUREMENT = {
-    "delay": Kind("s", (-0.1, 0.1), "linear"),
-    "gain": Kind("1", (0.2, 5.0), "linear"),
-    "offset": Kind("N", (-1e6, 1e6), "linear"),
+    "force.delay": Kind("s", (-0.1, 0.1), "linear"),
+    "force.gain": Kind("1", (0.2, 5.0), "linear"),
+    "force.offset": Kind("N", (-1e6, 1e6), "linear"),
 }
 
 Elements = MappingType[str, type[Element]]
@@ -67,11 +67,11 @@ def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:
     outer = form.form("measurement", default=None)
     inner = outer.form("force", default=None) if outer else None
     found = {}
-    for key, kind in MEASUREMENT.items():
-        node = inner.node(key) if inner else None
-        value = read_value(node, kind, Reading(f"the force channel, '{key}'", problems)) if node else None
+    for path, kind in MEASUREMENT.items():
+        node = inner.node(path.partition(".")[2]) if inner else None
+        value = read_value(node, kind, Reading(f"measurement, {path}", problems)) if node else None
         if value:
-            found[f"force.{key}"] = value
+            found[path] = value
     for part in (outer, inner):
         if part:
             part.close()
@@ -94,8 +94,10 @@ class _Uses:
         if found.resolve() in trail:
             names = " -> ".join(path.name for path in (*trail, found))
             raise InputError.at(Place(str(found)), f"the network uses itself: {names}", "break the circle")
-        inner = build_network(Document.read(found), self.elements, trail)
-        if inner.measurement:
-            raise InputError.at(inner.document.root.entries["measurement"].place, "a network that is used describes the "
-                                "specimen only", "move 'measurement' to the network that uses it")  # fmt: skip
+        document = Document.read(found)
+        inner = build_network(document, self.elements, trail)
+        for value in inner.measurement.values():
+            place = value.node.place if value.node else document.root.place
+            message = "a network that is used describes the specimen only, expected no 'measurement'"
+            raise InputError.at(place, message, "move it to the network that uses this one")
         return inner

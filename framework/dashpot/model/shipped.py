@@ -24,13 +24,7 @@ def shipped_networks() -> dict[str, Path]:
 def find_network(path_or_name: str | Path) -> Path:
     """The file of a network given by path or by shipped name. Raises InputError when there is none."""
     path = Path(path_or_name)
-    if path.suffix in SUFFIXES or path.is_file():
-        return path
-    shipped = shipped_networks()
-    if str(path_or_name) in shipped:
-        return shipped[str(path_or_name)]
-    hint = nearest(str(path_or_name), shipped) or f"shipped networks: {', '.join(shipped)}"
-    raise InputError.at(Place(str(path_or_name)), "there is no such file and no shipped network of that name", hint)
+    return path if path.suffix in SUFFIXES or path.is_file() else _find_shipped(str(path_or_name))
 
 
 def find_used_network(word: str, folder: Path) -> Path:
@@ -39,8 +33,16 @@ def find_used_network(word: str, folder: Path) -> Path:
     Raises InputError when there is none.
     """
     if Path(word).suffix not in SUFFIXES:
-        return find_network(word)
+        return _find_shipped(word)
     path = folder / word
     if not path.resolve().is_relative_to(folder.resolve()):
         raise InputError.at(Place(word), f"expected a file in or below {folder}", "move it there")
     return path
+
+
+def _find_shipped(name: str) -> Path:
+    shipped = shipped_networks()
+    if name in shipped:
+        return shipped[name]
+    hint = nearest(name, shipped) or f"shipped networks: {', '.join(shipped)}"
+    raise InputError.at(Place(name), "there is no such file and no shipped network of that name", hint)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from dashpot.model.element import Parameter, Scale
-from dashpot.model.network import Value
+from dashpot.model.network import Role, Value
 from dashpot.text.form import Form, read_items, read_quantity
 from dashpot.text.node import Mapping, Node, Sequence
 from dashpot.text.problem import Place, Problem
@@ -61,8 +61,8 @@ class Reading:
         if not isinstance(node, Sequence):
             return node
         if self.copy.of == 1:
-            raise ValueError(f"expected one number, got a list of {len(node.items)}; a list, with a number for each copy, "
-                             "belongs into a branch with 'repeat'")  # fmt: skip
+            raise ValueError(f"expected one number, got a list of {len(node.items)}; a list is for the copies of a "
+                             "branch with 'repeat'")  # fmt: skip
         if len(node.items) != self.copy.of:
             raise ValueError(f"expected {self.copy.of} numbers, one for each copy, got {len(node.items)}")
         return node.items[self.copy.number]
@@ -97,12 +97,12 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     key = "value" if "value" in form else "start"
     number = form.take(key, lambda inner: read_quantity(reading.pick(inner), kind.unit))
     bounds = form.take("bounds", lambda inner: _read_bounds(inner, kind), None)
-    scale = form.choice("scale", ("log", "linear"), kind.scale)
+    scale: Scale = "log" if form.choice("scale", ("log", "linear"), kind.scale) == "log" else "linear"
     interval = form.take("interval", lambda inner: _read_pair(_pick_pair(inner, reading), kind.unit), None)
     form.close()
     if number is None:
         return None
-    role = "identified" if key == "value" else "free"
+    role: Role = "identified" if key == "value" else "free"
     value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, node)
     for complaint in _complaints(value):
         reading.complain(form.place_of(key), complaint)

@@ -109,6 +109,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
     replaced = {
         "dashpot.model.reading": {"read_network": lambda name, elements: SimpleNamespace(name=name)},
         "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
+        "dashpot.kernel.trace": {"trace_network": lambda network: ()},
         "dashpot.fit.api": {"fit_network": work("fit")},
         "dashpot.assess.compare": {"compare": work("compare")},
         "dashpot.assess.diagnose": {"diagnose": work("diagnose")},

@@ -1,0 +1,85 @@
+"""The accepted causes as they are told: one entry a cause, with everything it added to the network."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from dashpot.assess.gain import Gain
+from dashpot.assess.pursuit import Accepted, Pursuit
+from dashpot.contract.cause import Cause
+from dashpot.model.network import NetworkSpec, Value
+
+
+@dataclass(frozen=True, eq=False)
+class NamedCause:
+    """A cause, the steps in which it was accepted, their gains together, and the numbers it brought, by path."""
+
+    cause: type[Cause]
+    steps: tuple[Accepted, ...]
+    gain: Gain | None
+    slots: Mapping[str, Value]
+
+    @property
+    def rivals(self) -> tuple[str, ...]:
+        """Words of the causes that fit alike."""
+        return tuple(dict.fromkeys(rival for step in self.steps for rival in step.rivals))
+
+    @property
+    def branch(self) -> str | None:
+        """The first branch it added; None for a cause in the measurement."""
+        return next(iter(self.slots)).partition(".")[0] if self.slots else None
+
+    @property
+    def evidence(self) -> str:
+        """How it shows, and by how much the fit is better with it."""
+        forms = ", then ".join(step.finding.candidate.suspect.form for step in self.steps)
+        fall = sum(step.trial.gain for step in self.steps)
+        price = fall - sum(step.trial.merit for step in self.steps)
+        return f"{self.cause.shows}. As {forms} it lowers chi square by {fall:.4g} at a price of {price:.3g}"
+
+    def parameters(self) -> dict[str, Any]:
+        """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
+        found = {}
+        for path, value in self.slots.items():
+            branch, _, name = path.partition(".")
+            found[name if branch == self.branch else path] = {
+                "value": value.number,
+                "unit": value.unit,
+                "interval": list(value.interval) if value.interval else None,
+            }
+        return found
+
+
+def name_causes(pursuit: Pursuit, final: NetworkSpec) -> list[NamedCause]:
+    """One entry for each accepted word, in the order of first acceptance."""
+    steps = list(zip(pursuit.accepted, pursuit.ladder, pursuit.ladder[1:], strict=False))
+    words = dict.fromkeys(entry.finding.candidate.cause.word for entry in pursuit.accepted)
+    found = []
+    for word in words:
+        mine = [step for step in steps if step[0].finding.candidate.cause.word == word]
+        slots: dict[str, Value] = {}
+        for _, before, after in mine:
+            slots |= _added(before.declared, after.declared, final)
+        entries = tuple(entry for entry, *_ in mine)
+        found.append(NamedCause(entries[0].finding.candidate.cause, entries, _together(entries), slots))
+    return found
+
+
+def _added(before: NetworkSpec, after: NetworkSpec, final: NetworkSpec) -> dict[str, Value]:
+    known = {slot.path for slot in before.slots()}
+    new = {slot.path for slot in after.slots()} - known
+    found = [slot for slot in final.slots() if slot.path in new]
+    # in the order of the text, where a cause puts what matters first
+    return {slot.path: slot.value for slot in sorted(found, key=lambda slot: slot.value.node.start)}
+
+
+def _together(entries: Sequence[Accepted]) -> Gain | None:
+    if any(entry.gain is None for entry in entries):
+        return None
+    left, low, high = 1.0, 1.0, 1.0
+    for entry in entries:
+        left *= 1.0 - entry.gain.value
+        low, high = low * (1.0 - entry.gain.interval[0]), high * (1.0 - entry.gain.interval[1])
+    return Gain(1.0 - left, (1.0 - low, 1.0 - high))
