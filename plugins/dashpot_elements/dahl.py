@@ -8,6 +8,8 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 
+TINY = 1e-300
+
 
 class Dahl(Element):
     """Dry friction after Dahl: dF/dx = k |u|^i sgn(u) with u = 1 - F/limit sgn(v), solved exactly for every i.
@@ -37,7 +39,7 @@ def _approach(distance: Any, way: Any, exponent: Any) -> Any:
     """u after a dimensionless way: du/dway = -|u|^exponent sgn(u)."""
     smooth = distance * np.exp(-way)
     excess = np.where(exponent == 1.0, 1.0, exponent - 1.0)
-    growth = excess * way * np.abs(distance) ** excess
+    growth = excess * way * np.maximum(np.abs(distance), TINY) ** excess
     general = distance * np.exp(-np.log1p(np.maximum(growth, -1.0)) / excess)
-    general = np.where(growth > -1.0, general, 0.0)
+    general = np.where(growth <= -1.0, 0.0, general)
     return np.where(exponent == 1.0, smooth, general)

@@ -10,7 +10,7 @@ from scipy.special import wrightomega
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 
 NEWTON_STEPS = 14
-TINY = 1e-300
+TINY = 1e-75  # its fourth power is still a number
 
 
 class Prandtl(Element):
@@ -57,7 +57,8 @@ def _general(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:
     w = np.where(exponent < 1.0, distance**power, below)
     for _ in range(NEWTON_STEPS):
         u = w ** (1.0 / power)
-        miss = sharpness * (distance - u) + (u**-excess - begin) / excess - way
+        # the integral of u^-exponent, without cancellation near exponent 1
+        miss = sharpness * (distance - u) + begin * np.expm1(-excess * np.log(u / distance)) / excess - way
         slope = (sharpness * u ** (1.0 - power) + u ** (-excess - power)) / power
         w = np.maximum(w + miss / slope, TINY)
     stuck = (exponent < 1.0) & (way >= sharpness * distance - begin / excess)

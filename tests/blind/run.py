@@ -63,7 +63,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=None, help="repeats a run; drawn anew without it")
     parser.add_argument("--base", nargs="*", default=["kelvin_voigt", "spring", "ftire", "polynomial"])
     parser.add_argument("--kind", default=None, help="a cause word, 'null', or words joined by '+'")
-    parser.add_argument("--strength", type=float, default=None, help="effect over noise; drawn from 0.3 to 10 without it")
+    parser.add_argument(
+        "--strength", type=float, default=None, help="effect over noise; drawn from 0.3 to 10 without it"
+    )
     parser.add_argument("--design", default="full")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")

@@ -59,7 +59,9 @@ class Outcome:
 
     def line(self) -> str:
         """The case in a line."""
-        hidden = "+".join(f"{e.kind}({e.form}, {e.strength:.2g}, left {e.strength_left:.2g})" for e in self.truth.effects)
+        hidden = "+".join(
+            f"{e.kind}({e.form}, {e.strength:.2g}, left {e.strength_left:.2g})" for e in self.truth.effects
+        )
         names = ", ".join(f"{c['cause']} {_percent(c['gain'])}" for c in self.verdict["causes"])
         mark = "ok " if self.right and (self.exact or not self.kinds) else "~  " if self.right else "BAD"
         return (f"{mark} {self.seed} {self.base}: {hidden or NULL} -> {self.verdict['verdict']}: {names or '-'} "

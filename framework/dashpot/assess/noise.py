@@ -33,18 +33,21 @@ def flat_noise(deviations: Mapping[str, float]) -> NoiseModel:
     return NoiseModel({run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
 
 
-def learn_noise(residuals: Mapping[str, Array]) -> NoiseModel:
+def learn_noise(residuals: Mapping[str, Array], smallest: Mapping[str, float]) -> NoiseModel:
     """Autoregressive noise of order 8 of each run by Burg's method.
 
+    ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
     Source: Burg, Maximum entropy spectral analysis, 37th SEG meeting (1967).
     """
-    return NoiseModel({run: _scaled(residual) for run, residual in residuals.items()})
+    return NoiseModel({run: _scaled(residual, smallest[run]) for run, residual in residuals.items()})
 
 
-def _scaled(residual: Array) -> Array:
-    filter_ = burg(residual, ORDER)
-    deviation = np.sqrt(np.mean(np.convolve(residual, filter_, mode="valid") ** 2))
-    return filter_ / max(float(deviation), 1e-12 * max(float(np.max(np.abs(residual), initial=0.0)), 1e-300))
+def _scaled(residual: Array, smallest: float) -> Array:
+    prediction = burg(residual, ORDER)
+    deviation = float(np.sqrt(np.mean(np.convolve(residual, prediction, mode="valid") ** 2)))
+    if deviation < smallest:
+        return np.concatenate([[1.0 / smallest], np.zeros(ORDER)])
+    return prediction / deviation
 
 
 def burg(signal: Sequence[float] | Array, order: int) -> Array:

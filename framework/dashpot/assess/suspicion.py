@@ -23,6 +23,7 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 NOISE_ROUNDS = 2
+RESOLUTION = 1e-5  # of the deviation of the force
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,7 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors, residual)
     columns = collect_columns(view, residual, tangents, candidates, nuisance, priors)
     for _ in range(NOISE_ROUNDS):
-        noise = learn_noise(rich_residual(columns, noise))
+        noise = learn_noise(rich_residual(columns, noise), resolution(bench))
     model = bench.fit(model.declared, model.fitted, noise)
     view, residual, tangents = linear_view(bench, model)
     columns = Columns(residual, tangents, nuisance, columns.bank, priors, columns.candidates)
@@ -57,7 +58,13 @@ def first_noise(bench: Bench, model: Model) -> NoiseModel:
     """White noise as large as the misfit of each run."""
     network = compile_network(model.fitted)
     rmse = Objective(network, bench.runs, bench.jobs).rmse(network.start)[:, 0]
-    return flat_noise({run.name: float(r) for run, r in zip(bench.runs, rmse, strict=True)})
+    least = resolution(bench)
+    return flat_noise({run.name: max(float(r), least[run.name]) for run, r in zip(bench.runs, rmse, strict=True)})
+
+
+def resolution(bench: Bench) -> dict[str, float]:
+    """The deviation of each run in N that counts as no error at all."""
+    return {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in bench.runs}
 
 
 def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array], dict[str, Array]]:

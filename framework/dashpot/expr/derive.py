@@ -6,12 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from dashpot.expr.node import Node, apply, as_node, constant, table, walk
+from dashpot.expr.node import LOGICAL, Node, apply, as_node, constant, table, walk
 
 ZERO = constant(0.0)
-STEPWISE = frozenset(
-    "sign less less_equal greater greater_equal equal not_equal logical_and logical_or logical_not".split()
-)
+STEPWISE = LOGICAL | {"sign"}
 
 
 def derive(root: Node, name: str) -> Node:

@@ -29,6 +29,12 @@ UFUNCS = {
 }  # fmt: skip
 
 
+# operations that answer true or false
+LOGICAL = frozenset(
+    "less less_equal greater greater_equal equal not_equal logical_and logical_or logical_not".split()
+)
+
+
 class TraceError(TypeError):
     """A law used something that cannot be traced; the message says what to use instead."""
 
@@ -137,6 +143,13 @@ def walk(roots: Iterable[Node]) -> list[Node]:
             stack.append((node, True))
             stack.extend((argument, False) for argument in reversed(node.arguments))
     return list(done.values())
+
+
+def is_logical(node: Node) -> bool:
+    """Whether a node is true or false rather than a number."""
+    if node.operation == "where":
+        return all(is_logical(choice) for choice in node.arguments[1:])
+    return node.operation in LOGICAL or isinstance(node.payload, bool)
 
 
 def symbols_of(node: Node) -> set[str]:

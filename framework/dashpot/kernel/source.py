@@ -12,7 +12,7 @@ import re
 from collections.abc import Sequence
 from typing import Literal
 
-from dashpot.expr.node import Node
+from dashpot.expr.node import Node, is_logical
 from dashpot.kernel.prelude import PRELUDE
 from dashpot.kernel.tiers import Program
 
@@ -130,8 +130,8 @@ def _loop(names: _Names, turning: bool, ending: Sequence[str]) -> list[str]:
     nodes = names.inner(turning)
     program = names.program
     row, place = ("turn_columns", "m") if turning else ("columns", "k")
-    head = [f"{names.of(n)} = {row}[{place}, {names.columns[n.serial]}]" for n in nodes if names.kind(n) == "drive"]
-    body = [f"{names.of(n)} = w[{WIDTH * names.row(n)} + l]" for n in nodes if names.kind(n) in ("lane", "state")]
+    head = [_loaded(n, names, f"{row}[{place}, {names.columns[n.serial]}]") for n in nodes if names.kind(n) == "drive"]
+    body = [_loaded(n, names, f"w[{WIDTH * names.row(n)} + l]") for n in nodes if names.kind(n) in ("lane", "state")]
     for node in nodes:
         if names.kind(node) == "table":
             number = names.lookups[node.payload[0], node.arguments[0].serial]
@@ -143,6 +143,11 @@ def _loop(names: _Names, turning: bool, ending: Sequence[str]) -> list[str]:
     states = program.turning if turning else program.states
     body += [f"w[{WIDTH * names.states[s]} + l] = {names.of(program.updates[s])}" for s in states]
     return [*head, "for l in range(lanes):", *_indent(4, [*body, *ending])]
+
+
+def _loaded(node: Node, names: _Names, home: str) -> str:
+    # what is hoisted is kept as a number, also where it is true or false
+    return f"{names.of(node)} = {home}" + (" != 0.0" if is_logical(node) else "")
 
 
 def _number(value: float | bool) -> str:

@@ -1,0 +1,71 @@
+"""Eager, traced and compiled, a law gives the same force.
+
+What is compared is measured by the force scale of a lane: the largest force, or a number of the law in newtons.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive
+from dashpot.kernel.eager import simulate_eagerly, simulate_interpreted
+from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
+from dashpot.testing.motion import MOTIONS, random_drive
+from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens
+from dashpot.testing.verdict import Examination
+from dashpot.text.quantity import dimensions
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-12
+SAMPLES = 160
+
+
+def check_agreement(element: type[Element], seed: int | None = None) -> None:
+    """The force of the element's own code, of its traced graph and of the compiled kernel agree to 1e-12."""
+    examination = Examination.begin(element, "agreement", seed)
+    rng = examination.rng()
+    for kind in MOTIONS:
+        sizes = draw_sizes(rng)
+        drive = random_drive(rng, kind, sizes.length, sizes.time, SAMPLES)
+        for specimen in draw_specimens(element, rng, sizes):
+            _compare(examination, specimen, drive, f"{specimen.form}, {kind}")
+
+
+def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: str) -> None:
+    eager = simulate_eagerly(specimen.spec, drive, specimen.values)
+    if not np.isfinite(eager).all():
+        examination.fail(f"with {case}, the force is not finite for ordinary numbers: {_first(specimen, eager)}",
+                         "Guard the law against overflow and division by zero.")  # fmt: skip
+    traced = simulate_interpreted(specimen.spec, drive, specimen.values)
+    network = compile_network(specimen.spec)
+    compiled = network.simulate(network.prepare(drive), specimen.values)
+    scale = _force_scale(specimen, eager)
+    advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
+    _demand_equal(examination, traced, eager, scale, f"with {case}, the traced law", advice)
+    _demand_equal(examination, compiled, eager, scale, f"with {case}, the compiled law",
+                  "Avoid differences of nearly equal large numbers.")  # fmt: skip
+
+
+def _force_scale(specimen: Specimen, force: Array) -> Array:
+    units = [slot.value.unit for slot in specimen.spec.slots()]
+    newtons = [column for unit, column in zip(units, specimen.values.T, strict=True) if dimensions(unit) == (1.0, 0.0, 0.0)]
+    return np.max(np.abs([np.max(np.abs(force), axis=1), *newtons]), axis=0) + np.finfo(float).tiny
+
+
+def _demand_equal(examination: Examination, found: Array, expected: Array, scale: Array, what: str, advice: str) -> None:
+    error = np.abs(found - expected) / scale[:, None]
+    lane, sample = np.unravel_index(np.argmax(np.where(np.isnan(error), np.inf, error)), error.shape)
+    examination.demand(
+        bool(error[lane, sample] <= TOLERANCE),
+        f"{what} gives {found[lane, sample]!r} N at sample {sample}, the element's own code {expected[lane, sample]!r} N",
+        advice,
+    )
+
+
+def _first(specimen: Specimen, force: Array) -> str:
+    lane, sample = np.argwhere(~np.isfinite(force))[0]
+    numbers = {path.rpartition(".")[2]: float(column[lane]) for path, column in specimen.numbers.items()}
+    return f"{force[lane, sample]} at sample {sample} of lane {lane}, {numbers}"

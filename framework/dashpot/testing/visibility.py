@@ -1,0 +1,78 @@
+"""NaN stays visible: it never becomes a number again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive
+from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
+from dashpot.testing.motion import random_drive
+from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens
+from dashpot.testing.verdict import Examination
+
+Array = NDArray[np.float64]
+Simulate = Callable[[Drive, Array], Array]
+
+SAMPLES = 80
+NOTICEABLE = 1e-6
+NUDGE = 1.03
+ADVICE = "Turn conditions round so that the case with NaN computes: np.where(x > 1, a, b) hides NaN in x."
+
+
+def check_visibility(element: type[Element], seed: int | None = None) -> None:
+    """NaN in a number or in the motion gives NaN as long as it matters: with memory, from then on."""
+    examination = Examination.begin(element, "visibility", seed)
+    rng = examination.rng()
+    sizes = draw_sizes(rng)
+    drive = random_drive(rng, "multisine", sizes.length, sizes.time, SAMPLES)
+    for specimen in draw_specimens(element, rng, sizes, lanes=1):
+        for how, simulate in _runners(specimen).items():
+            _check_numbers(examination, specimen, simulate, drive, f"with {specimen.form}, {how}")
+            _check_motion(examination, specimen, simulate, drive, f"with {specimen.form}, {how}")
+
+
+def _runners(specimen: Specimen) -> dict[str, Simulate]:
+    network = compile_network(specimen.spec)
+    return {
+        "in its own code": lambda drive, values: simulate_eagerly(specimen.spec, drive, values),
+        "compiled": lambda drive, values: network.simulate(network.prepare(drive), values),
+    }
+
+
+def _check_numbers(examination: Examination, specimen: Specimen, simulate: Simulate, drive: Drive, case: str) -> None:
+    paths = [slot.path for slot in specimen.spec.slots()]
+    if not paths:
+        return
+    base = specimen.values[0]
+    nudged = base + np.diag(np.where(base == 0.0, NUDGE - 1.0, (NUDGE - 1.0) * base))
+    blinded = np.where(np.eye(base.size, dtype=bool), np.nan, base)
+    force = simulate(drive, base[None])
+    change = np.abs(simulate(drive, nudged) - force)
+    matters = _from_then_on(examination.element, change > NOTICEABLE * np.max(np.abs(force)))
+    hidden = matters & ~np.isnan(simulate(drive, blinded))
+    if hidden.any():
+        slot, sample = np.argwhere(hidden)[0]
+        examination.fail(f"{case}: NaN as '{paths[slot]}' gives a number at sample {sample}", ADVICE)
+
+
+def _check_motion(examination: Examination, specimen: Specimen, simulate: Simulate, drive: Drive, case: str) -> None:
+    struck = np.zeros(drive.samples, dtype=bool)
+    struck[drive.samples // 2] = True
+    blind = {key: np.where(struck, np.nan, getattr(drive, key)) for key in ("displacement", "velocity", "acceleration")}
+    step = drive.turn_step
+    kept = (step < drive.samples // 2) | (step > drive.samples // 2 + 1)
+    lost = replace(drive, **blind, turn_step=step[kept], turn_displacement=drive.turn_displacement[kept])
+    force = simulate(lost, specimen.values)
+    hidden = _from_then_on(examination.element, struck[None]) & ~np.isnan(force)
+    examination.demand(not hidden.any(), f"{case}: NaN in the motion at sample {drive.samples // 2} gives a number at "
+                       f"sample {int(np.argmax(hidden.any(axis=0)))}", ADVICE)  # fmt: skip
+
+
+def _from_then_on(element: type[Element], matters: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    return np.maximum.accumulate(matters, axis=1) if element.declares.states else matters

@@ -1,0 +1,59 @@
+"""The words for a misfit, on residuals whose nature is known."""
+
+import numpy as np
+
+from dashpot.assess.misfit import describe_misfit
+from dashpot.data.run import Run
+
+TIME = np.arange(10_000) * 1e-3
+PHASE = 2.0 * np.pi * (2.0 * TIME + 0.9 * TIME**2)
+
+
+def sweep(name, amplitude):
+    """A sweep from 2 to 20 Hz about 20 mm."""
+    x = 0.02 + amplitude * np.sin(PHASE)
+    return Run(name, "sweep", TIME, {"displacement": x, "force": 2e5 * x})
+
+
+def words(residual):
+    """What is said of a residual of one run of 2 mm."""
+    return describe_misfit([sweep("a", 2e-3)], {"a": residual})
+
+
+def test_a_residual_in_phase_is_storage_stiffness():
+    """Positive residual in phase with deflection: the model is too soft."""
+    found = words(50.0 * np.sin(PHASE))[0]
+    assert found.what.startswith("storage stiffness of the model too small")
+    assert found.share > 0.9
+
+
+def test_a_residual_in_quadrature_is_loss_stiffness():
+    """Negative residual in phase with velocity: the model has too much loss."""
+    assert words(-50.0 * np.cos(PHASE))[0].what.startswith("loss stiffness of the model too large")
+
+
+def test_harmonics_are_told_apart():
+    """Second and third harmonic have their own words."""
+    assert words(20.0 * np.sin(2.0 * PHASE))[0].what.startswith("second harmonic")
+    assert words(20.0 * np.sin(3.0 * PHASE))[0].what.startswith("third and fifth harmonic")
+
+
+def test_the_band_is_where_the_error_is():
+    """An error in the upper half of the sweep is placed there."""
+    late = np.where(TIME > 7.5, 1.0, 0.0) * 50.0 * np.sin(PHASE)
+    assert words(late)[0].where["band"].startswith("15")
+
+
+def test_small_amplitudes_are_named_when_the_error_is_relatively_larger_there():
+    """The same force error at 0.5 and 5 mm is a ten times larger stiffness error at 0.5 mm."""
+    runs = [sweep("small", 5e-4), sweep("large", 5e-3)]
+    found = describe_misfit(runs, {run.name: 30.0 * np.cos(PHASE) for run in runs})
+    assert "at small amplitude" in found[0].what
+
+
+def test_runs_without_a_phase_are_described_by_run():
+    """Random motion has no harmonics: the worst run is named."""
+    rng = np.random.default_rng()
+    runs = [Run(n, "random", TIME, {"displacement": rng.standard_normal(TIME.size), "force": TIME}) for n in ("a", "b")]
+    found = describe_misfit(runs, {"a": np.ones(TIME.size), "b": np.full(TIME.size, 9.0)})
+    assert found[0].where["run"] == "b"

@@ -1,0 +1,136 @@
+"""The screen against plain least squares and against pure noise."""
+
+import numpy as np
+import pytest
+
+from dashpot.assess.noise import flat_noise
+from dashpot.assess.screen import Candidate, Columns, rich_residual, screen
+from dashpot.contract.cause import Cause, Suspect
+
+SAMPLES = 4000
+WHITE = flat_noise({"a": 1.0, "b": 1.0})
+
+
+class Made(Cause):
+    """A cause for tests."""
+
+    word, kind, about, shows = "made", "specimen", "made for a test", "in no way"
+
+    def suspects(self, view, network):
+        """None of its own."""
+        return ()
+
+
+class Other(Made):
+    """Another one."""
+
+    word = "other"
+
+
+def columns_of(rng, effect, joint=False, sign=1, most=1):
+    """Two runs, three tangents, a bank of four columns for one cause and one for another; `effect` (4,) is hidden."""
+    tangents = {run: rng.standard_normal((3, SAMPLES)) for run in "ab"}
+    bank = {run: rng.standard_normal((5, SAMPLES)) + 0.5 * tangents[run][0] for run in "ab"}
+    residual = {run: np.asarray(effect) @ bank[run][:4] + rng.standard_normal(SAMPLES) for run in "ab"}
+    suspect = Suspect("form", (1.0, 2.0, 3.0, 4.0), None, None, joint=joint, sign=sign, most=most)
+    single = Suspect("single", (0.0,), None, None, unknowns=0)
+    candidates = (Candidate(Made, suspect, slice(0, 4)), Candidate(Other, single, slice(4, 5)))
+    empty = {run: np.empty((0, SAMPLES)) for run in "ab"}
+    return Columns(residual, tangents, empty, bank, np.empty(0), candidates)
+
+
+def fall_of_chi_square(columns, rows):
+    """By plain least squares: chi square of tangents alone less that of tangents and bank rows together."""
+
+    def left(stacks):
+        design = np.concatenate([s[:, 8:] for s in stacks], axis=1).T
+        target = np.concatenate([columns.residual[run][8:] for run in "ab"])
+        return np.sum((target - design @ np.linalg.lstsq(design, target, rcond=None)[0]) ** 2)
+
+    tangents = [columns.tangents[run] for run in "ab"]
+    both = [np.concatenate([columns.tangents[run], columns.bank[run][rows]]) for run in "ab"]
+    return left(tangents) - left(both)
+
+
+def test_the_gain_of_a_joint_suspect_is_that_of_least_squares():
+    """Projection in the Gram matrix equals fitting everything at once."""
+    columns = columns_of(np.random.default_rng(), [0.1, -0.2, 0.1, 0.3], joint=True, sign=0)
+    found = next(f for f in screen(columns, WHITE).findings if f.candidate.cause is Made)
+    assert found.gain == pytest.approx(fall_of_chi_square(columns, [0, 1, 2, 3]), rel=1e-6)
+
+
+def test_single_places_are_found_with_their_strength():
+    """A hidden place of the grid wins over the others and over the other cause."""
+    found = screen(columns_of(np.random.default_rng(), [0.0, 0.0, 0.5, 0.0]), WHITE).best
+    assert found.candidate.cause is Made
+    assert found.atoms[0][1] == 3.0
+    assert found.atoms[0][0] == pytest.approx(0.5, abs=0.1)
+
+
+def test_several_places_are_added_as_long_as_they_pay():
+    """Two hidden places are both found, and no third one."""
+    found = screen(columns_of(np.random.default_rng(), [0.5, 0.0, 0.0, 0.4], most=3), WHITE).best
+    assert sorted(place for _, place in found.atoms) == [1.0, 4.0]
+
+
+def test_a_strength_of_the_wrong_sign_is_not_admitted():
+    """A negative Maxwell is not a Maxwell: one-sided suspects stay silent."""
+    columns = columns_of(np.random.default_rng(), [0.0, -0.5, 0.0, 0.0])
+    assert screen(columns, WHITE).best is None
+    two_sided = columns_of(np.random.default_rng(), [0.0, -0.5, 0.0, 0.0], sign=0)
+    assert screen(two_sided, WHITE).best is not None
+
+
+def test_pure_noise_stays_below_the_threshold():
+    """Of 60 draws of noise none or one is significant: P(more | 1 %) = 12 %, P(more than 4) = 3e-4."""
+    alarms = sum(
+        screen(columns_of(np.random.default_rng(), np.zeros(4), most=3), WHITE).best is not None for _ in range(60)
+    )
+    assert alarms <= 4
+
+
+def test_what_the_tangents_can_absorb_is_not_claimed():
+    """A hidden column that is a tangent of the model belongs to a refit, not to a cause."""
+    columns = columns_of(np.random.default_rng(), np.zeros(4))
+    for run in "ab":
+        columns.residual[run][:] += 5.0 * columns.tangents[run][1]
+    assert screen(columns, WHITE).best is None
+
+
+def test_shuffled_runs_give_nothing():
+    """The residual of one run with the columns of the other names no cause."""
+    columns = columns_of(np.random.default_rng(), [0.0, 0.5, 0.0, 0.0])
+    swapped = Columns(
+        {"a": columns.residual["b"], "b": columns.residual["a"]},
+        columns.tangents, columns.nuisance, columns.bank, columns.priors, columns.candidates,
+    )  # fmt: skip
+    assert screen(swapped, WHITE).best is None
+
+
+def test_admitted_sensor_errors_cost_nothing_and_larger_ones_are_found():
+    """A nuisance column takes the blame within its prior; a cause alike is named far beyond it."""
+
+    def with_error(size):
+        columns = columns_of(np.random.default_rng(), np.zeros(4))
+        shape = {run: columns.bank[run][4:5] for run in "ab"}
+        residual = {run: columns.residual[run] + size * shape[run][0] for run in "ab"}
+        return Columns(residual, columns.tangents, shape, columns.bank, np.array([0.2]), columns.candidates)
+
+    assert screen(with_error(0.2), WHITE).best is None
+    assert screen(with_error(3.0), WHITE).best.candidate.cause is Other
+
+
+def test_the_rich_residual_holds_no_column_of_the_bank():
+    """What is left after everything known is orthogonal to it."""
+    columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
+    left = rich_residual(columns, WHITE)
+    assert np.std(np.concatenate([left["a"], left["b"]])) == pytest.approx(1.0, rel=0.05)
+
+
+def test_limits_are_strengths_that_are_indeed_found():
+    """Effects of the size of the limit are found in at least 14 of 20 draws (95 % power: P(fewer) = 3e-4)."""
+    rng = np.random.default_rng()
+    limit = next(limit for limit in screen(columns_of(rng, np.zeros(4)), WHITE).limits if limit.cause is Made).force
+    size = limit / np.sqrt(1.25)  # the columns have this root mean square
+    found = [screen(columns_of(rng, [0.0, 0.0, 1.1 * size, 0.0]), WHITE).best is not None for _ in range(20)]
+    assert sum(found) >= 14
