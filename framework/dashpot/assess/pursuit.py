@@ -125,12 +125,21 @@ class Pursuer:
                 self.reject(trial, reason, foreseen, gain)
                 continue
             chosen, rivals = settle_ties(trial, ranked)
-            gain = gain if chosen is trial else self.gain_of(look.model, chosen.model)
             for other in ranked:
                 if other is not chosen and other.merit < trial.merit - tie_width(trial):
                     self.reject(other, "explains less than the accepted cause", None, None)
-            return Accepted(chosen.finding, chosen, foreseen, gain, rivals)
+            chosen = self.simplify(chosen, look)
+            return Accepted(chosen.finding, chosen, foreseen, self.gain_of(look.model, chosen.model), rivals)
         return None
+
+    def simplify(self, trial: Trial, look: Look) -> Trial:
+        """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
+        atoms = trial.finding.atoms
+        if trial.finding.candidate.suspect.joint or len(atoms) < 2:
+            return trial
+        fewer = replace(trial.finding, atoms=atoms[:-1])
+        simpler = try_finding(self.bench, look.model, fewer, look.noise, look.screen.samples)
+        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
     def objection(self, trial: Trial, gain: Gain | None, look: Look, later: bool) -> str:
         """Why a trial may not be accepted, or an empty text."""
@@ -140,8 +149,9 @@ class Pursuer:
             return "after the refit it explains no more than its own parameters would by chance"
         if gain is not None and gain.value <= 0.0:
             return "does not make the held-out runs better: not supported by the data"
-        if gain is not None and later and gain.value < SMALLEST_LATER_GAIN:
-            return f"makes the held-out runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
+        seen = gain.value if gain else 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
+        if later and seen < SMALLEST_LATER_GAIN:
+            return f"makes the runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
         return ""
 
     def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:

@@ -13,10 +13,9 @@ STEPWISE = LOGICAL | {"sign"}
 
 
 def derive(root: Node, name: str) -> Node:
-    """The derivative of ``root`` after the symbol ``name``.
+    """The derivative of ``root`` after the symbol ``name``, at a kink of absolute, minimum or maximum to the right.
 
-    A piecewise law is derived piece by piece: ``where`` keeps its condition, and at a kink (absolute, minimum, maximum)
-    one of the two slopes is taken, for an absolute value the one to the right.
+    ``where`` keeps its condition: each of its choices is derived by itself.
     """
     slopes: dict[int, Node] = {}
     for node in walk([root]):
@@ -35,15 +34,18 @@ def _slope(node: Node, slopes: dict[int, Node], name: str) -> Node:
     if node.operation == "table":
         curve, order = node.payload
         return table(curve, node.arguments[0], order + 1) * inner[0]
+    if node.operation == "absolute":
+        return _nearer(node.arguments[0], ZERO, -inner[0], inner[0], apply("absolute", inner[0]))
     if node.operation in ("minimum", "maximum"):
-        return _chosen(node, inner)
+        below, above = inner if node.operation == "minimum" else inner[::-1]
+        return _nearer(*node.arguments, below, above, apply(node.operation, *inner))
     return _chained(node, inner)
 
 
-def _chosen(node: Node, inner: list[Node]) -> Node:
-    first, second = node.arguments
-    compare = "less" if node.operation == "minimum" else "greater"
-    return apply("where", apply(compare, first, second), *inner)
+def _nearer(first: Node, second: Node, below: Node, above: Node, equal: Node) -> Node:
+    """One of three slopes, as ``first`` is below, above or equal to ``second``; for NaN the last one."""
+    kink = apply("where", apply("greater", first, second), above, equal)
+    return apply("where", apply("less", first, second), below, kink)
 
 
 def _chained(node: Node, inner: list[Node]) -> Node:
@@ -62,7 +64,6 @@ _PARTIALS: dict[str, tuple[Callable[..., Node | float], ...]] = {
     "divide": (lambda f, a, b: 1.0 / b, lambda f, a, b: -f / b),
     "power": (lambda f, a, b: b * a ** (b - 1.0), lambda f, a, b: f * np.log(a)),
     "negative": (lambda f, a: -1.0,),
-    "absolute": (lambda f, a: apply("where", apply("less", a, ZERO), constant(-1.0), constant(1.0)),),
     "sqrt": (lambda f, a: 0.5 / f,),
     "exp": (lambda f, a: f,),
     "expm1": (lambda f, a: f + 1.0,),
