@@ -44,11 +44,11 @@ CAUGHT = [
     (check_agreement, broken.Undefined, "not finite for ordinary numbers: nan at sample"),
     (check_tangent, broken.Jumping, "the tangent is 0 N/m where the force rises by"),
     (check_tangent, broken.Singular, "the tangent is (nan|-?inf) N/m"),
-    (check_halving, broken.Approximate, "one step gives .* N and two half steps"),
-    (check_halving, broken.Differencing, "one step gives .* N and two half steps"),
-    (check_halving, broken.TimeBlind, "one step gives .* N and two half steps"),
-    (check_passivity, broken.Pushing, "takes out .*% of all work"),
-    (check_passivity, broken.Swelling, "takes out .*% of all work"),
+    (check_halving, broken.Approximate, "one step and two half steps give forces that differ by"),
+    (check_halving, broken.Differencing, "one step and two half steps give forces that differ by"),
+    (check_halving, broken.TimeBlind, "one step and two half steps give forces that differ by"),
+    (check_passivity, broken.Pushing, "gives back more work than was put in, by .*% of all"),
+    (check_passivity, broken.Swelling, "gives back more work than was put in, by .*% of all"),
     (check_visibility, broken.Hiding, "NaN as 'specimen.stiffness' gives a number"),
     (check_visibility, broken.Recovering, "NaN in the motion at sample 40 gives a number"),
     (check_separation, broken.Gregarious, "another force than among 64"),
@@ -83,13 +83,17 @@ def test_a_broken_law_has_nothing_wrong_with_its_declarations(element):
     check_declarations(element)
 
 
+def checks_in(error):
+    return [line.split(", ")[1].partition(":")[0] for line in str(error).splitlines()]
+
+
 def test_all_faults_of_an_element_are_told_at_once():
     with pytest.raises(ConformanceError) as caught:
         check_element(broken.Hiding)
-    assert [line.split(", ")[1].partition(":")[0] for line in str(caught.value).splitlines()] == ["visibility"]
+    assert checks_in(caught.value) == ["visibility"]
     with pytest.raises(ConformanceError) as caught:
         check_element(broken.TimeBlind, seed=1)
-    assert [line.split(", ")[1].partition(":")[0] for line in str(caught.value).splitlines()] == ["halving"]
+    assert checks_in(caught.value) == ["halving"]
 
 
 def test_the_seed_in_a_message_repeats_it():

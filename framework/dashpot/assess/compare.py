@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-import dashpot
-from dashpot.assess.evidence import signal_evidence
+from dashpot.assess.evidence import history_of, provenance_of
+from dashpot.assess.signals import signal_evidence
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -66,20 +66,9 @@ class Comparison:
         ]
         return {
             **signal_evidence(self.setting.dataset.runs, residuals),
-            "history": {
-                fit.declared.name: {
-                    "evaluations": [float(count) for count, _ in fit.history],
-                    "best": [loss for _, loss in fit.history],
-                }
-                for fit in self.fits
-            },
+            "history": {fit.declared.name: history_of(fit) for fit in self.fits},
             "warnings": warnings,
-            "provenance": {
-                "dashpot": dashpot.__version__,
-                "seed": self.seed,
-                "data": self.setting.dataset.digest,
-                "held out": ", ".join(self.setting.split.held_out) or self.setting.split.reason,
-            },
+            "provenance": provenance_of(self.setting, self.seed),
         }
 
     def _model(self, fit: FitResult) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from dashpot.cli.output import OutputFolder
 
 if TYPE_CHECKING:
     from dashpot.assess.compare import Comparison
-    from dashpot.assess.diagnose import Diagnosis
+    from dashpot.assess.diagnosis import Diagnosis
 
 COMPARISON_FILES = ("compare.json", "compare.csv", "report.html")
 

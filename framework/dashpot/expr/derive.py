@@ -37,8 +37,8 @@ def _slope(node: Node, slopes: dict[int, Node], name: str) -> Node:
     if node.operation == "absolute":
         return _nearer(node.arguments[0], ZERO, -inner[0], inner[0], apply("absolute", inner[0]))
     if node.operation in ("minimum", "maximum"):
-        below, above = inner if node.operation == "minimum" else inner[::-1]
-        return _nearer(*node.arguments, below, above, apply(node.operation, *inner))
+        (first, second), (below, above) = node.arguments, inner if node.operation == "minimum" else inner[::-1]
+        return _nearer(first, second, below, above, apply(node.operation, *inner))
     return _chained(node, inner)
 
 

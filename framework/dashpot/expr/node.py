@@ -30,9 +30,7 @@ UFUNCS = {
 
 
 # operations that answer true or false
-LOGICAL = frozenset(
-    "less less_equal greater greater_equal equal not_equal logical_and logical_or logical_not".split()
-)
+LOGICAL = frozenset("less less_equal greater greater_equal equal not_equal logical_and logical_or logical_not".split())
 
 
 class TraceError(TypeError):

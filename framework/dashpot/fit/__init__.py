@@ -1,10 +1,19 @@
 """Finding parameters: what they are worth, and the search for the best.
 
+api          the stages of an identification, called in order
+holdout      which runs a fit may see
 scored       a run with its drive, its measured force and the samples that count
-objective    what a block of parameter vectors is worth on a set of runs
+floor        the noise floor of a dataset
+grounding    curves taken out of the data
+ranges       where to search a parameter whose file gives no bounds
 coordinates  the searched parameters as logarithms and plain numbers, and as the unit cube
+objective    what a block of parameter vectors is worth on a set of runs
 search       run any optimizer to its end, its budget or its target
 replay       answers to asked blocks: from a record first, then by evaluation
 chain        several optimizers, each from the best point of the one before
+starts       the framework's own search: a screening block, then refinements of the best of it
 refine       damped Gauss-Newton, the framework's own polish
+uncertainty  how well the parameters are known
+algebra      linear algebra on one thread
+result       what an identification found
 """

@@ -1,7 +1,8 @@
 """Where to search a parameter whose file gives no bounds: over what these data can feel.
 
-A force, a length and a time taken from the runs give every unit its natural size; a parameter is searched from far
-below to well above it. So one file serves a tyre of newtons and a bearing of meganewtons.
+A force, a length and a speed taken from each run give every unit its natural size there; a parameter is searched from
+far below the smallest to well above the largest of them. So one file serves a tyre of newtons and a bearing of
+meganewtons, and a slider that a run of a millimetre sees is in reach beside runs of a hand's breadth.
 """
 
 from __future__ import annotations
@@ -19,36 +20,56 @@ BELOW, ABOVE = 1e-4, 30.0
 
 
 @dataclass(frozen=True)
-class Sizes:
-    """Natural sizes of a dataset: half spans of force (N) and displacement (m), shortest and longest time (s)."""
+class Size:
+    """Natural sizes in one run: half spans of force (N) and displacement (m), speed (m/s, RMS)."""
 
     force: float
     length: float
-    shortest: float
-    longest: float
     speed: float
 
+
+@dataclass(frozen=True)
+class Sizes:
+    """The sizes of all runs, shortest and longest time (s) of the dataset."""
+
+    runs: tuple[Size, ...]
+    shortest: float
+    longest: float
+
     def of_unit(self, unit: str) -> tuple[float, float] | None:
-        """The range in which a quantity of this unit matters; None for a pure number."""
+        """The smallest and the largest natural size of this unit; None for a pure number, or where nothing moves."""
         force, length, time = dimensions(unit)
-        if (force, length, time) == (0.0, 0.0, 0.0):
+        if (force, length, time) == (0.0, 0.0, 0.0) or not self.runs:
             return None
         if (force, length) == (0.0, 0.0):
-            ends = self.shortest**time, self.longest**time
-            return min(ends), max(ends)
-        size = self.force**force * self.length**length * (self.length / self.speed) ** time
-        return BELOW * size, ABOVE * size
+            sizes = [self.shortest**time, self.longest**time]
+        else:
+            sizes = [run.force**force * run.length**length * (run.length / run.speed) ** time for run in self.runs]
+        return min(sizes), max(sizes)
+
+    def range_of(self, unit: str) -> tuple[float, float] | None:
+        """Where to search a quantity of this unit; None where it has no natural size."""
+        found = self.of_unit(unit)
+        if found is None or dimensions(unit)[:2] == (0.0, 0.0):
+            return found
+        return BELOW * found[0], ABOVE * found[1]
 
 
 def natural_sizes(runs: Sequence[ScoredRun]) -> Sizes:
     """The sizes of the dynamic runs, of all runs where none is dynamic."""
     dynamic = [run for run in runs if run.kind not in ("quasi_static", "hold")] or list(runs)
     return Sizes(
-        force=0.5 * max(float(np.ptp(run.force)) for run in dynamic),
-        length=0.5 * max(float(np.ptp(run.drive.displacement)) for run in dynamic),
+        runs=tuple(size for size in map(_size_of, dynamic) if size.force > 0.0 and size.speed > 0.0),
         shortest=0.5 * min(run.drive.dt for run in dynamic),
         longest=max(run.drive.dt * run.drive.samples for run in runs),
-        speed=max(float(np.sqrt(np.mean(run.drive.velocity**2))) for run in dynamic),
+    )
+
+
+def _size_of(run: ScoredRun) -> Size:
+    return Size(
+        force=0.5 * float(np.ptp(run.force)),
+        length=0.5 * float(np.ptp(run.drive.displacement)),
+        speed=float(np.sqrt(np.mean(run.drive.velocity**2))),
     )
 
 
@@ -64,10 +85,11 @@ def _ranged(slot: Slot, sizes: Sizes, spec: NetworkSpec) -> Value:
     low, high = _sensible(slot.path, spec)
     found = sizes.of_unit(value.unit)
     if value.scale == "linear":
-        span = 10.0 * max(abs(value.number), found[1] / ABOVE if found else 0.0)
+        span = 10.0 * max(abs(value.number), found[1] if found else 0.0)
         low, high = max(low, value.number - span), min(high, value.number + span)
     elif found:
-        low, high = max(low, found[0]), min(high, found[1])
+        reach = sizes.range_of(value.unit)
+        low, high = max(low, reach[0]), min(high, reach[1])
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         low, high = value.number / 300.0, value.number * 300.0
     return replace(value, bounds=(low, high), number=float(np.clip(value.number, low, high)))

@@ -44,7 +44,7 @@ def simulate_interpreted(spec: NetworkSpec, drive: Drive, values: Array | None =
     """The same as ``simulate_eagerly`` by interpreting the traced graph."""
     block = _block(spec, values)
     numbers = _numbers(spec, block)
-    tables = {path: _table(path, curve, numbers) for path, curve in _tabulated(spec).items()}
+    tables = {path: table_law(path, curve, numbers) for path, curve in _tabulated(spec).items()}
     walkers = [_GraphWalker(traced, numbers, tables, block.shape[0]) for traced in trace_network(spec)]
     return _answer(_march(walkers, drive, block.shape[0]), values)
 
@@ -149,14 +149,15 @@ def _numbers(spec: NetworkSpec, block: Array) -> Numbers:
 
 def _curve(path: str, curve: Characteristic, numbers: Numbers) -> Callable[[Any], Any]:
     if curve.form == "table":
-        return _table(path, curve, numbers)
+        return table_law(path, curve, numbers)
     if curve.form == "constant":
         return lambda argument: numbers[path] * argument
     powers = [numbers[f"{path}[{number}]"] for number in range(len(curve.values))]
     return lambda argument: sum(factor * argument**power for power, factor in enumerate(powers, 1))
 
 
-def _table(path: str, curve: Characteristic, numbers: Numbers) -> TableLaw:
+def table_law(path: str, curve: Characteristic, numbers: Numbers) -> TableLaw:
+    """A table with its values from ``numbers``."""
     knots = np.array([numbers[f"{path}[{number}]"] for number in range(len(curve.at))])
     return TableLaw(curve, cubic_coefficients(curve, knots))
 

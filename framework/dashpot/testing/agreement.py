@@ -44,25 +44,23 @@ def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: s
     compiled = network.simulate(network.prepare(drive), specimen.values)
     scale = _force_scale(specimen, eager)
     advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
-    _demand_equal(examination, traced, eager, scale, f"with {case}, the traced law", advice)
-    _demand_equal(examination, compiled, eager, scale, f"with {case}, the compiled law",
+    _demand_equal(examination, traced / scale, eager / scale, f"with {case}, the traced law", advice)
+    _demand_equal(examination, compiled / scale, eager / scale, f"with {case}, the compiled law",
                   "Avoid differences of nearly equal large numbers.")  # fmt: skip
 
 
 def _force_scale(specimen: Specimen, force: Array) -> Array:
-    units = [slot.value.unit for slot in specimen.spec.slots()]
-    newtons = [column for unit, column in zip(units, specimen.values.T, strict=True) if dimensions(unit) == (1.0, 0.0, 0.0)]
-    return np.max(np.abs([np.max(np.abs(force), axis=1), *newtons]), axis=0) + np.finfo(float).tiny
+    slots = zip(specimen.spec.slots(), specimen.values.T, strict=True)
+    newtons = [column for slot, column in slots if dimensions(slot.value.unit) == (1.0, 0.0, 0.0)]
+    return np.max(np.abs([np.max(np.abs(force), axis=1), *newtons]), axis=0)[:, None] + np.finfo(float).tiny
 
 
-def _demand_equal(examination: Examination, found: Array, expected: Array, scale: Array, what: str, advice: str) -> None:
-    error = np.abs(found - expected) / scale[:, None]
+def _demand_equal(examination: Examination, found: Array, expected: Array, what: str, advice: str) -> None:
+    error = np.abs(found - expected)
     lane, sample = np.unravel_index(np.argmax(np.where(np.isnan(error), np.inf, error)), error.shape)
-    examination.demand(
-        bool(error[lane, sample] <= TOLERANCE),
-        f"{what} gives {found[lane, sample]!r} N at sample {sample}, the element's own code {expected[lane, sample]!r} N",
-        advice,
-    )
+    examination.demand(bool(error[lane, sample] <= TOLERANCE), f"{what} gives {found[lane, sample]:.16g} of the force "
+                       f"scale at sample {sample}, the element's own code {expected[lane, sample]:.16g}",
+                       advice)  # fmt: skip
 
 
 def _first(specimen: Specimen, force: Array) -> str:

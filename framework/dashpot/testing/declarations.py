@@ -46,8 +46,8 @@ def _check_parameter(examination: Examination, key: str, parameter: Parameter) -
     low, high = parameter.bounds
     _check_range(examination, key, parameter.bounds, parameter.scale)
     if parameter.default is not None:
-        examination.demand(low <= parameter.default <= high, f"the default {parameter.default:g} of '{key}' lies outside "
-                           f"its bounds {low:g} to {high:g}", "Change the one or the other.")  # fmt: skip
+        examination.demand(low <= parameter.default <= high, f"the default {parameter.default:g} of '{key}' lies "
+                           f"outside its bounds {low:g} to {high:g}", "Change the one or the other.")  # fmt: skip
 
 
 def _check_curve(examination: Examination, key: str, curve: Curve) -> None:
@@ -60,7 +60,7 @@ def _check_curve(examination: Examination, key: str, curve: Curve) -> None:
 
 
 def _check_text(examination: Examination, key: str, unit: str, about: str) -> None:
-    examination.demand(is_unit(unit), f"the unit '{unit}' of '{key}' is unknown", "Write an SI unit such as N*s/m, or 1.")
+    examination.demand(is_unit(unit), f"the unit '{unit}' of '{key}' is unknown", "Write one such as N*s/m, or 1.")
     examination.demand(bool(about.strip()), f"nothing is said about '{key}'", "Say in a few words what it is.")
 
 

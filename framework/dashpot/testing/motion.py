@@ -23,10 +23,11 @@ def random_drive(rng: np.random.Generator, kind: str, length: float, time: float
     of it unless it is given.
     """
     dt = time / 12.0 if dt is None else dt
-    t = dt * np.arange(samples)
+    t = np.arange(samples, dtype=np.float64) * dt
     begin = np.minimum(t / t[-1] * 8.0, 1.0)
-    shape = MOTIONS[kind](rng, t, 1.0 / time) * begin**3 * (begin * (6.0 * begin - 15.0) + 10.0)
-    return drive_from_samples(dt, length * shape, smooth=kind == "noisy")
+    gently = begin**3 * (begin * (6.0 * begin - 15.0) + 10.0)
+    path: Array = length * gently * MOTIONS[kind](rng, t, 1.0 / time)
+    return drive_from_samples(dt, path, smooth=kind == "noisy")
 
 
 def _sweep(rng: np.random.Generator, t: Array, fastest: float) -> Array:

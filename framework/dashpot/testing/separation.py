@@ -15,6 +15,8 @@ LANES = 64
 CHOSEN = (0, 5, 37, 63)
 SAMPLES = 60
 TOLERANCE = 1e-13
+KERNEL = "Tell the authors of dashpot: the kernel should keep lanes apart."
+OWN = "A step may not mix lanes: no sums, means or maxima over arrays."
 
 
 def check_separation(element: type[Element], seed: int | None = None) -> None:
@@ -30,10 +32,9 @@ def check_separation(element: type[Element], seed: int | None = None) -> None:
         eager = simulate_eagerly(specimen.spec, drive, specimen.values)
         for lane in CHOSEN:
             alone = network.simulate(run, specimen.values[lane])
-            examination.demand(np.array_equal(alone, together[lane], equal_nan=True),
-                               f"with {specimen.form}, the compiled lane {lane} alone differs from itself among {LANES}",
-                               "Tell the authors of dashpot: the kernel should keep lanes apart.")  # fmt: skip
+            examination.demand(np.array_equal(alone, together[lane], equal_nan=True), f"with {specimen.form}, the "
+                               f"compiled lane {lane} alone differs from itself among {LANES}", KERNEL)  # fmt: skip
             own = simulate_eagerly(specimen.spec, drive, specimen.values[lane])
-            examination.demand(np.allclose(own, eager[lane], rtol=0.0, atol=TOLERANCE * np.max(np.abs(own))),
-                               f"with {specimen.form}, the element's own code gives lane {lane} alone another force than "
-                               f"among {LANES}", "A step may not mix lanes: no sums, means or maxima over arrays.")  # fmt: skip
+            near = np.allclose(own, eager[lane], rtol=0.0, atol=TOLERANCE * np.max(np.abs(own)))
+            examination.demand(near, f"with {specimen.form}, the element's own code gives lane {lane} alone another "
+                               f"force than among {LANES}", OWN)  # fmt: skip

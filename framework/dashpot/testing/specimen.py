@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +37,7 @@ class Sizes:
 
 @dataclass(frozen=True, eq=False)
 class Specimen:
-    """An element alone: ``values`` (lanes, slots) in SI in the order of ``spec.slots()``; ``form`` says how it is written."""
+    """An element alone; ``values`` (lanes, slots) in SI, in the order of ``spec.slots()``; ``form`` in words."""
 
     form: str
     spec: NetworkSpec
@@ -121,15 +120,16 @@ def _draw_curve(curve: Curve, rng: np.random.Generator, sizes: Sizes, lanes: int
     over = sizes.of(curve.over[1])
     slope = Parameter(curve.slope_unit, curve.about, curve.bounds)
     steepness = draw_parameter(slope, rng, sizes, lanes)
+    at = tuple(float(x) for x in KNOTS * over) if form == "table" else ()
     if form == "constant":
-        columns, at = [("", steepness)], ()
+        columns = [("", steepness)]
     elif form == "polynomial":
         bends = [BEND * steepness * rng.uniform(-1.0, 1.0, lanes) / over, BEND * steepness / over**2]
-        columns, at = [(f"[{k}]", column) for k, column in enumerate([steepness, *bends])], ()
+        columns = [(f"[{k}]", column) for k, column in enumerate([steepness, *bends])]
     else:
-        at = tuple(float(x) for x in KNOTS * over)
         columns = [(f"[{k}]", column) for k, column in enumerate(_rising(steepness, np.array(at), rng))]
-    values = tuple(Value(float(column[0]), _unit(curve, form, k), scale="linear") for k, (_, column) in enumerate(columns))
+    numbers = enumerate(column for _, column in columns)
+    values = tuple(Value(float(column[0]), _unit(curve, form, k), scale="linear") for k, column in numbers)
     return Characteristic(curve, form, values, at), columns
 
 
@@ -153,5 +153,5 @@ def scaled(specimen: Specimen, sizes: Sizes) -> Specimen:
     spec = specimen.spec
     for path, curve in spec.curves().items():
         at = tuple(x * sizes.of(curve.curve.over[1]) for x in curve.at)
-        spec = spec.with_curve(path, cast(Characteristic, replace(curve, at=at)))
+        spec = spec.with_curve(path, replace(curve, at=at))
     return replace(specimen, spec=spec, values=specimen.values * factors)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,8 @@ from dashpot.expr.derive import derive
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node
 from dashpot.kernel.columns import see_samples
-from dashpot.kernel.curves import TableLaw, cubic_coefficients
+from dashpot.kernel.curves import TableLaw
+from dashpot.kernel.eager import table_law
 from dashpot.kernel.trace import TracedBranch, trace_branch
 from dashpot.model.element import Element
 from dashpot.testing.motion import random_drive
@@ -25,6 +27,10 @@ Array = NDArray[np.float64]
 STEP = 1e-5  # of the amplitude
 TOLERANCE = 2e-4
 SAMPLES = 60
+ADVICE = "The force must not jump with the position at the end of the step, and its derivative must be finite."
+
+# the states (lanes,) before a step, and its motion
+Step = tuple[Mapping[str, Array], Mapping[str, Any]]
 
 
 def check_tangent(element: type[Element], seed: int | None = None) -> None:
@@ -36,8 +42,8 @@ def check_tangent(element: type[Element], seed: int | None = None) -> None:
     for specimen in draw_specimens(element, rng, sizes):
         law = _Law.of(specimen)
         for still in (False, True):
-            for states, motion in law.steps(drive, still):
-                _compare(examination, law, states, motion, STEP * sizes.length, specimen.form)
+            for where in law.steps(drive, still):
+                _compare(examination, law, where, STEP * sizes.length, specimen.form)
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,23 +52,23 @@ class _Law:
 
     traced: TracedBranch
     tangent: Node
-    known: Mapping[str, object]
+    known: Mapping[str, Array]
     tables: Mapping[str, TableLaw]
     lanes: int
 
     @classmethod
     def of(cls, specimen: Specimen) -> _Law:
+        """The law of a specimen."""
         traced = trace_branch(specimen.branch)
         numbers = specimen.numbers
-        tables = {path: TableLaw(curve, cubic_coefficients(curve, np.array([numbers[f"{path}[{k}]"]
-                                                                            for k in range(len(curve.at))])))
-                  for path, curve in specimen.spec.curves().items() if curve.at}  # fmt: skip
+        tables = {path: table_law(path, curve, numbers) for path, curve in specimen.spec.curves().items() if curve.at}
         return cls(traced, derive(traced.force, f"{traced.sight}.new"), numbers, tables, specimen.values.shape[0])
 
-    def steps(self, drive: Drive, still: bool) -> list[tuple[dict[str, Array], dict[str, object]]]:
-        """States (lanes,) before some steps of a drive and the motion of these steps; ``still`` steps go nowhere."""
-        seen, found = see_samples(drive), []
-        states = dict.fromkeys(self.traced.states, np.zeros(self.lanes))
+    def steps(self, drive: Drive, still: bool) -> list[Step]:
+        """Some steps of a drive; ``still`` steps go nowhere."""
+        seen = see_samples(drive)
+        found: list[Step] = []
+        states: Mapping[str, Array] = dict.fromkeys(self.traced.states, np.zeros(self.lanes))
         for k in range(1, drive.samples):
             motion = {name: np.asarray(value)[k] if np.ndim(value) else value for name, value in seen.items()}
             found.append((states, self.halted(motion) if still else motion))
@@ -70,26 +76,27 @@ class _Law:
             states = dict(zip(self.traced.states, answer, strict=True))
         return found[::3]
 
-    def halted(self, motion: Mapping[str, object]) -> dict[str, object]:
+    def halted(self, motion: Mapping[str, Any]) -> dict[str, Any]:
+        """The motion stopped where it begins."""
         sight = self.traced.sight
         return {**motion, f"{sight}.new": motion[f"{sight}.old"]}
 
-    def at(self, roots: list[Node], states: Mapping[str, Array], motion: Mapping[str, object], shift: float) -> list[Array]:
+    def at(self, root: Node, step: Step, shift: float) -> Array:
+        """The value (lanes,) of a root when a step ends elsewhere."""
+        states, motion = step
         name = f"{self.traced.sight}.new"
         moved = {**self.known, **states, **motion, name: motion[name] + shift}
-        return [np.broadcast_to(value, (self.lanes,)) for value in interpret(roots, moved, self.tables)]
+        return np.broadcast_to(interpret([root], moved, self.tables)[0], (self.lanes,))
 
 
-def _compare(examination: Examination, law: _Law, states: Mapping[str, Array], motion: Mapping[str, object], step: float,
-             form: str) -> None:  # fmt: skip
-    force = {shift: law.at([law.traced.force], states, motion, shift * step)[0] for shift in (-2, -1, 0, 1, 2)}
+def _compare(examination: Examination, law: _Law, where: Step, step: float, form: str) -> None:
+    force = {shift: law.at(law.traced.force, where, shift * step) for shift in (-2, -1, 0, 1, 2)}
     right = (4.0 * force[1] - 3.0 * force[0] - force[2]) / (2.0 * step)
     left = (3.0 * force[0] - 4.0 * force[-1] + force[-2]) / (2.0 * step)
-    (tangent,) = law.at([law.tangent], states, motion, 0.0)
+    tangent = law.at(law.tangent, where, 0.0)
     room = TOLERANCE * np.maximum(np.abs(right), np.abs(left)) + 1e-9 * np.max(np.abs(force[0])) / step
     outside = ~((tangent >= np.minimum(left, right) - room) & (tangent <= np.maximum(left, right) + room))
     if outside.any():
         lane = int(np.argmax(outside))
-        examination.fail(f"with {form}, the tangent is {tangent[lane]:g} N/m where the force rises by {left[lane]:g} to the "
-                         f"left and {right[lane]:g} N/m to the right", "The force must not jump with the position at the "
-                         "end of the step, and its derivative must be finite.")  # fmt: skip
+        rises = f"{left[lane]:g} to the left and {right[lane]:g} N/m to the right"
+        examination.fail(f"with {form}, the tangent is {tangent[lane]:g} N/m where the force rises by {rises}", ADVICE)

@@ -19,7 +19,7 @@ class Examination:
 
     element: type[Element]
     check: str
-    seed: int = field(default_factory=lambda: int(np.random.SeedSequence().entropy % 2**32))
+    seed: int = field(default_factory=lambda: int(np.random.SeedSequence().generate_state(1)[0]))
 
     @classmethod
     def begin(cls, element: type[Element], check: str, seed: int | None) -> Examination:
@@ -37,5 +37,5 @@ class Examination:
 
     def fail(self, found: str, advice: str) -> None:
         """Raise ConformanceError."""
-        name = f"{self.element.__module__}.{self.element.__qualname__}"
-        raise ConformanceError(f"element '{self.element.word}' ({name}), {self.check}: {found}. {advice} [seed {self.seed}]")
+        name = f"'{self.element.word}' ({self.element.__module__}.{self.element.__qualname__})"
+        raise ConformanceError(f"element {name}, {self.check}: {found}. {advice} [seed {self.seed}]")

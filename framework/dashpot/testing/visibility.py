@@ -64,14 +64,24 @@ def _check_numbers(examination: Examination, specimen: Specimen, simulate: Simul
 def _check_motion(examination: Examination, specimen: Specimen, simulate: Simulate, drive: Drive, case: str) -> None:
     struck = np.zeros(drive.samples, dtype=bool)
     struck[drive.samples // 2] = True
-    blind = {key: np.where(struck, np.nan, getattr(drive, key)) for key in ("displacement", "velocity", "acceleration")}
-    step = drive.turn_step
-    kept = (step < drive.samples // 2) | (step > drive.samples // 2 + 1)
-    lost = replace(drive, **blind, turn_step=step[kept], turn_displacement=drive.turn_displacement[kept])
-    force = simulate(lost, specimen.values)
+    force = simulate(_blinded(drive, struck), specimen.values)
     hidden = _from_then_on(examination.element, struck[None]) & ~np.isnan(force)
     examination.demand(not hidden.any(), f"{case}: NaN in the motion at sample {drive.samples // 2} gives a number at "
                        f"sample {int(np.argmax(hidden.any(axis=0)))}", ADVICE)  # fmt: skip
+
+
+def _blinded(drive: Drive, struck: NDArray[np.bool_]) -> Drive:
+    # a turning point on a path that is not known is not known either
+    step = drive.turn_step
+    kept = ~(struck[step] | struck[step - 1])
+    return replace(
+        drive,
+        displacement=np.where(struck, np.nan, drive.displacement),
+        velocity=np.where(struck, np.nan, drive.velocity),
+        acceleration=np.where(struck, np.nan, drive.acceleration),
+        turn_step=step[kept],
+        turn_displacement=drive.turn_displacement[kept],
+    )
 
 
 def _from_then_on(element: type[Element], matters: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -1,0 +1,145 @@
+"""What a diagnosis found, and how it is written down."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import dashpot
+from dashpot.assess.evidence import gather_evidence, telling_measurement
+from dashpot.assess.gain import Gain
+from dashpot.assess.leftover import Leftover
+from dashpot.assess.misfit import Misfit
+from dashpot.assess.named import NamedCause, name_causes
+from dashpot.assess.pursuit import Pursuit
+from dashpot.contract.cause import Cause
+from dashpot.fit.api import Setting
+from dashpot.fit.result import Errors, FitResult, floor_of
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import fill_numbers, rename
+from dashpot.text.quantity import pretty
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Everything that was found; ``as_dict`` is the result file, ``evidence`` what the report shows besides."""
+
+    setting: Setting
+    fit: FitResult
+    pursuit: Pursuit
+    final: NetworkSpec
+    before: Errors
+    after: Errors
+    misfit: tuple[Misfit, ...]
+    leftover: Leftover
+    verdict: str
+    causes: Mapping[str, type[Cause]]
+    seed: int
+
+    @property
+    def model(self) -> NetworkSpec:
+        """The network that was diagnosed."""
+        return self.fit.declared
+
+    @cached_property
+    def named(self) -> tuple[NamedCause, ...]:
+        """The accepted causes, one entry a word."""
+        return tuple(name_causes(self.pursuit, self.final))
+
+    @property
+    def extended_name(self) -> str | None:
+        """File name of the extended network, None without an accepted cause."""
+        words = [named.cause.word for named in self.named]
+        return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
+
+    @cached_property
+    def extended_text(self) -> str | None:
+        """The extended network with its numbers, comments of the original intact."""
+        if self.extended_name is None:
+            return None
+        declared = self.pursuit.ladder[-1].declared
+        record = {
+            "data": self.setting.dataset.digest[:16],
+            "seed": str(self.seed),
+            "version": dashpot.__version__,
+            "rmse": pretty(self.after.train, "N", 4),
+            "predecessor": self.model.name,
+        }
+        head = [f"{self.model.name}, extended by a diagnosis."]
+        head += [f"cause: {named.cause.about}; {_gain_words(named.gain)}" for named in self.named]
+        head.append(f"predecessor: {self.model.name}")
+        return rename(fill_numbers(declared, self.final, record), self.extended_name.removesuffix(".yaml"), head)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The result as in ``diagnosis.json``."""
+        dataset = self.setting.dataset
+        return {
+            "format": "dashpot-diagnosis/1",
+            "model": {"name": self.model.name, "digest": digest_of(self.model)},
+            "dataset": {"name": dataset.name, "digest": dataset.digest},
+            "verdict": self.verdict,
+            "noise_floor": floor_of(self.setting.floor),
+            "rmse": {"before": _pair(self.before), "after": _pair(self.after)},
+            "misfit": [{"what": m.what, "share": m.share, "where": dict(m.where)} for m in self.misfit],
+            "causes": [self._cause(rank, named) for rank, named in enumerate(self.named, 1)],
+            "extended_model": self.extended_name,
+            "held_out": list(self.setting.split.held_out),
+            "tried": self.pursuit.tried,
+            "rejected": [vars(rejection) for rejection in self.pursuit.rejected],
+            "leftover": {"score": self.leftover.score, "size": self.leftover.size},
+            "seed": self.seed,
+        }
+
+    def evidence(self) -> dict[str, Any]:
+        """Arrays and texts for the report."""
+        return gather_evidence(self.setting, self.fit, self.pursuit, self.named, self.causes, self.patch())
+
+    def patch(self) -> dict[str, str]:
+        """Texts and names of the network before and after; empty without an accepted cause."""
+        if self.extended_text is None:
+            return {}
+        before, after = f"{self.model.name}.yaml", self.extended_name
+        return {
+            "before": self.model.document.text,
+            "after": self.extended_text,
+            "before_name": before,
+            "after_name": after,
+        }
+
+    def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
+        rivals = [self.causes[word] for word in named.rivals]
+        telling = [text for rival in rivals if (text := telling_measurement(named.cause, rival))]
+        return {
+            "cause": named.cause.word,
+            "class": named.cause.kind,
+            "title": named.cause.about,
+            "rank": rank,
+            "accepted": True,
+            "branch": named.branch,
+            "evidence": named.evidence,
+            "expected_gain": named.steps[0].expected_gain,
+            "gain": named.gain.value if named.gain else None,
+            "gain_interval": list(named.gain.interval) if named.gain else None,
+            "parameters": named.parameters(),
+            "indistinguishable_from": list(named.rivals),
+            "next_measurement": telling[0] if telling else None,
+        }
+
+
+def digest_of(spec: NetworkSpec) -> str:
+    """sha256 of a network's text."""
+    return hashlib.sha256(spec.document.text.encode()).hexdigest()
+
+
+def _pair(errors: Errors) -> dict[str, float | None]:
+    return {"train": errors.train, "held_out": errors.held_out}
+
+
+def _gain_words(gain: Gain | None) -> str:
+    if gain is None:
+        return "gain not measured, no run could be held out"
+    low, high = gain.interval
+    return f"gain on held-out runs {gain.value:.1%} [{low:.1%}, {high:.1%}]"

@@ -1,0 +1,155 @@
+"""The parts of the documentation that are written from the code: ``python tests/architecture/written.py`` renews them.
+
+They stand between two comments, ``<!-- written: NAME -->`` and ``<!-- end: NAME -->``; what is around them is written by
+hand and stays as it is.
+"""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from dashpot.contract.options import options_of
+from dashpot.contract.registry import load_registry
+from dashpot.model.element import Curve, Parameter
+
+ROOT = Path(__file__).resolve().parents[2]
+FRAMEWORK = ROOT / "framework" / "dashpot"
+DISTRIBUTION = "dashpot"
+
+
+def things(kind: str) -> Mapping[str, type[Any]]:
+    """The built-in things of one kind by word, whatever else is installed."""
+    registry = load_registry()
+    return {
+        word: made for word, made in registry.of(kind).items() if registry.origin(kind, word).distribution == DISTRIBUTION
+    }
+
+
+def elements() -> Iterator[str]:
+    """A section for each element: its law, its numbers, its source."""
+    for word, made in things("elements").items():
+        declared = made.declares
+        yield f"### `{word}`"
+        yield from paragraphs(made)
+        rows = [_number_row(key, number) for key, number in {**declared.curves, **declared.parameters}.items()]
+        yield table(("key", "meaning", "unit", "sensible range, search scale", "default"), rows)
+        if declared.states:
+            yield "Memory: " + ", ".join(f"{state.about} ({state.unit})" for state in declared.states.values()) + "."
+        if made.source:
+            yield f"Source: {made.source}."
+
+
+def optimizers() -> Iterator[str]:
+    """A section for each optimizer: what it does and its options."""
+    for word, made in things("optimizers").items():
+        yield f"### `{word}`"
+        yield from paragraphs(made)
+        yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
+
+
+def formats() -> Iterator[str]:
+    """A section for each reader: which files it takes and what can be said to it."""
+    for word, made in things("formats").items():
+        yield f"### `{word}`"
+        yield "Files ending in " + ", ".join(f"`{suffix}`" for suffix in made.suffixes) + "."
+        yield from paragraphs(made)
+
+
+def causes() -> Iterator[str]:
+    """A section for each cause: how it shows, what mends it, what it is taken for."""
+    for word, made in things("causes").items():
+        yield f"### `{word}`"
+        yield f"Class {made.kind}: {made.about}. " + " ".join(paragraphs(made))
+        lines = [f"- How it shows: {made.shows}.", f"- What is tried: {one_line(made.suspects)}"]
+        lines += [f"- Not `{other}`: {telling}." for other, telling in made.confused_with.items()]
+        yield "\n".join(lines)
+
+
+def specimens() -> Iterator[str]:
+    """A section for each virtual specimen."""
+    for word, made in things("specimens").items():
+        yield f"### `{word}`"
+        yield f"Stands for {made.about}. " + " ".join(paragraphs(made))
+
+
+def modules() -> Iterator[str]:
+    """A list for each layer of the framework: its modules, each with what it says about itself."""
+    layers = ("text", "expr", "model", "data", "contract", "kernel", "fit", "assess", "report", "cli", "testing")
+    for layer in layers:
+        found = sorted(path for path in (FRAMEWORK / layer).rglob("*.py") if path.name != "__init__.py")
+        if found:
+            names = [path.relative_to(FRAMEWORK / layer).with_suffix("").as_posix() for path in found]
+            lines = [f"- `{name}` {_module_line(path)}" for name, path in zip(names, found, strict=True)]
+            yield f"### `{layer}/`"
+            yield "\n".join([f"{_module_line(FRAMEWORK / layer / '__init__.py')}", "", *lines])
+
+
+PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
+    "plugins/README.md": {
+        "elements": elements,
+        "optimizers": optimizers,
+        "formats": formats,
+        "causes": causes,
+        "specimens": specimens,
+    },
+    "framework/README.md": {"modules": modules},
+}
+
+
+def renewed(page: str) -> str:
+    """The text of a page with everything between the comments as the code has it now."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for name, write in PAGES[page].items():
+        begin, end = f"<!-- written: {name} -->", f"<!-- end: {name} -->"
+        if text.count(begin) != 1 or text.count(end) != 1:
+            raise ValueError(f"{page}: expected one pair of the comments {begin} and {end}")
+        head, rest = text.split(begin)
+        text = head + "\n\n".join([begin, *write(), end]) + rest.split(end)[1]
+    return text
+
+
+def table(titles: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    """A table in Markdown; empty columns are left out."""
+    columns = [column for column in zip(titles, *rows, strict=True) if any(column[1:])]
+    head, *body = (" | ".join(cell.replace("|", r"\|") for cell in row) for row in zip(*columns, strict=True))
+    return "\n".join(f"| {line} |" for line in (head, " | ".join("---" for _ in columns), *body))
+
+
+def paragraphs(made: object) -> Iterator[str]:
+    """The docstring of a class in Markdown."""
+    text = inspect.cleandoc(made.__doc__ or "").replace("``", "`")
+    yield from (" ".join(part.split()) for part in re.split(r"\n\s*\n", text))
+
+
+def one_line(made: object) -> str:
+    """The first paragraph of a docstring."""
+    return next(paragraphs(made))
+
+
+def _number_row(key: str, number: Parameter | Curve) -> tuple[str, ...]:
+    low, high = number.bounds
+    span = f"{low:g} to {high:g}, {number.scale}"
+    if isinstance(number, Curve):
+        (value, unit), (over, over_unit) = number.value, number.over
+        return f"`{key}`", number.about, f"constant {unit}/({over_unit}); `{value}` {unit}, `{over}` {over_unit}", span, ""
+    default = "" if number.default is None else f"{number.default:g}"
+    return f"`{key}`", number.about, number.unit, span, default
+
+
+def _option_row(option: inspect.Parameter) -> tuple[str, str, str]:
+    return f"`{option.name}`", option.annotation.__name__, f"`{option.default}`"
+
+
+def _module_line(path: Path) -> str:
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    return " ".join(text.split("\n\n")[0].split()).replace("``", "`")
+
+
+if __name__ == "__main__":
+    for page in PAGES:
+        (ROOT / page).write_text(renewed(page), encoding="utf-8")
