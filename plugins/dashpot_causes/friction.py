@@ -28,7 +28,7 @@ class Friction(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Smooth sliders and sliders behind a spring on a grid of yield travels; a rigid contact on one of velocities."""
+        """Smooth sliders and sliders behind a spring over yield travels; a rigid contact over creep velocities."""
         grid = np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES)
         for element in ("dahl", "prandtl"):
             yield added_branch(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,15 +32,15 @@ class StiffnessCurve(Cause):
         """A correction curve through few or through many knots over the covered deflections."""
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
-            yield Suspect(
-                f"{count} knots",
-                knots,
-                lambda view, run, knots=knots: hats(knots, view.displacement(run)),
-                _extend,
-                joint=True,
-                sign=0,
-                unknowns=0,
-            )
+            yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0)
+
+
+@dataclass(frozen=True)
+class _Correction:
+    knots: tuple[float, ...]
+
+    def __call__(self, view: View, run: str) -> Array:
+        return hats(self.knots, view.displacement(run))
 
 
 def hats(knots: Sequence[float], x: Array) -> Array:

@@ -150,7 +150,7 @@ def test_a_single_file_does_without_a_folder(tmp_path):
     assert (run.name, run.kind) == ("a1", "sweep")
 
 
-# --- a mount with a stop that nobody modelled ----------------------------------------------------------------------
+# --- a mount with a bumper that nobody modelled --------------------------------------------------------------------
 
 MOUNT = """\
 format: dashpot-network/1
@@ -160,18 +160,20 @@ branches:
   damping: {element: damper, damping: {start: 0.5 N*s/mm, bounds: [0.01 N*s/mm, 10 N*s/mm]}}
 """
 CHANNELS = "{time: {column: t, unit: s}, displacement: {column: x, unit: mm}, force: {column: F, unit: N}}"
-GAP, STOP = 6.3, 60.0
+STIFFNESS, LENGTH = 5.0, 2.5
+BUMPER = f"  bumper: {{element: bumper, stiffness: {STIFFNESS} N/mm, length: {LENGTH} mm}}\n"
 
 
 def write_mount(folder: Path, seed: int, ending: str) -> Path:
-    """Sweeps over a spring of 200 N/mm, a damper of 0.8 N s/mm and a stop; returns the folder."""
+    """Sweeps over a spring of 200 N/mm, a damper of 0.8 N s/mm and a bumper; returns the folder."""
     folder.mkdir()
     rng, time, runs = np.random.default_rng(seed), np.arange(0.0, 4.0, 0.002), []
     for number, (amplitude, preload) in enumerate([(1, 3), (2, 5), (3, 6), (2, 7), (1, 9)]):
         angle = 2.0 * np.pi * (time + time**2)
         x = preload + amplitude * np.sin(angle)
         v = amplitude * 2.0 * np.pi * (1.0 + 2.0 * time) * np.cos(angle)
-        force = 200.0 * x + 0.8 * v + STOP * np.maximum(x - GAP, 0.0) + 5.0 * rng.standard_normal(time.size)
+        bumper = STIFFNESS * LENGTH * (np.exp(x / LENGTH) - 1.0)
+        force = 200.0 * x + 0.8 * v + bumper + 5.0 * rng.standard_normal(time.size)
         delimiter = " " if ending == "bench" else ","
         write_table(folder / f"r{number}.{ending}", [delimiter.join("txF")], [time, x, force], delimiter)
         runs.append(f"  - {{name: r{number}, file: r{number}.{ending}, kind: sweep}}")
@@ -215,7 +217,7 @@ def test_everything_in_the_plugin_is_found(with_plugin, tmp_path):
     done = with_plugin.run(tmp_path, "dashpot", "list", "plugins")
     assert (done.returncode, done.stderr) == (0, "")
     [line] = [line for line in done.stdout.splitlines() if line.startswith("my_mounts ")]
-    assert {word.strip(",") for word in line.split()[4:]} == {"bump_stop", "compass", "bench"}
+    assert {word.strip(",") for word in line.split()[4:]} == {"bumper", "compass", "bench"}
 
 
 def test_the_element_conforms():
@@ -223,16 +225,16 @@ def test_the_element_conforms():
     exec(plugin_source() + "\n" + blocks("python", "from dashpot.testing")[0], found)
 
 
-def test_the_optimizer_and_the_reader_work_from_the_command_line(with_plugin, tmp_path, seed):
-    (tmp_path / "mount.yaml").write_text(MOUNT + stop_branch(), encoding="utf-8")
+def test_element_optimizer_and_reader_work_from_the_command_line(with_plugin, tmp_path, seed):
+    (tmp_path / "mount.yaml").write_text(MOUNT + BUMPER, encoding="utf-8")
     data = write_mount(tmp_path / "data", seed, "bench")
     settings = ["--optimizer", "compass", "--set", "step=0.2", "--json"]
     done = with_plugin.run(tmp_path, "dashpot", "fit", "mount.yaml", data, "-o", "out", *settings)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     assert found["optimizer"] == "compass"
-    assert found["parameters"]["stop.gap"]["value"] == pytest.approx(1e-3 * GAP, rel=0.02)
-    assert found["parameters"]["stop.stiffness"]["value"] == pytest.approx(1e3 * STOP, rel=0.05)
+    assert found["parameters"]["rubber.stiffness"]["value"] == pytest.approx(200e3, rel=0.01)
+    assert found["parameters"]["damping.damping"]["value"] == pytest.approx(800.0, rel=0.05)
 
 
 def test_the_cause_is_named_first(with_plugin, tmp_path, seed):
@@ -241,11 +243,5 @@ def test_the_cause_is_named_first(with_plugin, tmp_path, seed):
     done = with_plugin.run(tmp_path, "dashpot", "diagnose", "mount.yaml", data, "-o", "out", "--json")
     assert done.returncode == 0, done.stderr
     first = json.loads(done.stdout)["causes"][0]
-    assert first["cause"] == "bump_stop" and first["gain"] > 0.5
-    assert first["parameters"]["gap"]["value"] == pytest.approx(1e-3 * GAP, rel=0.02)
-
-
-def stop_branch() -> str:
-    """A branch with the element of the plugin."""
-    numbers = "stiffness: {start: 30 N/mm, bounds: [1 N/mm, 1 kN/mm]}, gap: {start: 5 mm, bounds: [0 mm, 10 mm]}"
-    return f"  stop: {{element: bump_stop, {numbers}}}\n"
+    assert first["cause"] == "bumper" and first["gain"] > 0.5
+    assert first["parameters"]["length"]["value"] == pytest.approx(1e-3 * LENGTH, rel=0.1)

@@ -32,7 +32,7 @@ class Comparison:
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``compare.json``; errors in N, ``nrmse`` in units of the standard deviation of the force."""
         dataset = self.setting.dataset
-        failed = [
+        failed: list[dict[str, Any]] = [
             {"name": name, "parameters": {}, "rmse": None, "nrmse": None, "per_run": {}, "status": reason}
             for name, reason in self.failures.items()
         ]

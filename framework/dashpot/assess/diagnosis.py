@@ -99,11 +99,11 @@ class Diagnosis:
 
     def patch(self) -> dict[str, str]:
         """Texts and names of the network before and after; empty without an accepted cause."""
-        if self.extended_text is None:
+        if self.extended_text is None or self.extended_name is None:
             return {}
         before, after = f"{self.model.name}.yaml", self.extended_name
         return {
-            "before": self.model.document.text,
+            "before": self.model.text,
             "after": self.extended_text,
             "before_name": before,
             "after_name": after,
@@ -131,7 +131,7 @@ class Diagnosis:
 
 def digest_of(spec: NetworkSpec) -> str:
     """sha256 of a network's text."""
-    return hashlib.sha256(spec.document.text.encode()).hexdigest()
+    return hashlib.sha256(spec.text.encode()).hexdigest()
 
 
 def _pair(errors: Errors) -> dict[str, float | None]:

@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
+from dashpot.assess.projection import normal_equations, project_out, stack
 from dashpot.assess.view import ModelView
 from dashpot.data.run import Run
 
 Array = NDArray[np.float64]
+Signals = Mapping[str, Array]
 
 SIGNIFICANT = 6.0
 SMALLEST_SIZE = 0.1
@@ -38,8 +40,8 @@ class Leftover:
 
 def look_for_leftover(
     view: ModelView,
-    residual: Mapping[str, Array],
-    tangents: Mapping[str, Array],
+    residual: Signals,
+    tangents: Signals,
     noise: NoiseModel,
     runs: Sequence[Run],
 ) -> Leftover:
@@ -51,26 +53,16 @@ def look_for_leftover(
     )
 
 
-def _correlation(
-    view: ModelView, residual: Mapping[str, Array], tangents: Mapping[str, Array], noise: NoiseModel
-) -> Leftover:
-    gram, right, samples = 0.0, 0.0, 0
-    for run in residual:
-        first = view.scored[run].first
-        stack = np.concatenate([tangents[run], general_functions(view, run)[:, first:]])
-        white = noise.whiten(run, stack)
-        gram, right = gram + white @ white.T, right + white @ noise.whiten(run, residual[run])
-        samples += residual[run].size
+def _correlation(view: ModelView, residual: Signals, tangents: Signals, noise: NoiseModel) -> Leftover:
+    general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in residual}
     fixed = next(iter(tangents.values())).shape[0]
-    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    gram, right = gram / np.outer(scale, scale), right / scale
-    solve = np.linalg.pinv(gram[:fixed, :fixed], rcond=1e-11, hermitian=True) @ gram[:fixed]
-    spread = gram[fixed:, fixed:] - gram[fixed:, :fixed] @ solve[:, fixed:]
-    score = right[fixed:] - solve[:, fixed:].T @ right[:fixed]
-    values, vectors = np.linalg.eigh(spread)
+    projected = project_out(normal_equations(residual, stack(tangents, general), noise), fixed)
+    scale = np.sqrt(np.maximum(projected.original, 1e-300))
+    values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
     kept = values > 1e-8 * values[-1]
-    excess = float(np.sum((vectors[:, kept].T @ score) ** 2 / values[kept])) - kept.sum()
-    return Leftover(excess / np.sqrt(2.0 * kept.sum()), float(np.sqrt(max(excess, 0.0) / samples)))
+    excess = float(np.sum((vectors[:, kept].T @ (projected.scores / scale)) ** 2 / values[kept])) - float(kept.sum())
+    score = excess / float(np.sqrt(2.0 * kept.sum()))
+    return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)))
 
 
 def general_functions(view: ModelView, run: str) -> Array:
@@ -114,7 +106,7 @@ def _low_pass(signal: Array, share: float) -> Array:
     return lfilter([1.0 - keep], [1.0, -keep], signal)
 
 
-def _agreement(residual: Mapping[str, Array], noise: NoiseModel, runs: Sequence[Run]) -> Leftover:
+def _agreement(residual: Signals, noise: NoiseModel, runs: Sequence[Run]) -> Leftover:
     total, samples = 0.0, 0
     white = {run: noise.whiten(run, residual[run]) for run in residual}
     for run in runs:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
 from dashpot.assess.gain import Gain
@@ -72,14 +73,13 @@ def _added(before: NetworkSpec, after: NetworkSpec, final: NetworkSpec) -> dict[
     new = {slot.path for slot in after.slots()} - known
     found = [slot for slot in final.slots() if slot.path in new]
     # in the order of the text, where a cause puts what matters first
-    return {slot.path: slot.value for slot in sorted(found, key=lambda slot: slot.value.node.start)}
+    return {slot.path: slot.value for slot in sorted(found, key=lambda slot: slot.value.place)}
 
 
 def _together(entries: Sequence[Accepted]) -> Gain | None:
-    if any(entry.gain is None for entry in entries):
+    gains = [entry.gain for entry in entries if entry.gain is not None]
+    if len(gains) < len(entries):
         return None
-    left, low, high = 1.0, 1.0, 1.0
-    for entry in entries:
-        left *= 1.0 - entry.gain.value
-        low, high = low * (1.0 - entry.gain.interval[0]), high * (1.0 - entry.gain.interval[1])
+    left = prod(1.0 - gain.value for gain in gains)
+    low, high = (prod(1.0 - gain.interval[side] for gain in gains) for side in (0, 1))
     return Gain(1.0 - left, (1.0 - low, 1.0 - high))

@@ -163,8 +163,10 @@ class Pursuer:
 
     def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs."""
-        misfits = [held_out_misfits(model, self.held_out) for model in (before, after)]
-        return measure_gain(*misfits, [run.drive.dt for run in self.held_out], self.seed)
+        steps = [run.drive.dt for run in self.held_out]
+        return measure_gain(
+            held_out_misfits(before, self.held_out), held_out_misfits(after, self.held_out), steps, self.seed
+        )
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that a later one made superfluous."""
@@ -186,7 +188,7 @@ class Pursuer:
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers."""
-        text = first.declared.document.text
+        text = first.declared.text
         for entry in kept:
             text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
         declared = parse_network(text, self.bench.elements)

@@ -14,15 +14,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
+from dashpot.assess.projection import Projected, normal_equations, project_out, stack
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Atom, Cause, Suspect
 
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
 
 FALSE_ALARMS = 0.01
 DRAWS = 400
 POWER_95 = 1.6448536269514722
 KEPT = 1e-7  # share of a column that must be left after projection
+RIDGE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,60 +107,37 @@ def collect_columns(
 
 def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     """What is left of each run after tangents, nuisance and the whole bank: the noise, whatever is hidden."""
-    runs = list(columns.residual)
-    stacks = {run: np.concatenate([columns.tangents[run], columns.nuisance[run], columns.bank[run]]) for run in runs}
-    gram, right = 0.0, 0.0
-    for run in runs:
-        white = noise.whiten(run, stacks[run])
-        gram = gram + white @ white.T
-        right = right + white @ noise.whiten(run, columns.residual[run])
-    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    ridge = 1e-9 * np.eye(scale.size)
-    strengths = np.linalg.lstsq(gram / np.outer(scale, scale) + ridge, right / scale, rcond=1e-12)[0] / scale
-    return {run: columns.residual[run] - strengths @ stacks[run] for run in runs}
+    rows = stack(columns.tangents, columns.nuisance, columns.bank)
+    normal = normal_equations(columns.residual, rows, noise)
+    scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
+    matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
+    strengths = np.linalg.lstsq(matrix, normal.right / scale, rcond=1e-12)[0] / scale
+    return {run: values - strengths @ rows[run] for run, values in columns.residual.items()}
 
 
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
-    scores, spread, original, samples = _project(columns, noise)
-    findings = [_judge(c, scores, spread, original, samples) for c in columns.candidates]
-    ordered = sorted((f for f in findings if f is not None), key=lambda finding: -finding.merit)
-    threshold = max(0.0, _null_quantile(columns.candidates, spread, original, samples, seed))
-    return Screen(tuple(ordered), threshold, samples, _limits(columns, spread, original, threshold, samples))
+    rows = stack(columns.tangents, columns.nuisance, columns.bank)
+    free = next(iter(columns.tangents.values())).shape[0]
+    precision = np.concatenate([np.zeros(free), 1.0 / columns.priors**2])
+    projected = project_out(normal_equations(columns.residual, rows, noise), precision.size, precision)
+    findings = [_judge(candidate, projected) for candidate in columns.candidates]
+    ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
+    threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
+    return Screen(tuple(ordered), threshold, projected.samples, _limits(columns, projected, threshold))
 
 
-def _project(columns: Columns, noise: NoiseModel) -> tuple[Array, Array, Array, int]:
-    fixed = next(iter(columns.tangents.values())).shape[0] + columns.priors.size
-    gram, right, samples = 0.0, 0.0, 0
-    for run, residual in columns.residual.items():
-        stack = np.concatenate([columns.tangents[run], columns.nuisance[run], columns.bank[run]])
-        white = noise.whiten(run, stack)
-        gram, right = gram + white @ white.T, right + white @ noise.whiten(run, residual)
-        samples += residual.size
-    prior = np.zeros(len(gram))
-    prior[fixed - columns.priors.size : fixed] = 1.0 / columns.priors**2
-    gram = gram + np.diag(prior)
-    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    inside = gram / np.outer(scale, scale)
-    solve = np.linalg.pinv(inside[:fixed, :fixed], rcond=1e-11, hermitian=True) @ inside[:fixed]
-    spread = inside[fixed:, fixed:] - inside[fixed:, :fixed] @ solve[:, fixed:]
-    scores = right[fixed:] / scale[fixed:] - solve[:, fixed:].T @ (right[:fixed] / scale[:fixed])
-    outer = np.outer(scale[fixed:], scale[fixed:])
-    return scores * scale[fixed:], spread * outer, np.diag(gram)[fixed:], samples
-
-
-def _judge(candidate: Candidate, scores: Array, spread: Array, original: Array, samples: int) -> Finding | None:
+def _judge(candidate: Candidate, projected: Projected) -> Finding | None:
     where = candidate.columns
-    s, matrix, before = scores[where], spread[where, where], original[where]
-    usable = np.diag(matrix) > KEPT * before
-    if not usable.any():
+    s, matrix = projected.scores[where], projected.spread[where, where]
+    usable = np.flatnonzero(np.diag(matrix) > KEPT * projected.original[where])
+    if usable.size == 0:
         return None
-    if candidate.suspect.joint:
-        return _judge_joint(candidate, s, matrix, usable, samples)
-    return _judge_greedy(candidate, s, matrix, usable, samples)
+    judge = _judge_joint if candidate.suspect.joint else _judge_greedy
+    return judge(candidate, s, matrix, usable, projected.samples)
 
 
-def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Array, samples: int) -> Finding:
+def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int) -> Finding | None:
     inverse, rank = _inverse(matrix[np.ix_(usable, usable)])
     strengths = np.zeros(s.size)
     strengths[usable] = inverse @ s[usable]
@@ -167,23 +147,21 @@ def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Array, s
     return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)))
 
 
-def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Array, samples: int) -> Finding:
+def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int) -> Finding | None:
     """Add places of the grid one after the other, strengths of one sign, as long as the merit grows."""
-    suspect, best = candidate.suspect, None
-    chosen: list[int] = []
-    for _ in range(suspect.most):
-        options = [
-            (*_solve(s, matrix, (*chosen, k), suspect.sign), k) for k in np.flatnonzero(usable) if k not in chosen
-        ]
-        if not options:
-            break
-        gain, strengths, k = max(options, key=lambda option: option[0])
-        chosen = [*chosen, int(k)]
+    suspect = candidate.suspect
+    best: Finding | None = None
+    chosen: tuple[int, ...] = ()
+    while len(chosen) < min(suspect.most, usable.size):
+        options = [(*chosen, int(k)) for k in usable if k not in chosen]
+        solved = [_solve(s, matrix, option, suspect.sign) for option in options]
+        chosen = options[int(np.argmax([gain for gain, _ in solved]))]
+        gain, strengths = solved[options.index(chosen)]
         merit = gain - len(chosen) * (1 + suspect.unknowns) * np.log(samples)
         if best is not None and merit <= best.merit:
             break
-        atoms = tuple((float(b), suspect.grid[j]) for b, j in zip(strengths, chosen, strict=True) if b != 0.0)
-        best = Finding(candidate, atoms, float(gain), float(merit), strengths, tuple(chosen))
+        atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True) if b != 0.0)
+        best = Finding(candidate, atoms, gain, float(merit), strengths, chosen)
     return best
 
 
@@ -208,39 +186,38 @@ def _inverse(matrix: Array) -> tuple[Array, int]:
     return inverse / np.outer(scale, scale), int(keep.sum())
 
 
-def _limits(columns: Columns, spread: Array, original: Array, threshold: float, samples: int) -> tuple[Limit, ...]:
-    sizes = np.sqrt(sum(np.sum(rows**2, axis=1) for rows in columns.bank.values()) / samples)
+def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[Limit, ...]:
+    sizes = np.sqrt(sum(np.sum(rows**2, axis=1) for rows in columns.bank.values()) / projected.samples)
+    kept = np.diag(projected.spread)
     found: dict[type[Cause], Limit] = {}
     for candidate in columns.candidates:
         where, suspect = candidate.columns, candidate.suspect
-        kept = np.diag(spread)[where]
-        usable = kept > KEPT * original[where]
+        usable = kept[where] > KEPT * projected.original[where]
         if suspect.joint or not usable.any():
             continue
-        price = (1 + suspect.unknowns) * np.log(samples) + threshold
-        strength = (np.sqrt(price) + POWER_95) / np.sqrt(kept[usable])
+        price = (1 + suspect.unknowns) * np.log(projected.samples) + threshold
+        strength = (np.sqrt(price) + POWER_95) / np.sqrt(kept[where][usable])
         limit = Limit(candidate.cause, suspect.form, float(np.min(strength * sizes[where][usable])))
         if candidate.cause not in found or limit.force < found[candidate.cause].force:
             found[candidate.cause] = limit
     return tuple(found.values())
 
 
-def _null_quantile(candidates: Sequence[Candidate], spread: Array, original: Array, samples: int, seed: int) -> float:
+def _null_quantile(candidates: Sequence[Candidate], projected: Projected, seed: int) -> float:
     # the score vector of pure noise is normal with covariance `spread`; nothing is known of it but the largest merit
-    rng = np.random.default_rng(seed)
-    scale = np.sqrt(np.maximum(original, 1e-300))
-    values, vectors = np.linalg.eigh(spread / np.outer(scale, scale))
+    scale = np.sqrt(np.maximum(projected.original, 1e-300))
+    values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
     root = vectors * np.sqrt(np.maximum(values, 0.0))
-    draws = (rng.standard_normal((DRAWS, values.size)) @ root.T) * scale
+    draws = (np.random.default_rng(seed).standard_normal((DRAWS, values.size)) @ root.T) * scale
     best = np.full(DRAWS, -np.inf)
     for candidate in candidates:
         where = candidate.columns
-        matrix = spread[where, where]
-        usable = np.diag(matrix) > KEPT * original[where]
-        if usable.any():
+        matrix = projected.spread[where, where]
+        usable = np.flatnonzero(np.diag(matrix) > KEPT * projected.original[where])
+        if usable.size:
+            part = matrix[np.ix_(usable, usable)]
             best = np.maximum(
-                best,
-                _null_merits(candidate.suspect, draws[:, where][:, usable], matrix[np.ix_(usable, usable)], samples),
+                best, _null_merits(candidate.suspect, draws[:, where][:, usable], part, projected.samples)
             )
     return float(np.quantile(best, 1.0 - FALSE_ALARMS)) if np.isfinite(best).any() else 0.0
 

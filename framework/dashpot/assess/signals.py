@@ -50,7 +50,7 @@ def _track(run: Run) -> Oscillation | None:
 
 def _curve(run: Run, track: Oscillation, residuals: Mapping[str, Mapping[str, Array]]) -> dict[str, Any]:
     measured = _averaged(harmonics_of(run.force, track))
-    curve = {
+    curve: dict[str, Any] = {
         "run": run.name,
         "amplitude": float(np.median(measured.amplitude)),
         "preload": float(np.median(measured.preload)),
@@ -88,7 +88,7 @@ def _harmonics(residuals: Mapping[str, Array], tracked: Mapping[str, Oscillation
 def _misfit_map(
     runs: tuple[Run, ...], tracked: Mapping[str, Oscillation], residuals: Mapping[str, Mapping[str, Array]]
 ) -> list[dict[str, Any]]:
-    rows = []
+    rows: list[dict[str, Any]] = []
     for run in runs:
         if run.name not in tracked:
             rows.append({"run": run.name, "band": "all", "rmse": _rms(residuals, run.name, slice(None))})

@@ -20,12 +20,29 @@ Atom = tuple[float, float]  # strength and place on the grid
 class View(Protocol):
     """What a cause may look at. Arrays of a run have its samples; a cause never sees noise, thresholds or labels."""
 
-    runs: Sequence[str]
-    reach: tuple[float, float]
-    speed: float
-    duration: float
-    stroke: float
-    dt: float
+    @property
+    def runs(self) -> Sequence[str]:
+        """Names of the runs."""
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Smallest and largest deflection in m."""
+
+    @property
+    def speed(self) -> float:
+        """Largest speed in m/s."""
+
+    @property
+    def duration(self) -> float:
+        """Median length of a run in s."""
+
+    @property
+    def stroke(self) -> float:
+        """The largest stroke of a single run in m."""
+
+    @property
+    def dt(self) -> float:
+        """Smallest sample time in s."""
 
     def displacement(self, run: str) -> Array:
         """The deflection (n,) in m."""

@@ -78,7 +78,7 @@ def fit_network(
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
     jobs: int = 1,
-    registry: Registry | None = None,
+    registry: Registry,
     progress: Progress | None = None,
 ) -> FitResult:
     """Identify the searched numbers of a network; see the module for the stages.
@@ -132,10 +132,11 @@ def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors
     runs = list(setting.scored.values())
     per_run = dict(zip(setting.scored, Objective(network, runs, jobs).rmse(network.start)[:, 0].tolist(), strict=True))
 
-    def pooled(names: Sequence[str]) -> float | None:
-        return float(np.sqrt(np.mean([per_run[name] ** 2 for name in names]))) if names else None
+    def pooled(names: Sequence[str]) -> float:
+        return float(np.sqrt(np.mean([per_run[name] ** 2 for name in names])))
 
-    return Errors(pooled(setting.split.train), pooled(setting.split.held_out), pooled(tuple(per_run)), per_run)
+    held_out = pooled(setting.split.held_out) if setting.split.held_out else None
+    return Errors(pooled(setting.split.train), held_out, pooled(tuple(per_run)), per_run)
 
 
 def _search(

@@ -63,10 +63,10 @@ def table_of(curve: Characteristic, at: Array, force: Array) -> Characteristic:
 def _backbone(runs: Sequence[ScoredRun], knots: int | None) -> tuple[Array, Array]:
     slow = widest(runs)
     if slow is None:
-        found = curve_from_sweeps([(run.drive.displacement, run.drive.velocity, run.force) for run in runs])
-    else:
-        found = extract_backbone(slow.drive.displacement, slow.force, knots)
-    return found.deflection, found.force
+        curve = curve_from_sweeps([(run.drive.displacement, run.drive.velocity, run.force) for run in runs])
+        return curve.deflection, curve.force
+    backbone = extract_backbone(slow.drive.displacement, slow.force, knots)
+    return backbone.deflection, backbone.force
 
 
 def _widen(at: Array, force: Array, runs: Sequence[ScoredRun]) -> tuple[Array, Array]:

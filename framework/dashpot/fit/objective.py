@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ Array = NDArray[np.float64]
 
 
 Whiten = Callable[[str, Array], Array]
+Result = TypeVar("Result")
 
 
 class Objective:
@@ -54,7 +56,7 @@ class Objective:
             )
             block[0, piece] = seen[0][run.first :] - run.force[run.first :]
             block[1:, piece] = seen[1][:, run.first :]
-            for k in np.flatnonzero([parts.owner[slot] is None for slot in which]):
+            for k in (k for k, slot in enumerate(which) if parts.owner[slot] is None):
                 moved = values.copy()
                 moved[which[k]] += shifts[k]
                 other = self.network.observation(moved).see(seen[2][None], run.drive.dt)[0]
@@ -120,7 +122,7 @@ class Objective:
         force = np.atleast_2d(self.network.simulate(self.rows[number], values))
         return self.network.observation(values).see(force, self.runs[number].drive.dt)
 
-    def _map(self, work) -> list:  # noqa: ANN001
+    def _map(self, work: Callable[[int], Result]) -> list[Result]:
         numbers = range(len(self.runs))
         if self.jobs == 1:
             return [work(number) for number in numbers]

@@ -10,7 +10,7 @@ import dashpot
 from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
 from dashpot.fit.holdout import Split
-from dashpot.model.network import NetworkSpec
+from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
 from dashpot.text.quantity import pretty
 
@@ -121,7 +121,7 @@ def _held_out(errors: Errors) -> str:
     return "" if errors.held_out is None else f", {errors.held_out:.4g} N on held-out runs"
 
 
-def _interval(value) -> str:  # noqa: ANN001
+def _interval(value: Value) -> str:
     if not value.interval:
         return ""
     low, high = (pretty(side, value.unit, 3) for side in value.interval)

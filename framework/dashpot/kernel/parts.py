@@ -1,7 +1,7 @@
 """A parallel network branch by branch: what each branch adds to the force, and how that changes with its numbers.
 
-The force of a parallel network is the sum over its branches, and a branch feels only its own numbers. So the Jacobian of
-the whole network needs no more than every branch alone, moved number by number; branches of the same make share a block.
+The force of a parallel network is the sum over its branches, and a branch feels only its own numbers. So the Jacobian
+of the whole network needs no more than every branch alone, moved number by number; branches of one make share a block.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Parts:
 
     def sensitivities(self, rows: Sequence[Rows], values: Array, which: Sequence[int], shifts: Array,
                       ) -> tuple[Array, Array]:  # fmt: skip
-        """The force (n,) at ``values`` (slots,) and its changes (len(which), n) when slot which[k] moves by shifts[k]."""
+        """The force (n,) at ``values`` (slots,) and its changes (k, n) when each slot in ``which`` moves by its shift."""
         total = np.zeros(rows[0].drive.samples)
         changes = np.zeros((len(which), total.size))
         for number, (part, run) in enumerate(zip(self.members, rows, strict=True)):

@@ -34,6 +34,11 @@ class Value:
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property
+    def place(self) -> int:
+        """Where the number stands in the text; before everything when it does not."""
+        return self.node.start if self.node else -1
+
+    @property
     def searched(self) -> bool:
         """Whether an identification may move the number."""
         return self.role != "fixed"
@@ -112,6 +117,13 @@ class NetworkSpec:
     about: str = ""
     source: str = ""
     document: Document | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def text(self) -> str:
+        """The text the network was read from. ValueError for a network made without one."""
+        if self.document is None:
+            raise ValueError(f"expected a network that was read from a text, got '{self.name}', which was built")
+        return self.document.text
 
     def leaves(self) -> tuple[Branch, ...]:
         """Every branch that holds an element, in the order of the file."""
