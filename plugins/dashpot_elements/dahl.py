@@ -12,10 +12,10 @@ TINY = 1e-300
 
 
 class Dahl(Element):
-    """Dry friction after Dahl: dF/dx = k |u|^i sgn(u) with u = 1 - F/limit sgn(v), solved exactly for every i.
+    """Dry friction after Dahl: dF/dx = stiffness |u|^exponent sgn(u), u = 1 - F/limit sgn(v), solved exactly.
 
-    Rate independent. With i = 1 the force approaches the limit exponentially; i = 0 is an elastic-perfectly-plastic
-    slider (Jenkin). Minor loops drift: the law has no memory of turning points.
+    Rate independent. With exponent 1 the force approaches the limit exponentially; exponent 0 is the ideal slider
+    behind a spring (Jenkin). Minor loops drift: the law has no memory of turning points.
     """
 
     source = "Dahl, AIAA J. 14 (1976) 1675"

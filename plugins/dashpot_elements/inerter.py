@@ -8,7 +8,7 @@ from dashpot.model.element import Element, Motion, Parameter, Response
 
 
 class Inerter(Element):
-    """A force that follows the relative acceleration: F = b a.
+    """A force that follows the relative acceleration: F = inertance a.
 
     It stands for the part of a fixture that moves between the driven end and the load cell.
     """

@@ -13,7 +13,8 @@ from dashpot.model.path import fading_travel
 class Maxwell(Element):
     """A spring in series with a dashpot: dF/dt = k v - F/T, solved exactly along the cubic path.
 
-    Dynamic stiffness k j w T/(1 + j w T); the loss stiffness peaks with k/2 at w = 1/T.
+    k is the stiffness, T the relaxation time. The dynamic stiffness is k j w T/(1 + j w T); its loss part peaks with
+    k/2 at w = 1/T.
     """
 
     stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k")

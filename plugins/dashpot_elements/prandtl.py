@@ -9,16 +9,17 @@ from scipy.special import wrightomega
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 
-NEWTON_STEPS = 14
+NEWTON_STEPS = 5
 TINY = 1e-75  # its fourth power is still a number
 
 
 class Prandtl(Element):
     """A spring in series with a Dahl slider: dF/dx = k s u^i/(1 + s u^i), u = 1 - F/limit sgn(v).
 
-    ``sharpness`` s is the stiffness of the slider over that of the spring: the larger, the more the element is an ideal
-    elastic-perfectly-plastic one. For i = 1 the step is s u + ln u = s u0 + ln u0 - way, solved by the Wright omega
-    function; for other exponents by Newton's method in the variable that makes the equation convex.
+    k is the stiffness, i the exponent. The sharpness s is the stiffness of the slider over that of the spring: the
+    larger, the more the element is an ideal elastic-perfectly-plastic one. For i = 1 the step is s u + ln u = s u0 +
+    ln u0 - way, solved by the Wright omega function; for other exponents by Newton's method in the variable that makes
+    the equation convex.
     """
 
     source = "Corless and Jeffrey, The Wright omega function (2002), for the solution"
@@ -48,18 +49,43 @@ def _smooth(distance: Any, way: Any, sharpness: Any) -> Any:
 
 
 def _general(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:
-    # unknown w = u^power: u itself above exponent 1, u^(1 - exponent) below, where the equation is concave in w
+    return np.where(exponent > 0.5, _gradual(distance, way, sharpness, exponent),
+                    _abrupt(distance, way, sharpness, exponent))  # fmt: skip
+
+
+def _gradual(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:
+    # with u = unit v the equation is v - L(v) = level, L(v) = (v^-excess - 1)/excess, a Wright omega function where
+    # excess is 0; it is concave, and Newton's method climbs to its root from any start below
     excess = np.where(exponent == 1.0, 1.0, exponent - 1.0)
-    power = np.where(exponent < 1.0, -excess, 1.0)
-    begin = distance**-excess
-    dahl = distance * np.exp(-np.log1p(np.maximum(excess * way / begin, 0.0)) / excess)
-    below = np.maximum(distance - way / sharpness, dahl)
-    w = np.where(exponent < 1.0, distance**power, below)
+    unit = sharpness ** (-1.0 / np.maximum(exponent, 0.5))
+    begin, go = distance / unit, way / (sharpness * unit)
+    level = begin - _power_law(begin, excess) - go
+    v = np.maximum(_below(level, excess), TINY)
     for _ in range(NEWTON_STEPS):
-        u = w ** (1.0 / power)
-        # the integral of u^-exponent, without cancellation near exponent 1
-        miss = sharpness * (distance - u) + begin * np.expm1(-excess * np.log(u / distance)) / excess - way
-        slope = (sharpness * u ** (1.0 - power) + u ** (-excess - power)) / power
-        w = np.maximum(w + miss / slope, TINY)
-    stuck = (exponent < 1.0) & (way >= sharpness * distance - begin / excess)
-    return np.where(stuck, 0.0, w ** (1.0 / power))
+        miss = begin - v + begin**-excess * np.expm1(-excess * np.log(v / begin)) / excess - go
+        v = np.maximum(v + miss / (1.0 + v**-exponent), TINY)
+    stuck = (exponent < 1.0) & (1.0 - excess * level <= 0.0)
+    return np.where(stuck, 0.0, unit * v)
+
+
+def _below(level: Any, excess: Any) -> Any:
+    # from v <= max(1, level) and L(v) >= -level an upper bound, which put into L(v) = v - level gives a lower one
+    above = np.minimum(np.maximum(level, 1.0), np.exp(-np.log1p(np.maximum(-excess * level, -1.0)) / excess))
+    lower = np.exp(-np.log1p(np.maximum(excess * (above - level), -1.0)) / excess)
+    far = np.maximum(level, 1.0)
+    return np.where(level > 1.0, np.maximum(lower, far + _power_law(far, excess)), lower)
+
+
+def _power_law(v: Any, excess: Any) -> Any:
+    return np.expm1(-excess * np.log(v)) / excess
+
+
+def _abrupt(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:
+    # with w = u^power the equation s w^(1/power) + w/power = level is convex; each term alone bounds w from above
+    power = np.maximum(1.0 - exponent, 0.5)
+    level = np.maximum(sharpness * distance + distance**power / power - way, TINY)
+    w = np.minimum(power * level, (level / sharpness) ** power)
+    for _ in range(NEWTON_STEPS):
+        miss = sharpness * w ** (1.0 / power) + w / power - level
+        w = np.maximum(w - power * miss / (1.0 + sharpness * w ** (1.0 / power - 1.0)), TINY)
+    return w ** (1.0 / power)

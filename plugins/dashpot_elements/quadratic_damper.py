@@ -10,7 +10,7 @@ from dashpot.model.element import Element, Motion, Parameter, Response
 
 
 class QuadraticDamper(Element):
-    """A dashpot whose force grows with the square of the velocity: F = d v |v|."""
+    """A dashpot whose force grows with the square of the velocity: F = damping v |v|."""
 
     damping = Parameter("N*s^2/m^2", "force at 1 m/s", bounds=(1e-2, 1e8), symbol="d_2")
 

@@ -6,14 +6,28 @@ import re
 
 import click
 import pytest
-from architecture.source import ROOT
+from architecture.source import FRAMEWORK, PLUGINS, ROOT, modules, texts
+from architecture.written import PAGES, renewed, things
 
+from dashpot.cli.list import KINDS as LISTS
+from dashpot.cli.outcome import ExitCode
 from dashpot.cli.shell import VERBS
 from dashpot.cli.shell import dashpot as command
 from dashpot.contract.loading import KINDS
+from dashpot.data.channel import Channel
+from dashpot.data.declaration import ACCEPTABLE, RunDeclaration
+from dashpot.data.run import KINDS as RUNS
+from dashpot.report.headline import SENTENCES
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^dashpot (.+)$", README, flags=re.MULTILINE)
+VARIABLES = {
+    found
+    for folder in (FRAMEWORK, PLUGINS)
+    for path in modules(folder)
+    for text, _ in texts(path)
+    for found in re.findall(r"\bDASHPOT_[A-Z]+\b", text)
+}
 
 
 def verb(name: str) -> click.Command:
@@ -23,9 +37,23 @@ def verb(name: str) -> click.Command:
     return found
 
 
+def options(name: str) -> list[click.Option]:
+    """What a verb can be told."""
+    return [parameter for parameter in verb(name).params if isinstance(parameter, click.Option)]
+
+
+def mentioned(word: str, page: str = README) -> bool:
+    """Whether a word stands in a page as code, alone or with something behind it."""
+    return re.search(rf"`{re.escape(word)}[` =]", page) is not None
+
+
+# --- commands ------------------------------------------------------------------------------------------------------
+
+
 @pytest.mark.parametrize("name", VERBS)
 def test_the_readme_shows_every_verb(name):
     assert any(line.split()[0] == name for line in COMMANDS)
+    assert mentioned(name)
 
 
 @pytest.mark.parametrize("line", COMMANDS)
@@ -36,20 +64,105 @@ def test_the_readme_uses_only_what_the_command_knows(line):
 
 @pytest.mark.parametrize("name", VERBS)
 def test_every_option_says_what_it_does(name):
-    options = [parameter for parameter in verb(name).params if isinstance(parameter, click.Option)]
-    assert options and all(option.help for option in options)
+    assert options(name) and all(option.help for option in options(name))
 
 
-@pytest.mark.parametrize("switch", ["--seed", "--jobs", "--json", "--quiet", "--force", "--optimizer", "--set"])
-def test_the_readme_explains_every_common_switch(switch):
-    assert f"`{switch}" in README
+@pytest.mark.parametrize("name", VERBS)
+def test_the_readme_explains_every_option(name):
+    assert not [text for option in options(name) for text in option.opts if not mentioned(text)]
+
+
+@pytest.mark.parametrize("kind", LISTS)
+def test_the_readme_names_everything_that_can_be_listed(kind):
+    assert mentioned(kind)
+
+
+def test_the_readme_tells_every_exit_code():
+    [sentence] = re.findall(r"^Exit codes: (.+?\.)$", README, flags=re.MULTILINE)
+    assert {int(number) for number in re.findall(r"\d+", sentence)} == {int(code) for code in ExitCode}
+
+
+@pytest.mark.parametrize("variable", sorted(VARIABLES))
+def test_every_environment_variable_is_documented(variable):
+    assert f"| `{variable}` |" in README
+
+
+# --- files ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("word", RUNS)
+def test_every_kind_of_run_is_explained(word):
+    assert mentioned(word)
+
+
+@pytest.mark.parametrize("key", sorted(set(RunDeclaration.__dataclass_fields__) - {"time", "notes", "order", "places"}))
+def test_every_key_of_a_run_is_explained(key):
+    assert re.search(rf"^\| [^|]*`{key}`", README, flags=re.MULTILINE)
+
+
+def test_every_key_of_a_channel_is_explained():
+    [keys] = re.findall(r"`\{(column, .+?)\}` with value", README)
+    assert set(keys.split(", ")) == set(Channel.__dataclass_fields__) - {"name", "place"}
+
+
+@pytest.mark.parametrize("word", ACCEPTABLE)
+def test_everything_that_can_be_accepted_is_explained(word):
+    assert f"`[{word}]`" in README
+
+
+@pytest.mark.parametrize("verdict", SENTENCES)
+def test_every_verdict_is_explained(verdict):
+    assert f"| `{verdict}` |" in README
+
+
+# --- plugins and modules -------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_every_hook_is_explained_to_plugin_authors(kind):
-    assert f"`{kind.hook}`" in (ROOT / "framework" / "README.md").read_text(encoding="utf-8")
+    assert f"| `{kind.hook}` |" in (ROOT / "framework" / "README.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("variable", ["DASHPOT_PLUGINS", "DASHPOT_DEBUG"])
-def test_every_environment_variable_is_documented(variable):
-    assert variable in README
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
+def test_everything_built_in_has_a_section(kind):
+    page = (PLUGINS / "README.md").read_text(encoding="utf-8")
+    sections = re.findall(r"^### `(\w+)`$", page, flags=re.MULTILINE)
+    assert set(things(kind.name)) <= set(sections)
+
+
+@pytest.mark.parametrize("word", sorted(things("causes")))
+def test_the_readme_names_every_cause(word):
+    assert mentioned(word)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_what_is_written_from_the_code_is_up_to_date(page):
+    # otherwise: python tests/architecture/written.py
+    assert renewed(page) == (ROOT / page).read_text(encoding="utf-8")
+
+
+def test_every_folder_of_the_tests_is_explained():
+    page = (ROOT / "tests" / "README.md").read_text(encoding="utf-8")
+    folders = {path.name for path in (ROOT / "tests").iterdir() if path.is_dir() and path.name != "__pycache__"}
+    assert not [name for name in sorted(folders) if f"`{name}/`" not in page]
+
+
+# --- links ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "page", sorted(ROOT.glob("*.md")) + sorted(ROOT.glob("*/README.md")), ids=lambda page: str(page)
+)
+def test_every_link_leads_somewhere(page):
+    text = page.read_text(encoding="utf-8")
+    targets = [link for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
+    assert not [link for link in targets if not _exists(page, link)]
+
+
+def _exists(page, link: str) -> bool:
+    file, _, heading = link.partition("#")
+    target = page.parent / file if file else page
+    if not heading:
+        return target.exists()
+    headings = re.findall(r"^#+ (.+)$", target.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    return heading in {re.sub(r"[^\w\- ]", "", title).strip().lower().replace(" ", "-") for title in headings}

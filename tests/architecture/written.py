@@ -1,7 +1,7 @@
 """The parts of the documentation that are written from the code: ``python tests/architecture/written.py`` renews them.
 
-They stand between two comments, ``<!-- written: NAME -->`` and ``<!-- end: NAME -->``; what is around them is written by
-hand and stays as it is.
+They stand between two comments, ``<!-- written: NAME -->`` and ``<!-- end: NAME -->``; what is around them is written
+by hand and stays as it is.
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ def things(kind: str) -> Mapping[str, type[Any]]:
     """The built-in things of one kind by word, whatever else is installed."""
     registry = load_registry()
     return {
-        word: made for word, made in registry.of(kind).items() if registry.origin(kind, word).distribution == DISTRIBUTION
+        word: made
+        for word, made in registry.of(kind).items()
+        if registry.origin(kind, word).distribution == DISTRIBUTION
     }
 
 
@@ -64,9 +66,9 @@ def causes() -> Iterator[str]:
     """A section for each cause: how it shows, what mends it, what it is taken for."""
     for word, made in things("causes").items():
         yield f"### `{word}`"
-        yield f"Class {made.kind}: {made.about}. " + " ".join(paragraphs(made))
+        yield f"Class `{made.kind}`: {made.about}. " + " ".join(paragraphs(made))
         lines = [f"- How it shows: {made.shows}.", f"- What is tried: {one_line(made.suspects)}"]
-        lines += [f"- Not `{other}`: {telling}." for other, telling in made.confused_with.items()]
+        lines += [f"- To tell it from `{other}`: {telling}." for other, telling in made.confused_with.items()]
         yield "\n".join(lines)
 
 
@@ -136,7 +138,8 @@ def _number_row(key: str, number: Parameter | Curve) -> tuple[str, ...]:
     span = f"{low:g} to {high:g}, {number.scale}"
     if isinstance(number, Curve):
         (value, unit), (over, over_unit) = number.value, number.over
-        return f"`{key}`", number.about, f"constant {unit}/({over_unit}); `{value}` {unit}, `{over}` {over_unit}", span, ""
+        slope = f"{unit}/({over_unit})" if "/" in over_unit else f"{unit}/{over_unit}"
+        return f"`{key}`", number.about, f"{slope}; table: `{over}` {over_unit}, `{value}` {unit}", span, ""
     default = "" if number.default is None else f"{number.default:g}"
     return f"`{key}`", number.about, number.unit, span, default
 

@@ -100,7 +100,9 @@ def readers() -> dict:
     return {word: reader() for word, reader in load_registry().formats.items()}
 
 
-def write_table(path: Path, head: list[str], columns: list[np.ndarray], delimiter: str = ",", decimal: str = ".") -> None:
+def write_table(
+    path: Path, head: list[str], columns: list[np.ndarray], delimiter: str = ",", decimal: str = "."
+) -> None:
     """Write a text table."""
     rows = [delimiter.join(f"{value:.5f}".replace(".", decimal) for value in row) for row in zip(*columns, strict=True)]
     path.write_text("\n".join([*head, *rows]) + "\n", encoding="utf-8")

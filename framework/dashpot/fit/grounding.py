@@ -63,7 +63,8 @@ def table_of(curve: Characteristic, at: Array, force: Array) -> Characteristic:
 def _backbone(runs: Sequence[ScoredRun], knots: int | None) -> tuple[Array, Array]:
     slow = widest(runs)
     if slow is None:
-        curve = curve_from_sweeps([(run.drive.displacement, run.drive.velocity, run.force) for run in runs])
+        motions = [(run.drive.displacement, run.drive.velocity, run.force) for run in runs]
+        curve = curve_from_sweeps(motions, knots) if knots else curve_from_sweeps(motions)
         return curve.deflection, curve.force
     backbone = extract_backbone(slow.drive.displacement, slow.force, knots)
     return backbone.deflection, backbone.force

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from dashpot.data.run import Run
 SHARE = 0.25
 FEWEST_GROUPS = 3
 ALWAYS_TRAIN = ("quasi_static", "hold")
+NO_CONDITIONS = ("warm_up",)  # settings that say how a run is scored, not under which conditions it was measured
 
 
 @dataclass(frozen=True)
@@ -27,8 +28,9 @@ class Split:
 def split_runs(dataset: Dataset, seed: int = 0) -> Split:
     """Hold out about a quarter of the dynamic runs, a run with its repeats; a dataset that says ``held_out`` decides.
 
-    Only runs are held out whose motion lies inside what the others cover and whose settings (amplitude, preload ...)
-    the others still have, so that the held-out error tests the model and not its extrapolation.
+    Only runs are held out whose motion lies inside what the others cover, at first those whose settings (amplitude,
+    preload ...) the others still have, so that the held-out error tests the model and not its extrapolation. Where every
+    run goes beyond the others in some way a single one is held out nevertheless.
     """
     if any(run.held_out is not None for run in dataset.runs):
         return _split(dataset, {run.group for run in dataset.runs if run.held_out})
@@ -39,13 +41,25 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
             (),
             f"{len(groups)} independent dynamic runs are too few to hold one out; {FEWEST_GROUPS} would do",
         )
-    wanted = max(1, round(SHARE * len(groups)))
+    order = [str(group) for group in np.random.default_rng(seed).permutation(groups)]
     chosen: set[str] = set()
-    for strict in (True, False):
-        for group in np.random.default_rng(seed).permutation(groups):
-            if len(chosen) < wanted and group not in chosen and _can_go(dataset, chosen | {str(group)}, strict):
-                chosen.add(str(group))
+    for wanted, allowed in _demands(max(1, round(SHARE * len(groups)))):
+        for group in order:
+            if len(chosen) < wanted and group not in chosen and _can_go(dataset, chosen | {group}, allowed):
+                chosen.add(group)
     return _split(dataset, chosen)
+
+
+Allowed = Callable[[list[Run], list[Run]], bool]
+
+
+def _demands(share: int) -> tuple[tuple[int, Allowed], ...]:
+    """How many groups to hold out under which demand on (kept, gone), strictest first."""
+    return (
+        (share, lambda kept, gone: _covers(kept, gone) and _levels(gone) <= _levels(kept)),
+        (share, _covers),
+        (1, lambda kept, gone: True),
+    )
 
 
 def _split(dataset: Dataset, held_out: set[str]) -> Split:
@@ -53,18 +67,15 @@ def _split(dataset: Dataset, held_out: set[str]) -> Split:
     return Split(names[False], names[True])
 
 
-def _can_go(dataset: Dataset, held_out: set[str], strict: bool) -> bool:
+def _can_go(dataset: Dataset, held_out: set[str], allowed: Allowed) -> bool:
     kept = [run for run in dataset.runs if run.group not in held_out]
     gone = [run for run in dataset.runs if run.group in held_out]
-    if not any(run.kind not in ALWAYS_TRAIN for run in kept):
-        return False
-    if not strict:
-        return True
-    return _covers(kept, gone) and _levels(gone) <= _levels(kept)
+    return any(run.kind not in ALWAYS_TRAIN for run in kept) and allowed(kept, gone)
 
 
 def _levels(runs: Iterable[Run]) -> set[tuple[str, float]]:
-    return {(key, round(value, 9)) for run in runs for key, value in run.settings.items()}
+    conditions = [item for run in runs for item in run.settings.items() if item[0] not in NO_CONDITIONS]
+    return {(key, round(value, 9)) for key, value in conditions}
 
 
 def _covers(kept: list[Run], gone: list[Run]) -> bool:

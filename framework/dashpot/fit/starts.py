@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 LANES = 96
 KEPT = 4
-FIRST_STEPS, LAST_STEPS = 10, 60
+FIRST_STEPS, LAST_STEPS = 20, 60
 NEAR = 1.0  # scatter of starts around the file's, in natural steps: a factor of e
 
 
