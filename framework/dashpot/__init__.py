@@ -16,11 +16,15 @@ if TYPE_CHECKING:
     from dashpot.assess.compare import compare as compare
     from dashpot.assess.diagnose import diagnose as diagnose
     from dashpot.contract.cause import Cause as Cause
+    from dashpot.contract.cause import Suspect as Suspect
+    from dashpot.contract.cause import View as View
+    from dashpot.contract.cause import added_branch as added_branch
     from dashpot.contract.hooks import hookimpl as hookimpl
     from dashpot.contract.optimizer import Optimizer as Optimizer
     from dashpot.contract.optimizer import Search as Search
     from dashpot.contract.optimizer import Space as Space
     from dashpot.contract.reader import Reader as Reader
+    from dashpot.contract.reader import ReadingError as ReadingError
     from dashpot.contract.reader import Table as Table
     from dashpot.contract.registry import load_registry as load_registry
     from dashpot.contract.specimen import Specimen as Specimen
@@ -42,8 +46,8 @@ _HOMES = {
     "dashpot.contract.hooks": ("hookimpl",),
     "dashpot.contract.registry": ("load_registry",),
     "dashpot.contract.optimizer": ("Optimizer", "Search", "Space"),
-    "dashpot.contract.reader": ("Reader", "Table"),
-    "dashpot.contract.cause": ("Cause",),
+    "dashpot.contract.reader": ("Reader", "ReadingError", "Table"),
+    "dashpot.contract.cause": ("Cause", "Suspect", "View", "added_branch"),
     "dashpot.contract.specimen": ("Specimen",),
     "dashpot.kernel.api": ("simulate_runs",),
     "dashpot.fit.api": ("fit_network",),

@@ -14,6 +14,7 @@ from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.objective import Objective
+from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, floor_of, parameters_of
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
@@ -82,7 +83,7 @@ class Comparison:
             "rmse": errors,
             "nrmse": relative,
             "per_run": dict(fit.errors.per_run),
-            "status": fit.ending,
+            "status": "ok" if fit.ending == Outcome.CONVERGED.value else fit.ending,
         }
 
 

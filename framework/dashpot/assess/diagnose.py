@@ -23,6 +23,7 @@ from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
+from dashpot.text.problem import InputError, Place
 
 
 @single_threaded_algebra
@@ -39,8 +40,10 @@ def diagnose(
 ) -> Diagnosis:
     """Fit, look at what is left, pursue its causes, and say how sure that is.
 
-    Raises InputError for a network that does not compile on these data.
+    Raises InputError for a network that does not compile on these data, and where no plugin provides a cause.
     """
+    if not registry.causes:
+        raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress = progress or silent
     setting = prepare(dataset, seed)
     method = registry.optimizers[optimizer](**(options or {})) if optimizer else None

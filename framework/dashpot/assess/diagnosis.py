@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 import dashpot
-from dashpot.assess.evidence import gather_evidence, telling_measurement
+from dashpot.assess.evidence import detection_limits, gather_evidence, telling_measurement
 from dashpot.assess.gain import Gain
 from dashpot.assess.leftover import Leftover
 from dashpot.assess.misfit import Misfit
@@ -89,6 +89,7 @@ class Diagnosis:
             "held_out": list(self.setting.split.held_out),
             "tried": self.pursuit.tried,
             "rejected": [vars(rejection) for rejection in self.pursuit.rejected],
+            "limits": detection_limits(self.pursuit.last.screen),
             "leftover": {"score": self.leftover.score, "size": self.leftover.size},
             "seed": self.seed,
         }

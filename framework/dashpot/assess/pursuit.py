@@ -149,9 +149,9 @@ class Pursuer:
             return "after the refit it explains no more than its own parameters would by chance"
         if gain is not None and gain.value <= 0.0:
             return "does not make the held-out runs better: not supported by the data"
-        seen = gain.value if gain else 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
-        if later and seen < SMALLEST_LATER_GAIN:
-            return f"makes the runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
+        fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
+        if later and fall < SMALLEST_LATER_GAIN:
+            return f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
         return ""
 
     def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:

@@ -10,7 +10,6 @@ coordinates  the searched parameters as logarithms and plain numbers, and as the
 objective    what a block of parameter vectors is worth on a set of runs
 search       run any optimizer to its end, its budget or its target
 replay       answers to asked blocks: from a record first, then by evaluation
-chain        several optimizers, each from the best point of the one before
 starts       the framework's own search: a screening block, then refinements of the best of it
 refine       damped Gauss-Newton, the framework's own polish
 uncertainty  how well the parameters are known

@@ -29,8 +29,8 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
     """Hold out about a quarter of the dynamic runs, a run with its repeats; a dataset that says ``held_out`` decides.
 
     Only runs are held out whose motion lies inside what the others cover, at first those whose settings (amplitude,
-    preload ...) the others still have, so that the held-out error tests the model and not its extrapolation. Where every
-    run goes beyond the others in some way a single one is held out nevertheless.
+    preload ...) the others still have, so that the held-out error tests the model and not its extrapolation. Where
+    every run goes beyond the others in some way a single one is held out nevertheless.
     """
     if any(run.held_out is not None for run in dataset.runs):
         return _split(dataset, {run.group for run in dataset.runs if run.held_out})

@@ -66,7 +66,8 @@ def _blocks(objective: Objective) -> list[slice]:
 
 
 def _interval(coordinates: Coordinates, number: int, middle: float, width: float) -> tuple[float, float]:
-    low, high = middle - width, middle + width
+    low = max(middle - width, coordinates.low[number])
+    high = min(middle + width, coordinates.high[number])
     if coordinates.log[number]:
-        return float(np.exp(np.clip(low, -700, 700))), float(np.exp(np.clip(high, -700, 700)))
+        return float(np.exp(low)), float(np.exp(high))
     return float(low), float(high)

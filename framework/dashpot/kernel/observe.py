@@ -35,7 +35,7 @@ class Observation:
 
 
     def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
-        """What a single lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
+        """What one lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
 
         The changes are shifted along straight lines between samples, which is near enough for a search direction.
         """

@@ -39,9 +39,10 @@ class Parts:
         """The part of the work that depends on the drive alone."""
         return [part.network.prepare(drive) for part in self.members]
 
-    def sensitivities(self, rows: Sequence[Rows], values: Array, which: Sequence[int], shifts: Array,
-                      ) -> tuple[Array, Array]:  # fmt: skip
-        """The force (n,) at ``values`` (slots,) and its changes (k, n) when each slot in ``which`` moves by its shift."""
+    def sensitivities(
+        self, rows: Sequence[Rows], values: Array, which: Sequence[int], shifts: Array
+    ) -> tuple[Array, Array]:
+        """The force (n,) at ``values`` (slots,) and its changes (k, n) when slots ``which`` move by ``shifts``."""
         total = np.zeros(rows[0].drive.samples)
         changes = np.zeros((len(which), total.size))
         for number, (part, run) in enumerate(zip(self.members, rows, strict=True)):

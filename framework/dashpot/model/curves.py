@@ -75,7 +75,7 @@ def _read_coefficients(node: Node) -> tuple[Node, ...]:
 
 
 def _coefficient(node: Node, power: int, curve: Curve, reading: Reading) -> Value | None:
-    unit = f"({curve.value[1]})/({curve.over[1]})^{power}"
+    unit = curve.coefficient_unit(power)
     kind = Kind(unit, curve.bounds, curve.scale, off=True) if power == 1 else Kind(unit, UNBOUNDED, "linear")
     return read_value(node, kind, reading.named(f"{reading.what}, power {power}"))
 

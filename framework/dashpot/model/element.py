@@ -50,7 +50,12 @@ class Curve:
     @property
     def slope_unit(self) -> str:
         """Unit of the constant form, e.g. ``N/m``."""
-        return f"({self.value[1]})/({self.over[1]})"
+        return self.coefficient_unit(1)
+
+    def coefficient_unit(self, power: int) -> str:
+        """Unit of the coefficient of a power of the argument, e.g. ``N/m^3``."""
+        over = f"({self.over[1]})" if "/" in self.over[1] else self.over[1]
+        return f"{self.value[1]}/{over}" + (f"^{power}" if power > 1 else "")
 
 
 @dataclass(frozen=True)

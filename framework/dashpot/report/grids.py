@@ -146,12 +146,19 @@ def _model_row(model: Json, floor: float | None) -> dict[str, Any]:
     held_out = rmse.get("held_out")
     return {
         "name": model["name"],
-        "free": len(model["parameters"]) if model.get("parameters") else None,
+        "free": _free_count(model.get("parameters")),
         **{key: rmse.get(key) for key in ("train", "held_out", "all")},
         "nrmse": _percent(nrmse.get("held_out")),
         "ratio": held_out / floor if held_out is not None and floor else None,
         "status": model.get("status"),
     }
+
+
+def _free_count(parameters: Mapping[str, Any] | None) -> int | None:
+    if not parameters:
+        return None
+    roles = [entry.get("role") if isinstance(entry, Mapping) else None for entry in parameters.values()]
+    return sum(role != "fixed" for role in roles)
 
 
 def _parameter_row(model: str, name: str, entry: Any) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dashpot.contract.optimizer import Search, Space
-from dashpot.fit.chain import Chain
 from dashpot.fit.replay import Block, ReplayError
 from dashpot.fit.search import Ending, OptimizerError, SearchResult, Standing, run_search
 
@@ -243,24 +242,3 @@ def test_answers_of_another_shape_are_refused(needs: str, values: np.ndarray) ->
     optimizer = Listed(np.full((2, 2), 0.5), needs=needs)
     with pytest.raises(ValueError, match=f"expected {needs} for 2 lanes, got an array of shape"):
         run_search(optimizer, lambda points: values, lambda points: values, SPACE, 1)
-
-
-def test_a_chain_starts_each_part_from_the_best_point_before_it() -> None:
-    class Still(Search):
-        word = "still"
-        needs = "residuals"
-
-        def search(self, space, rng):
-            yield space.start[None, :]
-            return "stood"
-
-    result = search(Chain([Listed(*lanes(3, 2)), Still()]), lambda points: np.abs(points[:, 0] - 0.004))
-    assert result.best.tolist() == [0.004, 0.5]
-    assert result.history[-1].evaluations == 6
-    assert result.remark == "all asked; stood"
-
-
-def test_a_chain_closes_the_part_that_is_at_work() -> None:
-    parts = Listed(*lanes(2, 2)), Listed(*lanes(2))
-    search(Chain(parts), budget=2)
-    assert [part.ask() for part in parts] == [None, None]
