@@ -12,11 +12,12 @@ SOURCES = {"framework/dashpot": "dashpot", "plugins": "", "specs": "dashpot/spec
 
 
 def source_files() -> set[str]:
-    """What lies in the source tree, under the names that it has in the wheel."""
+    """What lies in the source tree, under the names that it has in the wheel; pages beside the packages stay out."""
     found = set()
     for folder, target in SOURCES.items():
         for path in (ROOT / folder).rglob("*"):
-            if path.is_file() and "__pycache__" not in path.parts:
+            beside = path.parent == ROOT / folder and path.name == "README.md"
+            if path.is_file() and "__pycache__" not in path.parts and not beside:
                 found.add("/".join(part for part in (target, path.relative_to(ROOT / folder).as_posix()) if part))
     return found
 

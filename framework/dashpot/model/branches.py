@@ -87,7 +87,7 @@ class BranchReader:
                 form.complain("use", f"'{other}' cannot be used: {problem.message}", problem.hint)
         placed = [problem for problem in error.problems if problem.place.line is not None]
         if placed:
-            form.complain("use", f"'{other}' cannot be used: {len(placed)} mistakes stand in it", "correct them there")
+            form.complain("use", f"'{other}' cannot be used: it has mistakes of its own", "correct them there")
             self.problems.extend(placed)
 
     def _element(self, name: str, form: Form, copy: Copy) -> Branch | None:

@@ -90,8 +90,10 @@ def _read_table(form: Form, curve: Curve, reading: Reading, data: str = "", knot
     if at is None or entry is None:
         return None
     found = _read_column(entry, curve, reading, "identified" if data else "fixed")
+    if not found or not _is_sound(form, curve, reading, at, len(found)):
+        return None
     values = tuple(value for value in found if value)
-    if not _is_sound(form, curve, reading, at, len(found)) or len(values) < len(found):
+    if len(values) < len(found):
         return None
     return Characteristic(curve, "table", values, tuple(at), data, knots, form.origin)
 

@@ -143,7 +143,7 @@ def _rising(steepness: Array, at: Array, rng: np.random.Generator) -> Iterator[A
 def _unit(curve: Curve, form: Form, number: int) -> str:
     if form == "table":
         return curve.value[1]
-    return curve.slope_unit if form == "constant" else f"({curve.value[1]})/({curve.over[1]})^{number + 1}"
+    return curve.coefficient_unit(number + 1)
 
 
 def scaled(specimen: Specimen, sizes: Sizes) -> Specimen:
