@@ -12,6 +12,8 @@ pursuit    causes accepted one after the other, and pruned
 gain       what an extension gains on runs it never saw
 leftover   is there structure that no suspect explains
 named      the accepted causes as they are told
+conditions amplitude, preload and frequency that a run was made at
+bands      bands of frequency with round edges
 misfit     what the model gets wrong, in words
 verdict    what is said in the end
 signals    measured and simulated signals for the report

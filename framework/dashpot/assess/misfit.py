@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.assess.bands import frequency_bands
+from dashpot.assess.conditions import Conditions, conditions_of
 from dashpot.data.order_tracking import follow, harmonics_of
 from dashpot.data.phase import NotOscillatingError
 from dashpot.data.run import Run
@@ -15,9 +17,14 @@ from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 
-BANDS = 4
 SMALLEST_SHARE = 0.05
-NOTABLE = 1.5  # a condition stands out when its part of the misfit is this much larger than the mean
+NOTABLE = 1.5  # one end of the amplitudes stands out when its error is this much larger than at the other end
+OPPOSITE = 0.2  # an error of the other sign is told of from this part of the larger one on
+HARMONICS = {
+    "even": "second harmonic not reproduced (one-sided effect)",
+    "odd": "third and fifth harmonic not reproduced (symmetric nonlinear effect)",
+    "mean": "mean force wrong",
+}
 
 
 @dataclass(frozen=True)
@@ -31,15 +38,18 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class _Parts:
-    """Squared misfits of one run by kind (kinds, windows), signs of the two stiffness errors, conditions (windows,)."""
+    """One run: squared misfit by kind (windows,) in N^2, mean error of both stiffnesses in N/m, frequency (windows,)."""
 
+    conditions: Conditions
     energy: Mapping[str, Array]
-    storage: float
-    loss: float
-    amplitude: Array
-    preload: Array
+    error: Mapping[str, float]
     frequency: Array
     total: float
+
+    def size(self, kind: str) -> Array:
+        """How wrong each window is: an error of stiffness counts as stiffness, or long strokes were always worst."""
+        energy = self.energy[kind]
+        return energy / max(self.conditions.amplitude, 1e-9) ** 2 if kind in self.error else energy
 
 
 def describe_misfit(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list[Misfit]:
@@ -73,72 +83,85 @@ def _split(run: Run, residual: Array) -> _Parts | None:
         "odd": half[:, 2] + half[:, 4],
         "mean": orders.offset**2,
     }
-    return _Parts(
-        energy,
-        float(np.mean(orders.sine[:, 0])),
-        float(np.mean(orders.cosine[:, 0])),
-        orders.amplitude,
-        orders.preload,
-        orders.frequency,
-        float(np.mean(residual**2)),
-    )
+    error = {"storage": float(np.mean(orders.storage)), "loss": float(np.mean(orders.loss))}
+    return _Parts(conditions_of(run, oscillation), energy, error, orders.frequency, float(np.mean(residual**2)))
 
 
 def _words(kind: str, parts: Sequence[_Parts]) -> str:
-    heaviest = max(parts, key=lambda part: float(part.energy[kind].mean()))
-    if kind in ("storage", "loss"):
-        error = heaviest.storage if kind == "storage" else heaviest.loss
-        return f"{kind} stiffness of the model too {'small' if error > 0.0 else 'large'}{_condition(kind, parts)}"
-    return {
-        "even": "second harmonic not reproduced (one-sided effect)",
-        "odd": "third and fifth harmonic not reproduced (symmetric nonlinear effect)",
-        "mean": "mean force wrong",
-    }[kind]
+    if kind in HARMONICS:
+        return HARMONICS[kind]
+    levels = _by_level(parts, lambda part: part.conditions.amplitude)
+    errors = {level: float(np.mean([part.error[kind] for part in group])) for level, group in levels.items()}
+    sizes = {level: _size(kind, group) for level, group in levels.items()}
+    return f"{kind} stiffness of the model {_too(errors, sizes)}"
 
 
-def _condition(kind: str, parts: Sequence[_Parts]) -> str:
-    # errors of stiffness, not of force: a large amplitude makes every force error large
-    levels: dict[float, list[float]] = {}
+def _too(errors: Mapping[float, float], sizes: Mapping[float, float]) -> str:
+    """ "too small at small amplitude and too large at large amplitude", or less of it."""
+    low, high = min(errors), max(errors)
+    ends = {"small": errors[low], "large": errors[high]}
+    worst = "small" if abs(ends["small"]) >= abs(ends["large"]) else "large"
+    other = "large" if worst == "small" else "small"
+    if ends[worst] * ends[other] < -OPPOSITE * ends[worst] ** 2:
+        return f"{_side(ends[worst])} at {worst} amplitude and {_side(ends[other])} at {other} amplitude"
+    stands_out = [
+        name for name, here, there in (("small", low, high), ("large", high, low)) if sizes[here] > NOTABLE * sizes[there]
+    ]
+    if stands_out:
+        return f"{_side(ends[stands_out[0]])} at {stands_out[0]} amplitude"
+    return _side(errors[max(sizes, key=sizes.__getitem__)])
+
+
+def _side(error: float) -> str:
+    # measured minus simulated
+    return "too small" if error > 0.0 else "too large"
+
+
+def _size(kind: str, parts: Sequence[_Parts]) -> float:
+    return float(np.sqrt(np.mean([part.size(kind).mean() for part in parts])))
+
+
+def _by_level(parts: Sequence[_Parts], level: Callable[[_Parts], float]) -> dict[float, list[_Parts]]:
+    found: dict[float, list[_Parts]] = {}
     for part in parts:
-        level = round(float(np.median(part.amplitude)), 5)
-        levels.setdefault(level, []).append(float(np.sqrt(part.energy[kind].mean())) / max(level, 1e-9))
-    if len(levels) < 2:
-        return ""
-    low, high = np.mean(levels[min(levels)]), np.mean(levels[max(levels)])
-    if low > NOTABLE * high:
-        return " at small amplitude"
-    return " at large amplitude" if high > NOTABLE * low else ""
+        found.setdefault(level(part), []).append(part)
+    return found
 
 
 def _where(kind: str, parts: Sequence[_Parts]) -> dict[str, str]:
-    amplitude, energy = _gather(parts, "amplitude", kind)
-    preload, _ = _gather(parts, "preload", kind)
-    frequency, _ = _gather(parts, "frequency", kind)
-    edges = np.linspace(frequency.min(), frequency.max(), BANDS + 1)
-    means = [
-        float(energy[(frequency >= a) & (frequency <= b)].mean())
-        if ((frequency >= a) & (frequency <= b)).any()
-        else 0.0
-        for a, b in zip(edges, edges[1:], strict=False)
-    ]
-    k = int(np.argmax(means))
-    return {
-        "amplitude": pretty(_heaviest(amplitude, energy), "m", 2),
-        "preload": pretty(_heaviest(preload, energy), "m", 2),
-        "band": f"{edges[k]:.3g} to {edges[k + 1]:.3g} Hz",
-    }
+    """The amplitude, the preload and the band with the largest error; a condition that all runs share is left out."""
+    amplitudes = _by_level(parts, lambda part: part.conditions.amplitude)
+    preloads = _by_level(parts, lambda part: part.conditions.preload)
+    found = {"amplitude": pretty(_heaviest(kind, amplitudes), "m", 2)}
+    if len(preloads) > 1:
+        found["preload"] = pretty(_heaviest(kind, preloads), "m", 2)
+    band = _band(kind, parts)
+    return found | ({"band": band} if band else {})
 
 
-def _gather(parts: Sequence[_Parts], key: str, kind: str) -> tuple[Array, Array]:
-    return (
-        np.concatenate([getattr(part, key) for part in parts]),
-        np.concatenate([part.energy[kind] for part in parts]),
-    )
+def _heaviest(kind: str, levels: Mapping[float, Sequence[_Parts]]) -> float:
+    return max(levels, key=lambda level: _size(kind, levels[level]))
 
 
-def _heaviest(condition: Array, energy: Array) -> float:
-    levels = np.unique(np.round(condition, 4))
-    return float(levels[np.argmax([energy[np.round(condition, 4) == level].mean() for level in levels])])
+def _band(kind: str, parts: Sequence[_Parts]) -> str:
+    if any(part.conditions.frequency is None for part in parts):
+        return _worst_band(kind, parts)
+    steady = _by_level(parts, lambda part: part.conditions.frequency or 0.0)
+    return f"{_heaviest(kind, steady):.3g} Hz" if len(steady) > 1 else ""
+
+
+def _worst_band(kind: str, parts: Sequence[_Parts]) -> str:
+    frequency = np.concatenate([part.frequency for part in parts])
+    size = np.concatenate([part.size(kind) for part in parts])
+    bands = frequency_bands(float(frequency.min()), float(frequency.max()))
+    means = [_mean_inside(size, frequency, *band) for band in bands]
+    low, high = bands[int(np.argmax(means))]
+    return f"{low:.3g} to {high:.3g} Hz"
+
+
+def _mean_inside(size: Array, frequency: Array, low: float, high: float) -> float:
+    inside = (frequency >= low) & (frequency <= high)
+    return float(size[inside].mean()) if inside.any() else 0.0
 
 
 def _by_run(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list[Misfit]:

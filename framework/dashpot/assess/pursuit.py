@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ MOST_CAUSES = 5
 FINALISTS = 5
 TIE = 10.0
 TIE_SHARE = 5e-4
+NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 
 
@@ -95,12 +97,23 @@ class Pursuer:
             self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
             accepted, look = self.prune(accepted, look, first)
-        ladder = self.polish_ladder(first.model, accepted, look)
-        accepted = [
-            replace(entry, gain=self.gain_of(before, after))
-            for entry, before, after in zip(accepted, ladder, ladder[1:], strict=False)
-        ]
+        accepted, look, ladder = self.settle_gains(accepted, look, first)
         return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
+
+    def settle_gains(
+        self, accepted: list[Accepted], look: Look, first: Look
+    ) -> tuple[list[Accepted], Look, list[Model]]:
+        """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first."""
+        ladder = self.polish_ladder(first.model, accepted, look)
+        gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
+        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= 0.0]
+        if not useless:
+            return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
+        entry = accepted[useless[-1]]
+        self.reject(entry.trial, NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
+        kept = [other for other in accepted if other is not entry]
+        model = self.rebuild(kept, look.model, first.model, look.noise)
+        return self.settle_gains(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
 
     def polish_ladder(self, first: Model, accepted: Sequence[Accepted], last: Look) -> list[Model]:
         """The first model and the one after each cause, all fitted to the plain error, so that their gains compare."""
@@ -148,7 +161,7 @@ class Pursuer:
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
         if gain is not None and gain.value <= 0.0:
-            return "does not make the held-out runs better: not supported by the data"
+            return NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if later and fall < SMALLEST_LATER_GAIN:
             return f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"

@@ -98,13 +98,14 @@ def _flow_edit(text: str, mapping: Mapping, lines: str) -> Edit:
 
 def _block_edit(text: str, mapping: Mapping, lines: str) -> Edit:
     column = next(iter(mapping.keys.values())).place.column or 1
-    end = _end_of_line(text, list(mapping.entries.values())[-1].end)
+    end = end_of_line(text, list(mapping.entries.values())[-1].end)
     # comments that stand deeper than the keys belong to the last entry
-    while text[end + 1 :].startswith(" " * column) and text[end + 1 : _end_of_line(text, end + 1)].lstrip()[:1] == "#":
-        end = _end_of_line(text, end + 1)
+    while text[end + 1 :].startswith(" " * column) and text[end + 1 : end_of_line(text, end + 1)].lstrip()[:1] == "#":
+        end = end_of_line(text, end + 1)
     return Edit(end, end, "\n" + indented(lines, column))
 
 
-def _end_of_line(text: str, start: int) -> int:
+def end_of_line(text: str, start: int) -> int:
+    """Where the line that a character stands in ends, before its line feed."""
     found = text.find("\n", start)
     return len(text) if found < 0 else found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from dashpot.model.inserting import Edit, add_entry, apply_edits, is_flow, plain_or_quoted, replace_entry
+from dashpot.model.inserting import Edit, add_entry, apply_edits, end_of_line, is_flow, plain_or_quoted, replace_entry
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.written_out import write_out_uses
 from dashpot.text.document import Document
@@ -14,7 +14,7 @@ from dashpot.text.problem import InputError, Place, nearest
 from dashpot.text.quantity import pretty
 
 DIGITS = 8
-INTERVAL_DIGITS = 4
+INTERVAL_DIGITS = (4, 8, 17)  # as many as tell its two ends apart
 
 
 def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, str]) -> str:
@@ -138,7 +138,7 @@ def _with_record(text: str, record: Mapping[str, str], file: str | None) -> str:
             return apply_edits(text, [replace_entry(root, "identified", flow)])
         return add_entry(document, root, f"identified: {flow}")
     if known:
-        start, end = root.keys["identified"].start, root.entries["identified"].end
+        start, end = root.keys["identified"].start, end_of_line(text, root.entries["identified"].end)
         text = text[:start].rstrip("\n") + "\n" + text[end:].lstrip("\n")
     lines = "".join(f"  {entry}\n" for entry in entries)
     return text.rstrip("\n") + f"\nidentified:                         # where the numbers came from\n{lines}"
@@ -146,8 +146,11 @@ def _with_record(text: str, record: Mapping[str, str], file: str | None) -> str:
 
 def _pair(value: Value) -> str:
     assert value.interval is not None
-    low, high = value.interval
-    return f"[{pretty(low, value.unit, INTERVAL_DIGITS)}, {pretty(high, value.unit, INTERVAL_DIGITS)}]"
+    for digits in INTERVAL_DIGITS:
+        low, high = (pretty(side, value.unit, digits) for side in value.interval)
+        if low != high:
+            break
+    return f"[{low}, {high}]"
 
 
 def _list(texts: Sequence[str]) -> str:

@@ -34,6 +34,7 @@ class Copy:
 
 
 ONLY = Copy()
+ROUNDING = 1e-6
 
 
 @dataclass(frozen=True)
@@ -98,7 +99,7 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     number = form.take(key, lambda inner: read_quantity(reading.pick(inner), kind.unit))
     bounds = form.take("bounds", lambda inner: _read_bounds(inner, kind), None)
     scale: Scale = "log" if form.choice("scale", ("log", "linear"), kind.scale) == "log" else "linear"
-    interval = form.take("interval", lambda inner: _read_pair(_pick_pair(inner, reading), kind.unit), None)
+    interval = form.take("interval", lambda inner: _read_interval(_pick_pair(inner, reading), kind.unit), None)
     form.close()
     if number is None:
         return None
@@ -119,13 +120,20 @@ def _read_pair(node: Node, unit: str) -> tuple[float, float]:
     if len(items) != 2:
         raise ValueError(f"expected [low, high], got {len(items)} numbers")
     low, high = (read_quantity(item, unit) for item in items)
-    if not low < high:
-        raise ValueError(f"expected low < high, got {low:g} and {high:g}")
+    return low, high
+
+
+def _read_interval(node: Node, unit: str) -> tuple[float, float]:
+    low, high = _read_pair(node, unit)
+    if low > high:
+        raise ValueError(f"expected low <= high, got {low:g} and {high:g}")
     return low, high
 
 
 def _read_bounds(node: Node, kind: Kind) -> tuple[float, float]:
     low, high = _read_pair(node, kind.unit)
+    if not low < high:
+        raise ValueError(f"expected low < high, got {low:g} and {high:g}")
     if low < kind.bounds[0] or high > kind.bounds[1]:
         raise ValueError(f"expected bounds inside {kind.bounds[0]:g} to {kind.bounds[1]:g} {kind.unit}, "
                          f"got {low:g} to {high:g}")  # fmt: skip
@@ -134,7 +142,9 @@ def _read_bounds(node: Node, kind: Kind) -> tuple[float, float]:
 
 def _complaints(value: Value) -> Iterator[str]:
     low, high = value.bounds or value.sensible
-    if not low <= value.number <= high:
+    # a number identified at its bound was rounded when it was written
+    room = ROUNDING * abs(value.number) if value.role == "identified" else 0.0
+    if not low - room <= value.number <= high + room:
         yield f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}"
     lowest = min(low, value.number) if value.bounds else value.number
     if value.scale == "log" and lowest <= 0.0:

@@ -1,0 +1,70 @@
+"""How the load cell sees a force."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from dashpot.kernel.observe import Observation, read_observation
+
+DT = 1e-3
+TIME = DT * np.arange(400)
+
+
+def channel(gain=1.0, offset=0.0, delay=0.0) -> Observation:
+    return Observation(np.array([gain]), np.array([offset]), np.array([delay]))
+
+
+def wave(time):
+    return 100.0 * np.sin(2.0 * np.pi * 12.0 * time) + 30.0 * np.cos(2.0 * np.pi * 3.0 * time)
+
+
+def test_a_plain_channel_shows_the_force_itself():
+    force = wave(TIME)[None]
+    assert channel().plain
+    assert channel().see(force, DT) is force
+
+
+def test_gain_and_offset_are_applied():
+    assert channel(gain=1.1, offset=-20.0).see(wave(TIME)[None], DT)[0] == pytest.approx(1.1 * wave(TIME) - 20.0)
+
+
+@pytest.mark.parametrize("delay", [0.4e-3, 1e-3, 7.3e-3, -2.6e-3])
+def test_a_delay_shows_the_force_of_an_earlier_time(delay):
+    seen = channel(delay=delay).see(wave(TIME)[None], DT)[0]
+    inside = slice(20, -20)
+    assert seen[inside] == pytest.approx(wave(TIME - delay)[inside], abs=2e-3)
+
+
+def test_before_the_record_the_force_is_held():
+    seen = channel(delay=5e-3).see(wave(TIME)[None], DT)[0]
+    assert seen[:6] == pytest.approx(np.full(6, wave(0.0)))
+
+
+def test_the_gain_is_applied_behind_the_delay_and_the_offset_behind_both():
+    seen = channel(gain=2.0, offset=5.0, delay=3e-3).see(wave(TIME)[None], DT)[0]
+    assert seen[10:] == pytest.approx(2.0 * wave(TIME)[7:-3] + 5.0, abs=1e-9)
+
+
+def test_every_lane_has_its_own_channel():
+    force = np.stack([wave(TIME), 2.0 * wave(TIME), 3.0 * wave(TIME)])
+    seen = Observation(np.array([1.0, 2.0, 1.0]), np.array([0.0, 0.0, 7.0]), np.array([0.0, 1e-3, 0.0])).see(force, DT)
+    assert seen[0] == pytest.approx(force[0])
+    assert seen[1, 1:] == pytest.approx(2.0 * force[1, :-1], abs=1e-9)
+    assert seen[2] == pytest.approx(force[2] + 7.0)
+
+
+def test_a_lane_that_failed_stays_nan_and_does_not_stop_the_others():
+    force = np.stack([wave(TIME), np.where(TIME > 0.2, np.nan, 1.0), wave(TIME)])
+    delays = np.array([1e-3, 1e-3, np.nan])
+    seen = Observation(np.ones(3), np.zeros(3), delays).see(force, DT)
+    assert np.isfinite(seen[0]).all()
+    assert np.isnan(seen[1:]).all()
+
+
+def test_the_channel_is_read_from_the_values_of_each_lane():
+    paths = ("a.stiffness", "measurement.force.delay", "measurement.force.offset")
+    found = read_observation(paths, np.array([[5.0, 1e-3, -2.0], [6.0, 0.0, 0.0]]))
+    assert (found.delay.tolist(), found.offset.tolist(), found.gain.tolist()) == ([1e-3, 0.0], [-2.0, 0.0], [1.0, 1.0])
+    assert not found.plain
+    assert read_observation(("a.stiffness",), np.array([[5.0]])).plain

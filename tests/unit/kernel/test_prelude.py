@@ -1,0 +1,93 @@
+"""The functions that every kernel begins with, against numpy and scipy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.special import wrightomega
+
+from dashpot.kernel.prelude import PRELUDE
+
+MAPPED = """
+@njit("void(float64[::1], float64[::1])")
+def mapped(x, out):
+    for k in range(x.size):
+        out[k] = {name}(x[k])
+"""
+PAIRED = """
+@njit("void(float64[::1], float64[::1], float64[::1])")
+def paired(x, y, out):
+    for k in range(x.size):
+        out[k] = {name}(x[k], y[k])
+"""
+
+
+@pytest.fixture(scope="module")
+def run():
+    """``run(name, x)`` or ``run(name, x, y)``: a function of the prelude on arrays."""
+    made: dict[str, object] = {}
+
+    def call(name: str, *arguments: np.ndarray) -> np.ndarray:
+        if name not in made:
+            space: dict = {}
+            exec(PRELUDE + (MAPPED if len(arguments) == 1 else PAIRED).format(name=name), space)
+            made[name] = space["mapped" if len(arguments) == 1 else "paired"]
+        out = np.empty(arguments[0].size)
+        made[name](*(np.ascontiguousarray(argument, dtype=float) for argument in arguments), out)
+        return out
+
+    return call
+
+
+RNG = np.random.default_rng()
+WIDE = np.concatenate([RNG.uniform(-700.0, 700.0, 20_000), RNG.uniform(-1.0, 1.0, 20_000),
+                       RNG.choice([-1.0, 1.0], 5000) * 10.0 ** RNG.uniform(-300.0, 2.0, 5000)])  # fmt: skip
+
+
+def test_exp_is_good_to_fourteen_digits(run):
+    assert np.max(np.abs(run("exp", WIDE) / np.exp(WIDE) - 1.0)) < 1e-14
+
+
+def test_exp_ends_in_very_small_and_very_large_numbers(run):
+    low, high, zero, one = run("exp", np.array([-1e4, 1e4, 0.0, 1.0]))
+    assert 0.0 <= low < 1e-300 and high > 1e300 and zero == 1.0 and one == pytest.approx(np.e, rel=1e-15)
+    assert run("exp", np.array([-np.inf]))[0] < 1e-300 < 1e300 < run("exp", np.array([np.inf]))[0]
+
+
+def test_log_is_good_to_fourteen_digits(run):
+    x = 10.0 ** RNG.uniform(-307.0, 308.0, 40_000)
+    assert np.max(np.abs(run("log", x) / np.log(x) - 1.0)) < 1e-14
+    near = 1.0 + RNG.uniform(-0.3, 0.4, 20_000)
+    assert np.max(np.abs(run("log", near) - np.log(near)) / np.abs(np.log(near))) < 1e-14
+
+
+def test_log_of_what_has_none(run):
+    zero, negative, infinite = run("log", np.array([0.0, -1.0, np.inf]))
+    assert zero == -np.inf and np.isnan(negative) and infinite == np.inf
+
+
+def test_wrightomega_is_good_to_fourteen_digits(run):
+    x = np.concatenate([RNG.uniform(-40.0, 40.0, 40_000), 10.0 ** RNG.uniform(0.0, 12.0, 10_000)])
+    assert np.max(np.abs(run("wrightomega", x) / wrightomega(x) - 1.0)) < 1e-14
+
+
+def test_wrightomega_vanishes_far_below(run):
+    assert np.all(run("wrightomega", np.array([-700.0, -800.0, -1e6])) < 1e-300)
+
+
+@pytest.mark.parametrize("name", ["exp", "log", "wrightomega", "sign"])
+def test_nan_passes(run, name):
+    assert np.isnan(run(name, np.array([np.nan]))[0])
+
+
+@pytest.mark.parametrize(("name", "expected"), [("minimum", np.minimum), ("maximum", np.maximum)])
+def test_the_smaller_and_the_larger_of_two_as_numpy_has_it(run, name, expected):
+    x, y = (
+        grid.ravel() for grid in np.meshgrid([-np.inf, -1.0, 0.0, 2.0, np.inf, np.nan], [-1.0, 0.5, np.nan, np.inf])
+    )
+    assert np.array_equal(run(name, x, y), expected(x, y), equal_nan=True)
+
+
+def test_the_sign_as_numpy_has_it(run):
+    x = np.array([-np.inf, -2.0, -0.0, 0.0, 1e-300, 3.0, np.inf, np.nan])
+    assert np.array_equal(run("sign", x), np.sign(x), equal_nan=True)
