@@ -38,7 +38,7 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class _Parts:
-    """One run: squared misfit by kind (windows,) in N^2, mean error of both stiffnesses in N/m, frequency (windows,)."""
+    """One run: squared misfit by kind (windows,) N^2, mean error of both stiffnesses N/m, frequency (windows,) Hz."""
 
     conditions: Conditions
     energy: Mapping[str, Array]
@@ -104,11 +104,10 @@ def _too(errors: Mapping[float, float], sizes: Mapping[float, float]) -> str:
     other = "large" if worst == "small" else "small"
     if ends[worst] * ends[other] < -OPPOSITE * ends[worst] ** 2:
         return f"{_side(ends[worst])} at {worst} amplitude and {_side(ends[other])} at {other} amplitude"
-    stands_out = [
-        name for name, here, there in (("small", low, high), ("large", high, low)) if sizes[here] > NOTABLE * sizes[there]
-    ]
-    if stands_out:
-        return f"{_side(ends[stands_out[0]])} at {stands_out[0]} amplitude"
+    if sizes[low] > NOTABLE * sizes[high]:
+        return f"{_side(ends['small'])} at small amplitude"
+    if sizes[high] > NOTABLE * sizes[low]:
+        return f"{_side(ends['large'])} at large amplitude"
     return _side(errors[max(sizes, key=sizes.__getitem__)])
 
 

@@ -57,3 +57,41 @@ def test_runs_without_a_phase_are_described_by_run():
     runs = [Run(n, "random", TIME, {"displacement": rng.standard_normal(TIME.size), "force": TIME}) for n in ("a", "b")]
     found = describe_misfit(runs, {"a": np.ones(TIME.size), "b": np.full(TIME.size, 9.0)})
     assert found[0].where["run"] == "b"
+
+
+def harmonic(name, amplitude, frequency=2.0):
+    """A steady run about the middle; its phase, too."""
+    phase = 2.0 * np.pi * frequency * TIME
+    x = amplitude * np.sin(phase)
+    return Run(name, "harmonic", TIME, {"displacement": x, "force": 2e5 * x}), phase
+
+
+def test_a_stiffness_wrong_in_both_ways_is_told_with_both_ends():
+    """A constant stiffness through one that softens with amplitude is too small here and too large there."""
+    (small, phase), (large, _) = harmonic("small", 1e-3), harmonic("large", 20e-3)
+    found = describe_misfit([small, large], {"small": 30.0 * np.sin(phase), "large": -200.0 * np.sin(phase)})
+    assert found[0].what == (
+        "storage stiffness of the model too small at small amplitude and too large at large amplitude"
+    )
+
+
+def test_words_and_place_of_a_stiffness_error_agree():
+    """A force error that is larger at 20 mm is a smaller error of stiffness there: the place is 1 mm."""
+    (small, phase), (large, _) = harmonic("small", 1e-3), harmonic("large", 20e-3)
+    found = describe_misfit([small, large], {"small": 30.0 * np.cos(phase), "large": 90.0 * np.cos(phase)})
+    assert found[0].what.endswith("too small at small amplitude")
+    assert found[0].where["amplitude"] == "1 mm"
+
+
+def test_what_all_runs_share_is_no_place():
+    """Runs of one frequency about one middle have neither a band nor a preload where the error is."""
+    (small, phase), (large, _) = harmonic("small", 1e-3), harmonic("large", 20e-3)
+    found = describe_misfit([small, large], {"small": 30.0 * np.cos(phase), "large": 30.0 * np.cos(phase)})
+    assert set(found[0].where) == {"amplitude"}
+
+
+def test_the_frequency_of_steady_runs_is_named():
+    """With steady runs at two frequencies the place is a frequency, not a band between them."""
+    (slow, one), (fast, other) = harmonic("slow", 1e-3, 2.0), harmonic("fast", 1e-3, 7.0)
+    found = describe_misfit([slow, fast], {"slow": 1.0 * np.cos(one), "fast": 30.0 * np.cos(other)})
+    assert found[0].where["band"] == "7 Hz"

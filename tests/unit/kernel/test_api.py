@@ -15,7 +15,7 @@ DT = 1e-3
 TIME = DT * np.arange(600)
 
 
-def run(name, frequency, **channels) -> Run:
+def run(name: str, frequency: float) -> Run:
     displacement = 1e-3 * np.sin(2.0 * np.pi * frequency * TIME)
     return Run(
         name, "harmonic", TIME, {"displacement": displacement, "force": np.zeros(600), **channels}, source="a.csv"
