@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dashpot.assess.evidence import history_of, provenance_of
+from dashpot.assess.evidence import history_of, provenance_of, warnings_of
 from dashpot.assess.signals import signal_evidence
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
@@ -61,14 +61,10 @@ class Comparison:
             residuals[fit.declared.name] = {
                 run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)
             }
-        warnings = [str(problem) for problem in self.setting.dataset.problems]
-        warnings += [
-            f"{fit.declared.name}: {path} is at the end of its range" for fit in self.fits for path in fit.at_bound
-        ]
         return {
             **signal_evidence(self.setting.dataset.runs, residuals),
             "history": {fit.declared.name: history_of(fit) for fit in self.fits},
-            "warnings": warnings,
+            "warnings": warnings_of(self.setting, self.fits),
             "provenance": provenance_of(self.setting, self.seed),
         }
 

@@ -12,6 +12,7 @@ from dashpot.assess.screen import Screen
 from dashpot.assess.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting
+from dashpot.fit.floor import false_repeats
 from dashpot.fit.result import FitResult
 
 
@@ -34,7 +35,8 @@ def gather_evidence(
         "tried": pursuit.tried,
         "limits": detection_limits(pursuit.last.screen),
         "next_measurement": next_measurements(named, causes),
-        "warnings": _warnings(setting, fit, pursuit),
+        "warnings": warnings_of(setting, [fit])
+        + [f"The cause '{word}' could not be tried: {reason}" for word, reason in pursuit.last.unavailable],
         "history": {fit.declared.name: history_of(fit)},
         "provenance": provenance_of(setting, fit.seed),
     }
@@ -94,12 +96,18 @@ def _rejected(causes: Mapping[str, type[Cause]], rejection: Rejection) -> dict[s
     }
 
 
-def _warnings(setting: Setting, fit: FitResult, pursuit: Pursuit) -> list[str]:
+def warnings_of(setting: Setting, fits: Sequence[FitResult]) -> list[str]:
+    """What a reader must know of the data and of the fits before believing the numbers."""
     found = [str(problem) for problem in setting.dataset.problems]
+    found += false_repeats(setting.dataset)
     if setting.split.reason:
-        found.append(f"No gain on unseen runs: {setting.split.reason}.")
+        found.append(f"No errors on unseen runs: {setting.split.reason}.")
     if setting.floor.source != "repeats":
         found.append("No repeated runs: the noise floor is estimated from the record itself.")
-    found += [f"The cause '{word}' could not be tried: {reason}" for word, reason in pursuit.last.unavailable]
-    found += [f"{path} is at the end of its search range." for path in fit.at_bound]
-    return found
+    return found + [_at_bound(fit) for fit in fits if fit.at_bound]
+
+
+def _at_bound(fit: FitResult) -> str:
+    where = "is at the end of its range" if len(fit.at_bound) == 1 else "are at the ends of their ranges"
+    names = ", ".join(fit.at_bound)
+    return f"{fit.declared.name}: {names} {where}: without influence on these data, or held by the bounds of the file."

@@ -56,10 +56,14 @@ class Coordinates:
 
 
 def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambda slot: True) -> Coordinates:
-    """The coordinates of the searched slots of a network that ``chosen`` accepts."""
+    """The coordinates of the searched slots of a network that ``chosen`` accepts. ValueError for one without bounds."""
     slots = spec.slots()
     which = [number for number, slot in enumerate(slots) if slot.value.searched and chosen(slot)]
     values = [slots[number].value for number in which]
+    unbounded = [slots[number].path for number in which if slots[number].value.bounds is None]
+    if unbounded:
+        names = ", ".join(unbounded)
+        raise ValueError(f"expected bounds for every searched number, got none for {names}; see with_ranges")
     log = np.array([value.scale == "log" for value in values], dtype=bool)
     bounds = np.array([value.bounds for value in values], dtype=float).reshape(-1, 2)
     low, high = (np.where(log, np.log(np.where(log, side, 1.0)), side) for side in bounds.T)

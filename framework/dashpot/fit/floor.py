@@ -13,17 +13,35 @@ from dashpot.data.run import Run
 
 
 def noise_floor(dataset: Dataset) -> NoiseFloor:
-    """From repeated runs where there are any, else from what lies between and above the orders of the motion."""
-    groups = [list(runs) for _, runs in groupby(sorted(dataset.runs, key=lambda run: run.group), lambda run: run.group)]
-    floors = [floor for group in groups if len(group) > 1 for floor in _repeated(group)]
+    """From repeated runs where there are any, else from what lies between and above the orders of the motion.
+
+    Declared repeats that moved otherwise do not count; see `false_repeats`.
+    """
+    floors = [floor for group in _groups(dataset) if isinstance(floor := _repeated(group), NoiseFloor)]
     return pool_noise(floors or [_single(run) for run in dataset.runs])
 
 
-def _repeated(group: list[Run]) -> list[NoiseFloor]:
+def false_repeats(dataset: Dataset) -> list[str]:
+    """Runs that are declared as repeats but moved otherwise; the noise floor leaves them out."""
+    return [
+        f"{', '.join(run.name for run in group)} are no repeats: {failed}"
+        for group in _groups(dataset)
+        if isinstance(failed := _repeated(group), NotRepeatsError)
+    ]
+
+
+def _groups(dataset: Dataset) -> list[list[Run]]:
+    """The runs that repeat each other."""
+    ordered = sorted(dataset.runs, key=lambda run: run.group)
+    groups = [list(runs) for _, runs in groupby(ordered, lambda run: run.group)]
+    return [group for group in groups if len(group) > 1]
+
+
+def _repeated(group: list[Run]) -> NoiseFloor | NotRepeatsError:
     try:
-        return [noise_from_repeats([(run.displacement, run.force) for run in group], group[0].sample_time)]
-    except NotRepeatsError:
-        return []
+        return noise_from_repeats([(run.displacement, run.force) for run in group], group[0].sample_time)
+    except NotRepeatsError as error:
+        return error
 
 
 def _single(run: Run) -> NoiseFloor:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dashpot.fit.scored import ScoredRun
-from dashpot.model.network import NetworkSpec, Slot, Value
+from dashpot.model.network import NetworkSpec, Value
 from dashpot.text.quantity import dimensions
 
 BELOW, ABOVE = 1e-4, 30.0
@@ -75,31 +75,21 @@ def _size_of(run: ScoredRun) -> Size:
 
 def with_ranges(spec: NetworkSpec, sizes: Sizes) -> NetworkSpec:
     """The network with bounds for every searched value that has none; a start outside them moves to the next one."""
-    return spec.with_values({slot.path: _ranged(slot, sizes, spec) for slot in spec.slots() if slot.value.searched})
+    return spec.with_values({slot.path: _ranged(slot.value, sizes) for slot in spec.slots() if slot.value.searched})
 
 
-def _ranged(slot: Slot, sizes: Sizes, spec: NetworkSpec) -> Value:
-    value = slot.value
+def _ranged(value: Value, sizes: Sizes) -> Value:
     if value.bounds is not None:
         return value
-    low, high = _sensible(slot.path, spec)
+    low, high = value.sensible
     found = sizes.of_unit(value.unit)
     if value.scale == "linear":
-        span = 10.0 * max(abs(value.number), found[1] if found else 0.0)
-        low, high = max(low, value.number - span), min(high, value.number + span)
+        if found or not np.isfinite([low, high]).all():
+            span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
+            low, high = max(low, value.number - span), min(high, value.number + span)
     elif found:
         reach = sizes.range_of(value.unit)
         low, high = max(low, reach[0]), min(high, reach[1])
-    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+    if value.scale == "log" and not (0.0 < low < high < np.inf):
         low, high = value.number / 300.0, value.number * 300.0
     return replace(value, bounds=(low, high), number=float(np.clip(value.number, low, high)))
-
-
-def _sensible(path: str, spec: NetworkSpec) -> tuple[float, float]:
-    name, _, key = path.partition("[")[0].rpartition(".")
-    for branch in spec.leaves():
-        if branch.name == name and key in branch.element.declares.parameters:
-            return branch.element.declares.parameters[key].bounds
-        if branch.name == name and key in branch.curves and branch.curves[key].form == "constant":
-            return branch.curves[key].curve.bounds
-    return -np.inf, np.inf

@@ -87,7 +87,7 @@ def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, poin
     normal, gradient = jacobian @ jacobian.T, jacobian @ residual
     downhill = -gradient
     stuck = ((point <= coordinates.low) & (downhill < 0.0)) | ((point >= coordinates.high) & (downhill > 0.0))
-    free = ~stuck & (np.diag(normal) > 0.0)
+    free = ~stuck & (np.diag(normal) > 0.0) & np.isfinite(np.diag(normal))
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
     right = downhill[free] / scale

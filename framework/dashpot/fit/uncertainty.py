@@ -17,11 +17,16 @@ NORMAL_95 = 1.959963984540054
 BLOCK_SECONDS = 0.25
 FEWEST_BLOCKS = 8
 WEAK = 1e-6
+UNDECIDED = 1e-12  # of the largest eigenvalue, with parameters scaled alike
+SHARE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
 class Uncertainty:
-    """``covariance`` (p, p) in natural steps of the coordinates; ``idle`` names parameters the data do not feel."""
+    """``covariance`` (p, p) in natural steps of the coordinates; ``idle`` names parameters the data do not feel.
+
+    The interval of an idle parameter, and of one that others can make up for entirely, is its whole range.
+    """
 
     covariance: Array
     intervals: tuple[tuple[float, float], ...]
@@ -40,12 +45,12 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
     loss = np.sqrt(np.mean(residual**2))
     idle = scale / np.sqrt(residual.size) < WEAK * max(loss, 1e-300)
     safe = np.where(idle, 1.0, scale)
-    inverse = np.linalg.pinv(normal / np.outer(safe, safe), rcond=1e-12)
+    inverse, lost = _inverse(normal / np.outer(safe, safe))
     scores = np.array([jacobian[:, block] @ residual[block] for block in _blocks(objective)]) / safe
     count = len(scores)
     middle = scores.T @ scores * (count / max(count - len(point), 1))
     covariance = inverse @ middle @ inverse / np.outer(safe, safe)
-    width = NORMAL_95 * np.sqrt(np.diag(covariance)) * coordinates.unit
+    width = np.where(idle | lost, np.inf, NORMAL_95 * np.sqrt(np.diag(covariance)) * coordinates.unit)
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
@@ -54,6 +59,14 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
         tuple(np.array(coordinates.paths)[bound]),
         tuple(np.array(coordinates.paths)[idle]),
     )
+
+
+def _inverse(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """The inverse where the data decide, and which parameters share in a direction in which they do not."""
+    values, vectors = np.linalg.eigh(normal)
+    kept = values > UNDECIDED * values[-1]
+    inverse = (vectors[:, kept] / values[kept]) @ vectors[:, kept].T
+    return inverse, np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
 def _blocks(objective: Objective) -> list[slice]:

@@ -77,14 +77,13 @@ class CompiledNetwork:
 
         A lane whose force is not finite scores NaN.
         """
-        tasks = [(run, *rest, np.atleast_2d(values)) for run, *rest in zip(runs, measured, weights, strict=True)]
+        block, tasks = np.atleast_2d(values), list(zip(runs, measured, weights, strict=True))
         if jobs == 1:
-            return np.array([self._score(task) for task in tasks])
+            return np.array([self._score(block, *task) for task in tasks])
         with ThreadPoolExecutor(jobs) as pool:
-            return np.array(list(pool.map(self._score, tasks)))
+            return np.array(list(pool.map(lambda task: self._score(block, *task), tasks)))
 
-    def _score(self, task: tuple[Rows, Array, Array, Array]) -> Array:
-        run, measured, weight, block = task
+    def _score(self, block: Array, run: Rows, measured: Array, weight: Array) -> Array:
         out = np.empty(block.shape[0])
         last = WIDTH * rows(self.program)
         for first, lanes, tables, workspace in self._blocks(run, block):

@@ -33,7 +33,6 @@ class Observation:
         late = np.array([_shift(row, delay / dt) for row, delay in zip(force, self.delay, strict=True)])
         return self.gain[:, None] * late + self.offset[:, None]
 
-
     def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
         """What one lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
 

@@ -6,7 +6,7 @@ of the whole network needs no more than every branch alone, moved number by numb
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,28 +47,28 @@ class Parts:
         changes = np.zeros((len(which), total.size))
         for number, (part, run) in enumerate(zip(self.members, rows, strict=True)):
             lanes = [values[list(slots)] for slots in part.slots]
-            moved = [k for k, slot in enumerate(which) if self.owner[slot] and self.owner[slot][0] == number]
-            for k in moved:
-                branch = self.owner[which[k]][1]
+            homes = ((k, self.owner[slot]) for k, slot in enumerate(which))
+            moved = [(k, home[1]) for k, home in homes if home and home[0] == number]
+            for k, branch in moved:
                 lane = lanes[branch].copy()
                 lane[part.slots[branch].index(which[k])] += shifts[k]
                 lanes.append(lane)
             forces = np.atleast_2d(part.network.simulate(run, np.array(lanes)))
             count = len(part.slots)
             total += forces[:count].sum(axis=0)
-            for k, force in zip(moved, forces[count:], strict=True):
-                changes[k] = force - forces[self.owner[which[k]][1]]
+            for (k, branch), force in zip(moved, forces[count:], strict=True):
+                changes[k] = force - forces[branch]
         return total, changes
 
 
 def take_apart(spec: NetworkSpec) -> Parts:
-    """Every branch of a parallel network on its own; branches with the same kernel and knots together."""
+    """Every branch of a parallel network on its own; branches of one law that are written alike together."""
     paths = [slot.path for slot in spec.slots()]
-    makes: dict[tuple, Part] = {}
+    makes: dict[Hashable, Part] = {}
     for branch in spec.leaves():
         network = compile_network(NetworkSpec(branch.name, Group("", "parallel", (branch,))))
         slots = tuple(paths.index(path) for path in network.paths)
-        make = (network.native.file, _knots(branch))
+        make = _make(branch)
         known = makes.get(make)
         makes[make] = Part(known.network, (*known.slots, slots)) if known else Part(network, (slots,))
     members = tuple(makes.values())
@@ -80,5 +80,8 @@ def take_apart(spec: NetworkSpec) -> Parts:
     return Parts(members, tuple(owner))
 
 
-def _knots(branch: Branch) -> tuple:
-    return tuple((key, curve.form, curve.at) for key, curve in branch.characteristics().items())
+def _make(branch: Branch) -> tuple[Hashable, ...]:
+    # different laws may print the same kernel, as the drive is prepared outside: it does not tell them apart
+    written = branch.characteristics().items()
+    curves = ((key, curve.form, curve.at, len(curve.values)) for key, curve in written)
+    return (branch.element, *branch.values, *curves)

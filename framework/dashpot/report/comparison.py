@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from operator import itemgetter
 from typing import Any
 
@@ -12,9 +12,11 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.grids import comparison_grid, floor_origin, floor_value, parameters_grid, runs_grid
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Grid, KeyFigures, Notice, Page, Part, Picture, Section
-from dashpot.report.readable import number
+from dashpot.report.readable import number, quantity, shown_with_unit
 
 Json = Mapping[str, Any]
+
+FEW = 2  # models that a plot takes without becoming crowded
 
 
 def comparison_page(comparison: Json, evidence: Evidence) -> Page:
@@ -41,9 +43,10 @@ def comparison_headline(comparison: Json) -> str:
     if best is None or error is None:
         return "No model could be compared."
     if not floor:
-        return f"{best['name']} is closest: {number(error)} N of error (noise floor unknown)."
+        return f"{best['name']} is closest: {quantity(error, 'N')} of error (noise floor unknown)."
     ratio = number(error / floor, 2)
-    return f"{best['name']} is closest: {number(error)} N of error, {ratio} × the noise floor ({number(floor)} N)."
+    against = f"{ratio} × the noise floor ({quantity(floor, 'N')})"
+    return f"{best['name']} is closest: {quantity(error, 'N')} of error, {against}."
 
 
 def best_model(comparison: Json) -> Json | None:
@@ -53,34 +56,42 @@ def best_model(comparison: Json) -> Json | None:
 
 
 def _sections(comparison: Json, evidence: Evidence) -> Iterator[Section]:
+    series = _first_shown(comparison)
     yield Section("Result", parts=list(_result(comparison, evidence)))
-    yield Section("Over frequency", parts=list(_frequency(evidence)))
-    yield Section("Over displacement and time", parts=list(_signals(evidence)))
+    yield Section("Over frequency and amplitude", parts=list(_frequency(evidence, series)))
+    yield Section("Over displacement and time", parts=list(_signals(evidence, series)))
     yield Section("The models", parts=list(_models(comparison, evidence)))
 
 
 def _result(comparison: Json, evidence: Evidence) -> Iterator[Part]:
-    yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
     yield _key_figures(comparison)
     yield comparison_grid(comparison)
-    yield figures.rmse_bars([{"name": m["name"], **m["rmse"]} for m in comparison["models"]], floor_value(comparison))
+    bars = [{"name": model["name"], **model["rmse"]} for model in comparison["models"] if model["rmse"]]
+    yield figures.rmse_bars(bars, floor_value(comparison))
     yield from _filled(runs_grid(comparison))
+    yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 
 
-def _frequency(evidence: Evidence) -> Iterator[Part]:
+def _frequency(evidence: Evidence, series: Sequence[str]) -> Iterator[Part]:
     if evidence.get("dynamic_stiffness"):
-        yield figures.dynamic_stiffness(evidence["dynamic_stiffness"])
+        yield from figures.stiffness_figures(evidence["dynamic_stiffness"], series)
     if evidence.get("misfit_map"):
         yield figures.misfit_map(evidence["misfit_map"])
     if evidence.get("harmonics"):
-        yield figures.harmonic_bars(evidence["harmonics"])
+        yield figures.harmonic_bars(evidence["harmonics"], series)
 
 
-def _signals(evidence: Evidence) -> Iterator[Part]:
+def _signals(evidence: Evidence, series: Sequence[str]) -> Iterator[Part]:
     if "loops" in evidence:
-        yield figures.loops(**evidence["loops"])
+        yield figures.loops(**evidence["loops"], series=series)
     if "residuals" in evidence:
-        yield figures.residual_traces(**evidence["residuals"])
+        yield figures.residual_traces(**evidence["residuals"], series=series)
+
+
+def _first_shown(comparison: Json) -> tuple[str, ...]:
+    """Of many models only the best is drawn at first; the others are a press on a button away."""
+    best = best_model(comparison)
+    return (best["name"],) if best and len(comparison["models"]) > FEW else ()
 
 
 def _models(comparison: Json, evidence: Evidence) -> Iterator[Part]:
@@ -100,9 +111,9 @@ def _key_figures(comparison: Json) -> KeyFigures:
     shown = [("models compared", str(len(comparison["models"])), "", "")]
     if best is not None:
         shown.append(("best model", best["name"], "", ""))
-        shown.append(("its error", number(_error(best)), "N", f"RMSE on {RUNS[_judged_on(best)]}"))
+        shown.append(("its error", *shown_with_unit(_error(best), "N"), f"RMSE on {RUNS[_judged_on(best)]}"))
     if floor is not None:
-        shown.append(("noise floor", number(floor), "N", f"from {comparison['noise_floor']['from']}"))
+        shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {comparison['noise_floor']['from']}"))
     return KeyFigures(shown)
 
 
@@ -114,11 +125,11 @@ def _lead(comparison: Json) -> str:
 
 
 def _error(model: Json) -> float | None:
-    return model["rmse"].get(_judged_on(model))
+    return (model["rmse"] or {}).get(_judged_on(model))
 
 
 def _judged_on(model: Json) -> str:
-    return next((key for key in RUNS if model["rmse"].get(key) is not None), "all")
+    return next((key for key in RUNS if (model["rmse"] or {}).get(key) is not None), "all")
 
 
 def _dataset_name(comparison: Json) -> str:

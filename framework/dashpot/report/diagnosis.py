@@ -11,7 +11,7 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.headline import Errors, accepted_causes, headline, read_errors
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
 from dashpot.report.patch import diff
-from dashpot.report.readable import number, percent
+from dashpot.report.readable import percent, shown_with_unit
 
 Json = Mapping[str, Any]
 
@@ -94,7 +94,7 @@ def _before_and_after(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
     if bars:
         yield figures.rmse_bars(bars, grids.floor_value(diagnosis))
     if evidence.get("dynamic_stiffness"):
-        yield figures.dynamic_stiffness(evidence["dynamic_stiffness"])
+        yield from figures.stiffness_figures(evidence["dynamic_stiffness"])
     if "loops" in evidence:
         yield figures.loops(**evidence["loops"])
     if "residuals" in evidence:
@@ -127,7 +127,9 @@ def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
         ("error after", errors.after, "N", runs),
         ("noise floor", errors.floor, "N", "no model gets below"),
     ]
-    figures_shown = [(label, number(value), unit, note) for label, value, unit, note in shown if value is not None]
+    figures_shown = [
+        (label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None
+    ]
     if errors.gain is not None:
         figures_shown.append(("gain", percent(errors.gain).removesuffix(" %"), "%", f"on {errors.runs}"))
     return figures_shown

@@ -27,10 +27,9 @@ def comparison_grid(comparison: Json) -> Grid:
     if floor is not None:
         rows.append({"name": "noise floor", "train": floor, "held_out": floor, "all": floor, "ratio": 1.0})
     columns = [Column("name", "model"), Column("free", "free parameters", "", 3), *ERROR_COLUMNS]
-    if any(row.get("status") not in (None, "ok") for row in rows):
-        columns.append(Column("status", "status"))
     used = [column for column in columns if any(row.get(column.key) is not None for row in rows)]
-    return Grid("Models against the measurement", used, rows, floor_origin(comparison), "models.csv")
+    caption = " ".join(filter(None, [floor_origin(comparison), *_remarks(comparison["models"])]))
+    return Grid("Models against the measurement", used, rows, caption, "models.csv")
 
 
 def runs_grid(comparison: Json) -> Grid:
@@ -46,13 +45,12 @@ def runs_grid(comparison: Json) -> Grid:
 
 
 def parameters_grid(comparison: Json) -> Grid:
-    """The identified parameters of every model, in rig units where the file says the unit."""
-    rows = [
-        _parameter_row(model["name"], name, entry)
-        for model in comparison["models"]
-        for name, entry in (model.get("parameters") or {}).items()
-    ]
-    columns = [Column("model", "model"), Column("parameter", "parameter"), Column("value", "value", "", 4), UNIT]
+    """The identified parameters, a column for each model, in rig units where the file says the unit."""
+    models = [model for model in comparison["models"] if model.get("parameters")]
+    names = _in_order([list(model["parameters"]) for model in models])
+    columns = [Column("parameter", "parameter"), UNIT]
+    columns += [Column(f"model {i}", model["name"], "", 4) for i, model in enumerate(models)]
+    rows = [_parameter_row(name, [model["parameters"].get(name) for model in models]) for name in names]
     return Grid("Identified parameters", columns, rows, csv_name="parameters.csv")
 
 
@@ -142,7 +140,7 @@ def floor_origin(result: Json) -> str:
 
 
 def _model_row(model: Json, floor: float | None) -> dict[str, Any]:
-    rmse, nrmse = model["rmse"], model.get("nrmse") or {}
+    rmse, nrmse = model["rmse"] or {}, model.get("nrmse") or {}
     held_out = rmse.get("held_out")
     return {
         "name": model["name"],
@@ -150,7 +148,6 @@ def _model_row(model: Json, floor: float | None) -> dict[str, Any]:
         **{key: rmse.get(key) for key in ("train", "held_out", "all")},
         "nrmse": _percent(nrmse.get("held_out")),
         "ratio": held_out / floor if held_out is not None and floor else None,
-        "status": model.get("status"),
     }
 
 
@@ -161,9 +158,31 @@ def _free_count(parameters: Mapping[str, Any] | None) -> int | None:
     return sum(role != "fixed" for role in roles)
 
 
-def _parameter_row(model: str, name: str, entry: Any) -> dict[str, Any]:
-    described = entry if isinstance(entry, Mapping) else {"value": entry}
-    return {"model": model, "parameter": name, **_in_rig_units(described["value"], described.get("unit") or "")}
+def _remarks(models: Sequence[Json]) -> list[str]:
+    """What is to be known of fits that did not come to a good end."""
+    return [f"{m['name']}: {m['status'].rstrip('.')}." for m in models if m.get("status") not in (None, "ok")]
+
+
+def _in_order(lists: Sequence[Sequence[str]]) -> list[str]:
+    """All names once; a name that only later lists have comes after the one before it there."""
+    found: list[str] = []
+    for names in lists:
+        place = 0
+        for name in names:
+            if name not in found:
+                found.insert(place, name)
+            place = found.index(name) + 1
+    return found
+
+
+def _parameter_row(name: str, entries: Sequence[Any]) -> dict[str, Any]:
+    """A parameter of all models, in the unit that suits the largest of them."""
+    described = [entry if isinstance(entry, Mapping) else {"value": entry} for entry in entries]
+    unit = next((entry["unit"] for entry in described if entry.get("unit")), "")
+    known = [abs(entry["value"]) for entry in described if entry["value"] is not None]
+    factor, shown = rig_unit(unit, max(known, default=0.0))
+    values = [None if entry["value"] is None else entry["value"] * factor for entry in described]
+    return {"parameter": name, "unit": shown or None} | {f"model {i}": value for i, value in enumerate(values)}
 
 
 def _in_rig_units(value: float, unit: str) -> dict[str, Any]:

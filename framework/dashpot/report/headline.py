@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from dashpot.report.grids import cause_title, floor_value
-from dashpot.report.readable import join, number, percent, with_interval
+from dashpot.report.readable import join, number, percent, quantity, with_interval
 
 Json = Mapping[str, Any]
 
@@ -61,9 +62,9 @@ def error_phrase(errors: Errors) -> str:
     if errors.before is None:
         return "The error is unknown"
     if not errors.floor:
-        return f"{number(errors.before)} N of error (noise floor unknown)"
+        return f"{quantity(errors.before, 'N')} of error (noise floor unknown)"
     ratio = number(errors.before / errors.floor, 2)
-    return f"{number(errors.before)} N of error is {ratio} × the noise floor ({number(errors.floor)} N)"
+    return f"{quantity(errors.before, 'N')} of error is {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
 
 
 def accepted_causes(diagnosis: Json) -> list[Json]:
@@ -81,13 +82,13 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
 def _nothing_missing(_: Json, errors: Errors) -> str:
     if errors.before is None or not errors.floor:
         return "Nothing is missing: no suspected cause is supported by the data."
-    error, floor = number(errors.before), number(errors.floor)
-    return f"Nothing is missing: the error of {error} N is at the noise floor ({floor} N)."
+    error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
+    return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
 
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     causes = accepted_causes(diagnosis)
-    left = f"{number(errors.after)} N remain unexplained"
+    left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
     named = f"only {percent(errors.gain)} of it is {_named(causes)}" if causes else "it is only partly explained"
@@ -99,11 +100,25 @@ def _unexplained(_: Json, errors: Errors) -> str:
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:
+    """What is sure comes first; causes that fit alike explain the rest of it."""
     rivals = _rivals(diagnosis)
     if len(rivals) < 2:
         return f"{error_phrase(errors)}: these data cannot tell its cause."
-    names = join([cause_phrase(cause) for cause in rivals])
-    return f"{error_phrase(errors)}: {names} explain it alike, and these data cannot tell them apart."
+    sure = [cause for cause in accepted_causes(diagnosis) if not cause.get("indistinguishable_from")]
+    known = [cause["cause"] for cause in sure]
+    names = join([f"more {cause_title(c)}" if c["cause"] in known else cause_phrase(c) for c in rivals])
+    if not sure:
+        return f"{error_phrase(errors)}: {names} explain it alike, and these data cannot tell them apart."
+    rest = f"a further part {names} explain alike, and these data cannot tell them apart"
+    gain = _gain_of(sure)
+    share = "part" if gain is None else percent(gain)
+    return f"{error_phrase(errors)}; {share} of it is {_named(sure)}; {rest}."
+
+
+def _gain_of(causes: list[Json]) -> float | None:
+    """What several causes gain together, each on what the ones before it left."""
+    gains = [cause.get("gain") for cause in causes]
+    return None if None in gains else 1.0 - math.prod(1.0 - gain for gain in gains)
 
 
 def _bad_data(diagnosis: Json, errors: Errors) -> str:

@@ -29,6 +29,19 @@ def number(value: float | None, digits: int = 3) -> str:
     return f"{value:.{max(0, digits - 1 - exponent)}f}"
 
 
+def shown_with_unit(value: float | None, unit: str, digits: int = 3) -> tuple[str, str]:
+    """An SI value and its unit as a reader wants them: ("25.8", "kN")."""
+    if value is None or not math.isfinite(value):
+        return MISSING, unit
+    factor, name = rig_unit(unit, value)
+    return number(value * factor, digits), name
+
+
+def quantity(value: float | None, unit: str, digits: int = 3) -> str:
+    """An SI value with its unit: "25.8 kN"."""
+    return " ".join(shown_with_unit(value, unit, digits)).rstrip()
+
+
 def set_value(value: float, unit: str) -> str:
     """An SI value somebody set (an amplitude, the edge of a band), without zeros nobody wrote: "0.5 mm"."""
     from dashpot.text.quantity import pretty

@@ -46,7 +46,15 @@ def rich_table(grid: Grid) -> Table:
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(title=Text(grid.title), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    caption = Text(grid.caption) if grid.caption else None
+    table = Table(
+        title=Text(grid.title),
+        title_justify="left",
+        caption=caption,
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+    )
     for column in grid.columns:
         table.add_column(Text(column.heading), justify="left" if column.digits is None else "right")
     for row in grid.rows:

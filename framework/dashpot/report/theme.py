@@ -33,6 +33,9 @@ LIGHT = {
     "model-4": "#cc79a7",
     "model-5": "#b38600",
     "model-6": "#3aa0d8",
+    "model-7": "#7d56c2",
+    "model-8": "#8c564b",
+    "model-9": "#6e7781",
     "ordered-1": "#440154",
     "ordered-2": "#46327e",
     "ordered-3": "#365c8d",
@@ -70,6 +73,9 @@ DARK = {
     "model-4": "#e49ac3",
     "model-5": "#e6c440",
     "model-6": "#8fa8ff",
+    "model-7": "#c3a6f7",
+    "model-8": "#cf9b8a",
+    "model-9": "#a8b1bb",
     "ordered-1": "#8d8cf0",
     "ordered-2": "#5aa0e6",
     "ordered-3": "#36b7c4",
@@ -85,7 +91,8 @@ DARK = {
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 HEAT = [[index / 4.0, f"@heat-{index + 1}"] for index in range(5)]
-HUES = 6
+HUES = 9
+SHADES = 6
 DASHES = ("solid", "dash", "dot", "dashdot")
 
 
@@ -150,7 +157,7 @@ def series_dash(label: str, labels: Sequence[str]) -> str:
 
 def ordered_color(index: int, count: int) -> str:
     """The colour of the `index`-th of `count` ordered values (amplitudes, preloads)."""
-    return f"@ordered-{1 + round(index * (HUES - 1) / max(1, count - 1)) % HUES}"
+    return f"@ordered-{1 + round(index * (SHADES - 1) / max(1, count - 1)) % SHADES}"
 
 
 def style_variables(colors: Mapping[str, str]) -> str:

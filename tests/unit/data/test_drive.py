@@ -28,10 +28,9 @@ def test_turning_points_are_where_the_cubic_path_has_its_extrema(seed):
     found = {int(s): [] for s in step}
     for s, p in zip(step, place, strict=True):
         found[int(s)].append(p)
+    room = 1e-9 * (1.0 + np.max(np.abs(x)) + np.max(np.abs(v)) * DT)
     for t in inside:
-        assert min(abs(p - path(t)) for p in found[int(t / DT) + 1]) < 1e-9 * (
-            1.0 + np.max(np.abs(x)) + np.max(np.abs(v)) * DT
-        )
+        assert min(abs(p - path(t)) for p in found[int(t / DT) + 1]) < room
 
 
 def test_turning_points_come_in_the_order_of_time():

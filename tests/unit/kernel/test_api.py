@@ -16,10 +16,8 @@ TIME = DT * np.arange(600)
 
 
 def run(name: str, frequency: float) -> Run:
-    displacement = 1e-3 * np.sin(2.0 * np.pi * frequency * TIME)
-    return Run(
-        name, "harmonic", TIME, {"displacement": displacement, "force": np.zeros(600), **channels}, source="a.csv"
-    )
+    channels = {"displacement": 1e-3 * np.sin(2.0 * np.pi * frequency * TIME), "force": np.zeros(600)}
+    return Run(name, "harmonic", TIME, channels, source="a.csv")
 
 
 DATASET = Dataset("bench", (run("slow", 1.0), run("fast", 9.0)))

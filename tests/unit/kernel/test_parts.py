@@ -17,6 +17,7 @@ EVERYTHING = """
     b: {element: spring, stiffness: {deflection: [-2 mm, 0 mm, 1 mm], force: [-200, 0, 150]}}
     c: {element: spring, stiffness: {deflection: [-3 mm, 0 mm, 1 mm], force: [-200, 0, 150]}}
     d: {element: spring, stiffness: {polynomial: [1e5, 1e6]}}
+    dd: {element: spring, stiffness: {polynomial: [1e5, 1e6, 1e8]}}
     e: {element: damper, damping: 100}
     f: {element: damper, damping: 100, scale: {deflection: [-1 mm, 1 mm], factor: [1.5, 0.5]}}
     g: {element: quadratic_damper, damping: 80}

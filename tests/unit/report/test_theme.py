@@ -8,7 +8,7 @@ from dashpot.report.theme import DARK, LIGHT, shortened
 
 TEXTS = ("ink", "soft", "link", "good", "warning", "bad")
 LINES = ("measured", "before", "after", "model-1", "model-2", "model-3", "model-6", "ordered-1", "ordered-4")
-LINES += ("model-4", "model-5", "held-out", "ordered-2", "ordered-3")
+LINES += ("model-4", "model-5", "model-7", "model-8", "model-9", "held-out", "ordered-2", "ordered-3")
 
 
 def luminance(color: str) -> float:

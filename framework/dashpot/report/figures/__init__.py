@@ -12,6 +12,7 @@ from dashpot.report.figures.loop import loops
 from dashpot.report.figures.misfit import misfit_map
 from dashpot.report.figures.residuals import residual_traces
 from dashpot.report.figures.rmse import rmse_bars
+from dashpot.report.figures.steady import steady_stiffness, stiffness_figures
 from dashpot.report.figures.stiffness import dynamic_stiffness
 
 __all__ = [
@@ -23,4 +24,6 @@ __all__ = [
     "misfit_map",
     "residual_traces",
     "rmse_bars",
+    "steady_stiffness",
+    "stiffness_figures",
 ]

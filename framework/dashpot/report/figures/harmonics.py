@@ -18,11 +18,11 @@ GAP_X = 0.03
 TITLE_LENGTH = 28
 
 
-def harmonic_bars(harmonics: Mapping[str, Mapping[str, Sequence[float]]]) -> Figure:
+def harmonic_bars(harmonics: Mapping[str, Mapping[str, Sequence[float]]], series: Sequence[str] = ()) -> Figure:
     """Amplitude (N) of the residual's harmonics 1, 2, ... of the excitation, a small panel for each group.
 
     `harmonics[label][group]` holds the amplitudes (orders,) in N; groups are runs, amplitudes or whatever tells
-    causes apart; labels are "before", "after" or names of models.
+    causes apart; labels are "before", "after" or names of models. Those in `series` are drawn at first, or all.
     """
     labels = list(harmonics)
     groups = list(dict.fromkeys(group for each in harmonics.values() for group in each))
@@ -33,7 +33,7 @@ def harmonic_bars(harmonics: Mapping[str, Mapping[str, Sequence[float]]]) -> Fig
         orders = range(1, 1 + max(map(len, amplitudes.values())))
         block = table.add({"group": group, ORDER: list(orders)} | {_heading(k): v for k, v in amplitudes.items()})
         traces += [_bars(group, label, block, panel, labels) for label in amplitudes]
-    buttons = [toggles.series_group(labels, measured="", mark="bar")]
+    buttons = [toggles.series_group(labels, measured="", mark="bar", series=series)]
     return Figure(
         "Harmonics of the residual",
         "Odd harmonics come from laws that treat both directions alike, even ones from one-sided laws.",

@@ -23,12 +23,14 @@ def loops(
     measured: Mapping[str, Mapping[str, np.ndarray]],
     simulated: Mapping[str, Mapping[str, np.ndarray]],
     shown: Sequence[str] = (),
+    series: Sequence[str] = (),
 ) -> Figure:
     """Measured and simulated force over displacement.
 
     `measured[run]` holds `time` (n,) s, `displacement` (n,) m and `force` (n,) N; `simulated[label][run]` is a force
     (n,) N, the labels being "before", "after" or names of models. The runs in `shown` are drawn at first; without
-    them it is the run with the largest error of the first label. Long runs are drawn as cycles spread over the run.
+    them it is the run with the largest error of the first label drawn. So are the labels in `series`, without them all.
+    Long runs are drawn as cycles spread over the run.
     """
     table = TidyTable("run", TIME, X, MEASURED, *map(_heading, simulated))
     points = excerpt.affordable(len(measured), 3 + len(simulated), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
@@ -36,7 +38,8 @@ def loops(
     for run, signals in measured.items():
         block = table.add(_block(run, signals, simulated, points))
         traces += _traces(run, block, simulated)
-    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, simulated)})
+    drawn = {label: runs for label, runs in simulated.items() if toggles.is_shown(label, series)}
+    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, drawn)}, series)
     return Figure(
         "Force over displacement",
         "Cycles spread over each run. Press a run to add it or take it away; press it twice to see it alone.",
@@ -104,9 +107,11 @@ def _line(label: str, labels: Sequence[str]) -> dict[str, Any]:
     return {"color": series_color(label, labels), "width": WIDTHS.get(label, 1.4), "dash": toggles.dash(label)}
 
 
-def _groups(measured: Mapping[str, Any], simulated: Mapping[str, Any], shown: set[str]) -> list[dict[str, Any]]:
+def _groups(
+    measured: Mapping[str, Any], simulated: Mapping[str, Any], shown: set[str], series: Sequence[str]
+) -> list[dict[str, Any]]:
     runs = [toggles.choice(run, shown=run in shown) for run in measured]
-    return [toggles.series_group(simulated), toggles.group("run", "Runs", runs)]
+    return [toggles.series_group(simulated, series=series), toggles.group("run", "Runs", runs)]
 
 
 def _layout(groups: list[dict[str, Any]]) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,40 +13,61 @@ from dashpot.report.parts import Figure
 from dashpot.report.theme import HEAT, axis, axis_number, layout, plain
 
 GAP = 0.04
+ACROSS = 3
+ROW_HEIGHT = 30
+HEAD = 110  # pixels of a row of panels for titles and axes
+
+Row = Mapping[str, Any]
 
 
-def misfit_map(rows: Sequence[Mapping[str, Any]]) -> Figure:
+def misfit_map(rows: Sequence[Row]) -> Figure:
     """RMS of the residual (N) over frequency band and run, a panel for each simulation, all on one colour scale.
 
-    Each row: `run`, `band` (low, high) in Hz or a text, `rmse` {label: N}; a pair without a row stays empty.
+    Each row: `run`, `band` (low, high) in Hz or a text, `rmse` {label: N}; a pair without a row stays empty. Where
+    there is only one band the simulations stand side by side in a single panel.
     """
     runs = list(dict.fromkeys(row["run"] for row in rows))
-    bands = list(dict.fromkeys(_band(row["band"]) for row in rows))
+    bands = sorted(dict.fromkeys(row["band"] for row in rows), key=_band_order)
     labels = list(dict.fromkeys(label for row in rows for label in row["rmse"]))
-    maps = [_matrix(rows, runs, bands, label) for label in labels]
-    top = max((float(np.nanmax(each)) for each in maps if np.isfinite(each).any()), default=1.0)
-    traces = [_panel(each, runs, bands, index, top) for index, each in enumerate(maps)]
+    names = [_band(band) for band in bands]
     columns: dict[str, Any] = {"run": [row["run"] for row in rows], "band": [_band(row["band"]) for row in rows]}
     columns |= {_heading(label): [row["rmse"].get(label) for row in rows] for label in labels}
-    return Figure(
-        "Where the error is",
-        "Root mean square of the residual in each frequency band of each run, in N.",
-        {"data": traces, "layout": _layout(runs, labels)},
-        columns,
-    )
+    if len(bands) > 1:
+        plot = _panels(
+            {toggles.series_name(label): _by_band(rows, runs, names, label) for label in labels}, runs, names
+        )
+        where = "in each frequency band of each run"
+    else:
+        series = [toggles.series_name(label) for label in labels]
+        plot = _panels({"": _by_label(rows, runs, labels)}, runs, series)
+        where = "of each run"
+    return Figure("Where the error is", f"Root mean square of the residual {where}, in N.", plot, columns)
 
 
-def _matrix(rows: Sequence[Mapping[str, Any]], runs: list[str], bands: list[str], label: str) -> np.ndarray:
+def _by_band(rows: Sequence[Row], runs: Sequence[str], bands: Sequence[str], label: str) -> np.ndarray:
     matrix = np.full((len(runs), len(bands)), np.nan)
     for row in rows:
         matrix[runs.index(row["run"]), bands.index(_band(row["band"]))] = row["rmse"].get(label, np.nan)
     return matrix
 
 
-def _panel(matrix: np.ndarray, runs: list[str], bands: list[str], index: int, top: float) -> dict[str, Any]:
+def _by_label(rows: Sequence[Row], runs: Sequence[str], labels: Sequence[str]) -> np.ndarray:
+    matrix = np.full((len(runs), len(labels)), np.nan)
+    for row in rows:
+        matrix[runs.index(row["run"])] = [row["rmse"].get(label, np.nan) for label in labels]
+    return matrix
+
+
+def _panels(maps: Mapping[str, np.ndarray], runs: Sequence[str], columns: Sequence[str]) -> dict[str, Any]:
+    top = max((float(np.nanmax(each)) for each in maps.values() if np.isfinite(each).any()), default=1.0)
+    traces = [_panel(each, runs, columns, index, top) for index, each in enumerate(maps.values())]
+    return {"data": traces, "layout": _layout(len(runs), list(maps), "frequency band" if any(maps) else "")}
+
+
+def _panel(matrix: np.ndarray, runs: Sequence[str], columns: Sequence[str], index: int, top: float) -> dict[str, Any]:
     return {
         "type": "heatmap",
-        "x": [plain(band) for band in bands],
+        "x": [plain(column) for column in columns],
         "y": [plain(run) for run in runs],
         "z": matrix,
         "xaxis": axis_number("x", index),
@@ -57,31 +79,51 @@ def _panel(matrix: np.ndarray, runs: list[str], bands: list[str], index: int, to
         "colorbar": {"title": {"text": "N", "side": "top"}, "thickness": 12, "outlinewidth": 0},
         "xgap": 2,
         "ygap": 2,
-        "texttemplate": "%{z:.3g}",
+        "texttemplate": "%{z:.3r}",
         "hovertemplate": "%{y}, %{x}<br>%{z:.2f} N<extra></extra>",
         "hoverongaps": False,
     }
 
 
-def _layout(runs: Sequence[str], labels: Sequence[str]) -> dict[str, Any]:
-    width = (1.0 - GAP * (len(labels) - 1)) / max(1, len(labels))
+def _layout(runs: int, names: Sequence[str], title: str) -> dict[str, Any]:
+    """Panels in rows of three; all share the runs."""
+    across = min(ACROSS, max(1, len(names)))
+    down = math.ceil(len(names) / across) or 1
+    height = HEAD + ROW_HEIGHT * runs
+    between = HEAD / (height * down)
     axes: dict[str, Any] = {}
-    for index in range(len(labels)):
-        domain = [index * (width + GAP), index * (width + GAP) + width]
-        x, y = axis_number("x", index), axis_number("y", index)
-        axes[axis_number("x", index, "axis")] = axis("frequency band", type="category", domain=domain, anchor=y)
-        axes[axis_number("y", index, "axis")] = axis(type="category", anchor=x, autorange="reversed", **_shared(index))
-    titles = [_title(label, index * (width + GAP) + width / 2.0) for index, label in enumerate(labels)]
-    return layout(110 + 30 * len(runs), **axes, annotations=titles)
+    titles = []
+    for index, name in enumerate(names):
+        row, column = divmod(index, across)
+        left, right = _share(column, across, GAP)
+        top, bottom = (1.0 - edge for edge in _share(row, down, between))
+        axes |= _panel_axes(index, title, (left, right), (bottom, top), first=column == 0)
+        titles.append(_title(name, (left + right) / 2.0, top))
+    return layout(height * down, **axes, annotations=titles)
 
 
-def _shared(index: int) -> dict[str, Any]:
-    return {"matches": "y", "showticklabels": False} if index else {}
+def _panel_axes(
+    index: int, title: str, across: tuple[float, float], down: tuple[float, float], first: bool
+) -> dict[str, Any]:
+    x, y = axis_number("x", index), axis_number("y", index)
+    shared = {"matches": "y"} if index else {}
+    horizontal = axis(title, type="category", domain=list(across), anchor=y)
+    vertical = axis(type="category", domain=list(down), anchor=x, autorange="reversed", showticklabels=first, **shared)
+    return {axis_number("x", index, "axis"): horizontal, axis_number("y", index, "axis"): vertical}
 
 
-def _title(label: str, x: float) -> dict[str, Any]:
-    place = {"x": x, "y": 1.0, "xref": "paper", "yref": "paper", "xanchor": "center", "yanchor": "bottom"}
-    return {"text": plain(toggles.series_name(label)), "showarrow": False, **place}
+def _share(index: int, count: int, gap: float) -> tuple[float, float]:
+    width = (1.0 - gap * (count - 1)) / count
+    return index * (width + gap), index * (width + gap) + width
+
+
+def _title(name: str, x: float, y: float) -> dict[str, Any]:
+    place = {"x": x, "y": y, "xref": "paper", "yref": "paper", "xanchor": "center", "yanchor": "bottom"}
+    return {"text": plain(name), "showarrow": False, **place}
+
+
+def _band_order(band: tuple[float, float] | str) -> tuple[float, str]:
+    return (math.inf, band) if isinstance(band, str) else (band[0], "")
 
 
 def _band(band: tuple[float, float] | str) -> str:

@@ -19,12 +19,15 @@ NUMBERS_PER_FIGURE = 40000
 
 
 def residual_traces(
-    time: Mapping[str, np.ndarray], residuals: Mapping[str, Mapping[str, np.ndarray]], shown: Sequence[str] = ()
+    time: Mapping[str, np.ndarray],
+    residuals: Mapping[str, Mapping[str, np.ndarray]],
+    shown: Sequence[str] = (),
+    series: Sequence[str] = (),
 ) -> Figure:
     """Measured minus simulated force over time; in a long run the extremes of every short stretch are drawn.
 
     `time[run]` (n,) s, `residuals[label][run]` (n,) N. The runs in `shown` are drawn at first; without them it is
-    the run with the largest residual of the first label.
+    the run with the largest residual of the first label drawn. So are the labels in `series`, without them all.
     """
     labels = list(residuals)
     points = affordable(len(time), 1 + len(labels), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
@@ -38,7 +41,8 @@ def residual_traces(
         values = {_heading(label): signal[kept] for label, signal in drawn.items()}
         block = table.add({"run": run, TIME: np.asarray(moments)[kept]} | values)
         traces += [_trace(run, label, block, labels) for label in drawn]
-    groups = _groups(list(time), labels, set(shown) or {_worst(residuals)})
+    visible = {label: runs for label, runs in residuals.items() if toggles.is_shown(label, series)}
+    groups = _groups(list(time), labels, set(shown) or {_worst(visible)}, series)
     return Figure(
         "Residual over time",
         "Measured minus simulated force.",
@@ -62,10 +66,10 @@ def _trace(run: str, label: str, block: Mapping[str, Any], labels: Sequence[str]
     }
 
 
-def _groups(runs: Sequence[str], labels: Sequence[str], shown: set[str]) -> list[dict[str, Any]]:
+def _groups(runs: Sequence[str], labels: Sequence[str], shown: set[str], series: Sequence[str]) -> list[dict[str, Any]]:
     buttons = [toggles.choice(run, shown=run in shown) for run in runs]
-    series = toggles.series_group(labels, measured="", mark="solid")
-    return [series, toggles.group("run", "Runs", buttons)]
+    simulations = toggles.series_group(labels, measured="", mark="solid", series=series)
+    return [simulations, toggles.group("run", "Runs", buttons)]
 
 
 def _worst(residuals: Mapping[str, Mapping[str, np.ndarray]]) -> str:

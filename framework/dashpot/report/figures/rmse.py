@@ -7,6 +7,7 @@ from typing import Any
 
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
+from dashpot.report.readable import number
 from dashpot.report.theme import axis, layout, plain
 
 PARTS = (("train", "training runs", "@train"), ("held_out", "held-out runs", "@held-out"))
@@ -35,7 +36,7 @@ def _bars(names: Sequence[str], title: str, color: str) -> dict[str, Any]:
         "x": list(names),
         "y": {"column": _heading(title), "rows": [0, len(names)]},
         "marker": {"color": color},
-        "texttemplate": "%{y:.3g}",
+        "texttemplate": "%{y:.3r}",
         "textposition": "outside",
         "cliponaxis": False,
         "hovertemplate": f"%{{x}}<br>%{{y:.2f}} N on {title}<extra></extra>",
@@ -47,7 +48,7 @@ def _floor(names: Sequence[str], floor: float) -> dict[str, Any]:
     return {
         "type": "scatter",
         "mode": "lines",
-        "name": f"noise floor {floor:.3g} N",
+        "name": f"noise floor {number(floor)} N",
         "x": [0.0, 1.0],
         "y": [floor, floor],
         "xaxis": "x2",

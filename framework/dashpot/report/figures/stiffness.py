@@ -23,13 +23,13 @@ GAP = 0.05
 Curve = Mapping[str, Any]
 
 
-def dynamic_stiffness(curves: Sequence[Curve]) -> Figure:
+def dynamic_stiffness(curves: Sequence[Curve], series: Sequence[str] = ()) -> Figure:
     """|K*| (N/mm) and loss angle (deg) over frequency, a panel for each preload and a colour for each amplitude.
 
     Each curve: `run`, `frequency` (n,) Hz, `measured` and `simulated[label]`, each with `stiffness` (n,) N/m and
     `loss_angle` (n,) rad; `amplitude` and `preload` in m where the run has them. The measurement is drawn as points,
     "before" as a dotted line, "after" as a solid one, models each with a dash of their own. More than four preloads
-    share one panel.
+    share one panel. The labels in `series` are drawn at first, without them all.
     """
     labels = list(dict.fromkeys(label for curve in curves for label in curve["simulated"]))
     table = TidyTable("run", "amplitude (mm)", "preload (mm)", FREQUENCY, *_headings(labels))
@@ -42,7 +42,7 @@ def dynamic_stiffness(curves: Sequence[Curve]) -> Figure:
         cells = [panel + level * len(panels) for level in range(len(ROWS))]
         traces += _traces(curve, block, color, cells, labels)
     title = "Amplitude" if any(curve.get("amplitude") is not None for curve in curves) else "Runs"
-    groups = _groups(amplitudes, labels, title)
+    groups = _groups(amplitudes, labels, title, series)
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(panels, groups)}
     return Figure("Dynamic stiffness and loss angle", _caption(panels), plot, table.columns)
 
@@ -86,16 +86,25 @@ def _responses(curve: Curve) -> dict[str, Any]:
     return {"measured": curve["measured"], **curve["simulated"]}
 
 
-def _groups(amplitudes: Sequence[str], labels: Sequence[str], title: str) -> list[dict[str, Any]]:
+def _groups(
+    amplitudes: Sequence[str], labels: Sequence[str], title: str, series: Sequence[str]
+) -> list[dict[str, Any]]:
     shades = [
         toggles.choice(name, color=ordered_color(index, len(amplitudes)), mark="solid")
         for index, name in enumerate(amplitudes)
     ]
-    series = [
-        toggles.choice(label, toggles.series_name(label), "@soft", series_dash(label, labels)) for label in labels
+    simulations = [
+        toggles.choice(
+            label,
+            toggles.series_name(label),
+            "@soft",
+            series_dash(label, labels),
+            toggles.is_shown(label, series),
+        )
+        for label in labels
     ]
     measured = toggles.choice("measured", color="@soft", mark="point")
-    return [toggles.group("series", "Show", [measured, *series]), toggles.group("amplitude", title, shades)]
+    return [toggles.group("series", "Show", [measured, *simulations]), toggles.group("amplitude", title, shades)]
 
 
 def _layout(panels: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any]:

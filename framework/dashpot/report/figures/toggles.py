@@ -24,11 +24,21 @@ def group(key: str, title: str, choices: Sequence[Mapping[str, Any]]) -> dict[st
     return {"key": key, "title": title, "choices": list(choices)}
 
 
-def series_group(labels: Iterable[str], measured: str = "solid", mark: str = "") -> dict[str, Any]:
-    """The buttons for the measurement (drawn as `measured`, empty: not in the figure) and each simulation."""
+def series_group(
+    labels: Iterable[str], measured: str = "solid", mark: str = "", series: Sequence[str] = ()
+) -> dict[str, Any]:
+    """The buttons for the measurement (drawn as `measured`, empty: not in the figure) and each simulation.
+
+    Pressed at first are those in `series`, or all of them; the measurement always.
+    """
     labels = list(labels)
     first = [choice("measured", "measured", "@measured", measured)] if measured else []
-    return group("series", "Show", first + [_simulation(label, labels, mark) for label in labels])
+    return group("series", "Show", first + [_simulation(label, labels, mark, series) for label in labels])
+
+
+def is_shown(label: str, series: Sequence[str]) -> bool:
+    """Whether a simulation is drawn at first."""
+    return not series or label in series
 
 
 def series_name(label: str) -> str:
@@ -41,8 +51,9 @@ def dash(label: str) -> str:
     return "dot" if label == "before" else "solid"
 
 
-def _simulation(label: str, labels: Sequence[str], mark: str) -> dict[str, Any]:
-    return choice(label, series_name(label), series_color(label, labels), mark or dash(label))
+def _simulation(label: str, labels: Sequence[str], mark: str, series: Sequence[str]) -> dict[str, Any]:
+    color = series_color(label, labels)
+    return choice(label, series_name(label), color, mark or dash(label), is_shown(label, series))
 
 
 def apply(traces: Sequence[dict[str, Any]], groups: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
