@@ -31,21 +31,21 @@ class Prandtl(Element):
     exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
                          default=1.0)  # fmt: skip
     force = State("N", "force in the branch")
+    side = State("1", "direction of the last step")
+    reach = State("1", "s u + ln(s u), which sinks by the way (i = 1)")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Move u, the distance to sliding, along the travel of the step."""
         side = np.where(x.travel < 0.0, -1.0, 1.0)
         distance = np.maximum(1.0 - side * z.force / p.limit, TINY)
         way = p.sharpness * p.stiffness * np.abs(x.travel) / p.limit
-        smooth = _smooth(distance, way, p.sharpness)
+        start = p.sharpness * distance
+        # only a turn takes the logarithm: from there on the reach goes down with the way
+        reach = np.where(side != z.side, np.log(start) + start, z.reach) - way
+        smooth = wrightomega(reach) / p.sharpness
         left = np.where(p.exponent == 1.0, smooth, _general(distance, way, p.sharpness, p.exponent))
         force = side * p.limit * (1.0 - left)
-        return Response(force, force=force)
-
-
-def _smooth(distance: Any, way: Any, sharpness: Any) -> Any:
-    start = sharpness * distance
-    return wrightomega(np.log(start) + start - way) / sharpness
+        return Response(force, force=force, side=side, reach=reach)
 
 
 def _general(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:

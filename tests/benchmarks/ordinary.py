@@ -2,44 +2,53 @@
 
 from __future__ import annotations
 
-import time
-from statistics import median
+from collections.abc import Mapping
 
 import numpy as np
 from numba import njit
-from workload import DT, runs
+from numpy.typing import NDArray
+from truth import FACTOR_AT, SHARPNESS
+from workload import DT, KNOTS, Sweep
 
-MAXWELL = np.array([[8e3, 0.160], [8e3, 0.032], [12e3, 0.0064]])
-PRANDTL = np.array([[20e3, 6.0], [14e3, 20.0], [9e3, 60.0]])
-DAHL = np.array([60e3, 15.0])
+Array = NDArray[np.float64]
 
 
-def euler_nanoseconds(rounds: int) -> float:
-    """Time per sample of one parameter vector on the twelve sweeps."""
-    drives = runs()
-    times = []
-    for number in range(rounds + 1):
-        began = time.perf_counter()
-        for drive in drives:
-            _euler(drive.displacement, drive.velocity, MAXWELL, PRANDTL, DAHL, DT)
-        if number:
-            times.append(time.perf_counter() - began)
-    return 1e9 * median(times) / (len(drives) * drives[0].samples)
+def euler_force(sweep: Sweep, numbers: Mapping[str, float]) -> Array:
+    """The force (samples,) of tire model 5, tables by straight lines."""
+    x, v, _ = sweep.path(sweep.time)
+    return euler(x, v, *euler_numbers(numbers), DT)
+
+
+def euler_numbers(numbers: Mapping[str, float]) -> tuple[Array, ...]:
+    """The numbers of a network in arrays."""
+    kinds = (("maxwell", ("stiffness", "relaxation_time")), ("prandtl", ("stiffness", "limit")))
+    rows = [np.array([[numbers[f"{name}_{k}.{key}"] for key in keys] for k in (1, 2, 3)]) for name, keys in kinds]
+    carcass = np.array([numbers[f"stiffness.stiffness[{k}]"] for k in range(KNOTS.size)])
+    factor = numbers["damping.damping"] * np.array([numbers[f"damping.scale[{k}]"] for k in range(FACTOR_AT.size)])
+    return (
+        KNOTS,
+        carcass,
+        FACTOR_AT,
+        factor,
+        *rows,
+        np.array([numbers["friction.stiffness"], numbers["friction.limit"]]),
+    )
 
 
 @njit(error_model="numpy")
-def _euler(x, v, maxwell, prandtl, dahl, dt):  # noqa: ANN001, ANN202
+def euler(x, v, knots, carcass, factor_at, factor, maxwell, prandtl, dahl, dt):  # noqa: ANN001, ANN201
+    """The force along a sampled path; every law is as it stands in a textbook."""
+    force = np.empty(x.size)
     relaxing, sliding, friction = np.zeros(3), np.zeros(3), 0.0
-    total = 0.0
-    for k in range(1, x.size):
-        travel = x[k] - x[k - 1]
+    for k in range(x.size):
+        travel = x[k] - x[k - 1] if k else 0.0
         side = 1.0 if travel > 0.0 else -1.0
-        force = 1.8e5 * x[k] + 1e6 * x[k] ** 2 + 40.0 * (1.5 - 20.0 * x[k]) * v[k]
+        total = np.interp(x[k], knots, carcass) + np.interp(x[k], factor_at, factor) * v[k]
         for i in range(3):
             relaxing[i] += maxwell[i, 0] * travel - dt * relaxing[i] / maxwell[i, 1]
-            stiff = 10.0 * prandtl[i, 0] * max(1.0 - side * sliding[i] / prandtl[i, 1], 0.0)
-            sliding[i] += travel * prandtl[i, 0] * stiff / (prandtl[i, 0] + stiff)
-            force += relaxing[i] + sliding[i]
+            slope = SHARPNESS * prandtl[i, 0] * max(1.0 - side * sliding[i] / prandtl[i, 1], 0.0)
+            sliding[i] += travel * prandtl[i, 0] * slope / (prandtl[i, 0] + slope)
+            total += relaxing[i] + sliding[i]
         friction += travel * dahl[0] * (1.0 - side * friction / dahl[1])
-        total += (force + friction) ** 2
-    return total
+        force[k] = total + friction
+    return force

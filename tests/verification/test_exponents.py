@@ -17,11 +17,11 @@ YIELDING = LIMIT / STIFFNESS
 
 
 def step(element, travel, force, **numbers):
-    """The element's own answer to a single step."""
+    """The element's own answer to a single step; a side of 0 says that it has not moved before."""
     x = Motion(2e-3, 2e-3 + travel, np.nan, np.nan, np.nan)
+    z = SimpleNamespace(force=np.float64(force), side=0.0, reach=0.0)
     with np.errstate(all="ignore"):
-        return float(load_registry().elements[element]().step(
-            x, SimpleNamespace(force=np.float64(force)), SimpleNamespace(**numbers), np.nan).force)  # fmt: skip
+        return float(load_registry().elements[element]().step(x, z, SimpleNamespace(**numbers), np.nan).force)
 
 
 def integrate(slope, travel, force):

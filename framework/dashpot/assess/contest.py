@@ -65,7 +65,7 @@ class Bench:
 
     def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel) -> Model:
         """The model with a patch of its text, refitted from its own numbers and those of the patch."""
-        declared = parse_network(extend(model.declared.text), self.elements)
+        declared = parse_network(extend(model.declared.text), self.elements, model.declared.file)
         return self.fit(declared, self.start_from(declared, model.fitted), noise)
 
     def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:

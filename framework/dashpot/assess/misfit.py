@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.bands import frequency_bands
-from dashpot.assess.conditions import Conditions, conditions_of
+from dashpot.assess.conditions import STEADY, Conditions, conditions_of
 from dashpot.data.order_tracking import follow, harmonics_of
 from dashpot.data.phase import NotOscillatingError
 from dashpot.data.run import Run
@@ -146,7 +146,7 @@ def _band(kind: str, parts: Sequence[_Parts]) -> str:
     if any(part.conditions.frequency is None for part in parts):
         return _worst_band(kind, parts)
     steady = _by_level(parts, lambda part: part.conditions.frequency or 0.0)
-    return f"{_heaviest(kind, steady):.3g} Hz" if len(steady) > 1 else ""
+    return f"{_heaviest(kind, steady):.3g} Hz" if max(steady) > STEADY * min(steady) else ""
 
 
 def _worst_band(kind: str, parts: Sequence[_Parts]) -> str:

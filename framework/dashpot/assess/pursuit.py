@@ -204,7 +204,7 @@ class Pursuer:
         text = first.declared.text
         for entry in kept:
             text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
-        declared = parse_network(text, self.bench.elements)
+        declared = parse_network(text, self.bench.elements, first.declared.file)
         return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise)
 
 

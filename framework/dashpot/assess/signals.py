@@ -14,6 +14,7 @@ from dashpot.data.average import average_bands
 from dashpot.data.order_tracking import DynamicStiffness, Oscillation, follow, harmonics_of
 from dashpot.data.phase import NotOscillatingError
 from dashpot.data.run import Run
+from dashpot.fit.scored import warm_up
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
@@ -108,7 +109,9 @@ def _misfit_map(runs: tuple[Run, ...], sweeps: Mapping[str, Oscillation], residu
         if run.name in sweeps:
             rows += _rows_of_sweep(run, sweeps[run.name], bands, residuals)
         else:
-            rows.append({"run": run.name, "band": WHOLE_RUN, "rmse": _rms(residuals, run.name, slice(None))})
+            rows.append(
+                {"run": run.name, "band": WHOLE_RUN, "rmse": _rms(residuals, run.name, slice(warm_up(run), None))}
+            )
     return rows
 
 
@@ -121,7 +124,7 @@ def _common_bands(sweeps: Sequence[Oscillation]) -> list[Band]:
 
 
 def _rows_of_sweep(run: Run, track: Oscillation, bands: Sequence[Band], residuals: Residuals) -> list[dict[str, Any]]:
-    known = np.isfinite(track.angle)
+    known = np.isfinite(track.angle) & (np.arange(track.angle.size) >= warm_up(run))
     turning = np.gradient(np.nan_to_num(track.angle)) / (2.0 * np.pi * run.sample_time)
     edges = np.array([low for low, _ in bands[1:]])
     place = np.where(known, np.searchsorted(edges, turning, side="right"), -1)

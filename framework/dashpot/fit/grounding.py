@@ -15,6 +15,8 @@ from dashpot.model.network import Characteristic, NetworkSpec, Value
 
 Array = NDArray[np.float64]
 
+ROUNDING = 1e-9
+
 
 def ground_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
     """The network with every curve that is to come from data as a table of searched knots.
@@ -40,7 +42,9 @@ def correct_ends(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
         at, force = np.array(curve.at), np.array([value.number for value in curve.values])
         line = Backbone(at, force, np.zeros(at.size), 0.0, True, 1)
         corrected = correct_backbone(line, slow.drive.displacement, slow.force, simulated).force
-        covered = (at >= slow.drive.displacement.min()) & (at <= slow.drive.displacement.max())
+        low, high = slow.drive.displacement.min(), slow.drive.displacement.max()
+        # a knot at an end of the loop belongs to it, whatever its last digit
+        covered = (at >= low - ROUNDING * (high - low)) & (at <= high + ROUNDING * (high - low))
         spec = spec.with_curve(path, table_of(curve, at, np.where(covered, corrected, force)))
     return spec
 

@@ -47,9 +47,9 @@ class Objective:
     def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
         """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots move."""
         block = np.empty((1 + len(which), self.total))
+        parts, rows = self.parts
 
         def fill(number: int) -> None:
-            parts, rows = self.parts
             run, piece = self.runs[number], self.pieces[number]
             seen = self.network.observation(values).linear(
                 *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
@@ -63,7 +63,6 @@ class Objective:
                 block[1 + k, piece] = (other - seen[0])[run.first :]
             self._weigh(number, block)
 
-        self.parts  # noqa: B018  (built once, before threads share it)
         self._map(fill)
         return block[0], block[1:]
 

@@ -81,15 +81,22 @@ def with_ranges(spec: NetworkSpec, sizes: Sizes) -> NetworkSpec:
 def _ranged(value: Value, sizes: Sizes) -> Value:
     if value.bounds is not None:
         return value
+    low, high = _around(value, sizes) if value.scale == "linear" else _decades(value, sizes)
+    return replace(value, bounds=(low, high), number=float(np.clip(value.number, low, high)))
+
+
+def _around(value: Value, sizes: Sizes) -> tuple[float, float]:
     low, high = value.sensible
     found = sizes.of_unit(value.unit)
-    if value.scale == "linear":
-        if found or not np.isfinite([low, high]).all():
-            span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
-            low, high = max(low, value.number - span), min(high, value.number + span)
-    elif found:
-        reach = sizes.range_of(value.unit)
+    if found is None and np.isfinite(value.sensible).all():
+        return low, high
+    span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
+    return max(low, value.number - span), min(high, value.number + span)
+
+
+def _decades(value: Value, sizes: Sizes) -> tuple[float, float]:
+    low, high = value.sensible
+    reach = sizes.range_of(value.unit)
+    if reach:
         low, high = max(low, reach[0]), min(high, reach[1])
-    if value.scale == "log" and not (0.0 < low < high < np.inf):
-        low, high = value.number / 300.0, value.number * 300.0
-    return replace(value, bounds=(low, high), number=float(np.clip(value.number, low, high)))
+    return (low, high) if 0.0 < low < high < np.inf else (value.number / 300.0, value.number * 300.0)

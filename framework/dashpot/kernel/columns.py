@@ -12,6 +12,7 @@ from dashpot.data.drive import Drive
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
 from dashpot.kernel.curves import segment_of
+from dashpot.kernel.events import after_the_one_before, follow
 from dashpot.kernel.source import SEGMENT
 from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic
@@ -34,9 +35,10 @@ class Rows:
 
 def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive) -> Rows:
     """Everything of a network that depends on the drive alone. At the first sample no branch has a memory yet."""
-    samples = see_samples(drive)
-    columns = _evaluate(program, samples, drive.samples)
-    turns = _evaluate(program, see_turns(drive), drive.turn_step.size)
+    samples, turns = see_samples(drive), see_turns(drive)
+    before_samples, before_turns = follow(program.followers, drive, samples, turns)
+    columns = _evaluate(program, {**samples, **before_samples}, drive.samples)
+    turn_columns = _evaluate(program, {**turns, **before_turns}, drive.turn_step.size)
     index = np.empty((drive.samples, len(program.lookups)), dtype=np.int64)
     local = np.empty((drive.samples, len(program.lookups)))
     bases = table_bases(program, curves)
@@ -44,7 +46,7 @@ def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: 
         argument = np.broadcast_to(interpret([look.argument], samples)[0], (drive.samples,))
         segment, local[:, number] = segment_of(curves[look.curve], argument)
         index[:, number] = bases[look.curve] + SEGMENT * segment
-    return Rows(drive, columns, index, local, drive.turn_step, turns)
+    return Rows(drive, columns, index, local, drive.turn_step, turn_columns)
 
 
 def table_bases(program: Program, curves: Mapping[str, Characteristic]) -> dict[str, int]:
@@ -72,9 +74,7 @@ def see_samples(drive: Drive) -> dict[str, Array | float]:
 def see_turns(drive: Drive) -> dict[str, Array | float]:
     """The drive at its turning points; only rate-independent branches move there."""
     place, step = drive.turn_displacement, drive.turn_step
-    old = drive.displacement[step - 1]
-    second = np.flatnonzero(step[1:] == step[:-1]) + 1
-    old[second] = place[second - 1]
+    old = after_the_one_before(step, drive.displacement, place)
     return {"dt": drive.dt, "monotone.old": old, "monotone.new": place}
 
 

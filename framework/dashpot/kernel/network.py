@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.expr.interpret import interpret
+from dashpot.expr.node import Node, walk
+from dashpot.kernel.block import Block, aligned_copy
 from dashpot.kernel.columns import Rows, prepare_rows
 from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.layout import Passes, score_row
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.observe import Observation, read_observation
-from dashpot.kernel.source import WIDTH, print_source, rows
+from dashpot.kernel.source import WIDTH, print_source
 from dashpot.kernel.tiers import Program, sort_tiers
 from dashpot.kernel.trace import refuse_missing_numbers, trace_network
 from dashpot.model.network import Characteristic, NetworkSpec
@@ -52,6 +56,15 @@ class CompiledNetwork:
         return {f"{branch.name}.{key}": curve for branch in self.spec.leaves()
                 for key, curve in branch.characteristics().items()}  # fmt: skip
 
+    @cached_property
+    def rows(self) -> int:
+        """How many rows the workspace of a block has."""
+        return Passes.of(self.program).rows
+
+    @cached_property
+    def _recipe(self) -> list[Node]:
+        return walk(self.program.constants)
+
     def prepare(self, drive: Drive) -> Rows:
         """The part of the work that depends on the drive alone."""
         return prepare_rows(self.program, self.curves, drive)
@@ -62,13 +75,12 @@ class CompiledNetwork:
 
     def simulate(self, run: Rows, values: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
-        block = np.atleast_2d(self.start if values is None else values)
-        out = np.empty((block.shape[0], run.drive.samples))
-        for first, lanes, tables, workspace in self._blocks(run, block):
-            buffer = np.empty((run.drive.samples, lanes))
-            self.native.simulate(*_arguments(run, tables, workspace, lanes), buffer)
-            count = min(WIDTH, block.shape[0] - first)
-            out[first : first + count] = buffer.T[:count]
+        lanes = np.atleast_2d(self.start if values is None else values)
+        out = np.empty((lanes.shape[0], run.drive.samples))
+        for block in self._blocks(run.drive.dt, lanes):
+            buffer = np.empty((run.drive.samples, block.width))
+            self.native.simulate(*_arguments(run, block, block.fresh_workspace()), buffer)
+            out[block.place] = buffer.T[: block.count]
         return out[0] if values is None or np.ndim(values) == 1 else out
 
     def score(self, runs: Sequence[Rows], measured: Sequence[Array], weights: Sequence[Array], values: Array,
@@ -77,31 +89,38 @@ class CompiledNetwork:
 
         A lane whose force is not finite scores NaN.
         """
-        block, tasks = np.atleast_2d(values), list(zip(runs, measured, weights, strict=True))
-        if jobs == 1:
-            return np.array([self._score(block, *task) for task in tasks])
-        with ThreadPoolExecutor(jobs) as pool:
-            return np.array(list(pool.map(lambda task: self._score(block, *task), tasks)))
+        lanes = np.atleast_2d(values)
+        blocks = {dt: self._blocks(dt, lanes) for dt in {run.drive.dt for run in runs}}
 
-    def _score(self, block: Array, run: Rows, measured: Array, weight: Array) -> Array:
-        out = np.empty(block.shape[0])
-        last = WIDTH * rows(self.program)
-        for first, lanes, tables, workspace in self._blocks(run, block):
-            self.native.score(*_arguments(run, tables, workspace, lanes), measured, weight)
-            count = min(WIDTH, block.shape[0] - first)
-            out[first : first + count] = workspace[last : last + count]
+        def work(run: Rows, target: Array, weight: Array) -> Array:
+            return self._score(run, target, weight, blocks[run.drive.dt], lanes.shape[0])
+
+        if jobs == 1:
+            return np.array(list(map(work, runs, measured, weights)))
+        with ThreadPoolExecutor(jobs) as pool:
+            return np.array(list(pool.map(work, runs, measured, weights)))
+
+    def _score(self, run: Rows, measured: Array, weight: Array, blocks: Sequence[Block], count: int) -> Array:
+        out = np.empty(count)
+        for block in blocks:
+            workspace = block.fresh_workspace()
+            self.native.score(*_arguments(run, block, workspace), measured, weight)
+            out[block.place] = workspace[WIDTH * score_row(self.program) :][: block.count]
         return out
 
-    def _blocks(self, run: Rows, block: Array) -> Iterable[tuple[int, int, Array, Array]]:
-        for first in range(0, block.shape[0], WIDTH):
-            part = block[first : first + WIDTH]
-            lanes = min(WIDTH, -(-part.shape[0] // VECTOR) * VECTOR)
-            padded = np.concatenate([part, np.repeat(part[-1:], lanes - part.shape[0], axis=0)])
-            yield first, lanes, self._tables(padded), self._workspace(run.drive.dt, padded)
+    def _blocks(self, dt: float, lanes: Array) -> list[Block]:
+        return [self._block(dt, first, lanes[first : first + WIDTH]) for first in range(0, lanes.shape[0], WIDTH)]
+
+    def _block(self, dt: float, first: int, lanes: Array) -> Block:
+        count = lanes.shape[0]
+        width = -(-count // VECTOR) * VECTOR
+        padded = np.concatenate([lanes, np.repeat(lanes[-1:], width - count, axis=0)])
+        return Block(first, count, width, aligned_copy(self._tables(padded)), self._workspace(dt, padded))
 
     def _workspace(self, dt: float, lanes: Array) -> Array:
-        space = np.zeros((rows(self.program) + 1, WIDTH))
-        found = interpret(list(self.program.constants), {"dt": dt, **dict(zip(self.paths, lanes.T, strict=True))})
+        space = np.zeros((self.rows, WIDTH))
+        known = {"dt": dt, **dict(zip(self.paths, lanes.T, strict=True))}
+        found = interpret(self.program.constants, known, nodes=self._recipe)
         for row, constant in zip(space, found, strict=False):
             row[: lanes.shape[0]] = constant
         return space.ravel()
@@ -127,5 +146,5 @@ def compile_network(spec: NetworkSpec) -> CompiledNetwork:
     return CompiledNetwork(spec, program, load_native(print_source(program)))
 
 
-def _arguments(run: Rows, tables: Array, workspace: Array, lanes: int) -> tuple:
-    return run.columns, run.index, run.local, run.turn_at, run.turn_columns, tables, workspace, lanes
+def _arguments(run: Rows, block: Block, workspace: Array) -> tuple[Any, ...]:
+    return run.columns, run.index, run.local, run.turn_at, run.turn_columns, block.tables, workspace, block.width

@@ -1,7 +1,8 @@
 """The branch-free functions that every generated kernel file begins with.
 
 A call into the C mathematics library inside the loop over lanes would keep it from being vectorised, so exp, log and
-the Wright omega function are written out. NaN passes through each of them; relative errors stay below 1e-14.
+the Wright omega function are written out. NaN passes through each of them; relative errors stay below 1e-14
+(3e-14 where the Wright omega function is below 1e-40).
 """
 
 PRELUDE = """
@@ -19,6 +20,15 @@ FUNCTION = {"fastmath": {"contract", "nsz", "arcp"}, "error_model": "numpy", "fo
 
 
 @intrinsic
+def use_full_vectors(context):
+    # LLVM halves the vectors of many processors unless a function asks for the full width; llvmlite has no word for it
+    def generate(context, builder, signature, arguments):
+        set.add(builder.function.attributes, '"prefer-vector-width"="512"')
+        return context.get_dummy_value()
+    return types.none(), generate
+
+
+@intrinsic
 def bits_of(context, value):
     def generate(context, builder, signature, arguments):
         return builder.bitcast(arguments[0], ir.IntType(64))
@@ -33,28 +43,31 @@ def from_bits(context, value):
 
 
 @njit(**FUNCTION)
+def two_to(shifted, f):
+    # 2**(n + f) with |f| <= 1/2, where shifted is n + 2**52 + 2**51: its low bits, n, are added to the exponent field
+    g = f * f
+    even = 7.070977866508138e-09
+    even = even * g + 1.3215451633221434e-06
+    even = even * g + 0.00015403530424776529
+    even = even * g + 0.009618129107618665
+    even = even * g + 0.24022650695910075
+    even = even * g + 1.0
+    odd = 1.0205905413765595e-07
+    odd = odd * g + 1.5252672924850737e-05
+    odd = odd * g + 0.0013333558200794592
+    odd = odd * g + 0.05550410866465167
+    odd = odd * g + 0.6931471805599462
+    return from_bits(bits_of(odd * f + even) + (bits_of(shifted) << 52))
+
+
+@njit(**FUNCTION)
 def exp(x):
-    # 2**n * exp(r) with |r| <= ln(2)/2; n is added to the exponent field
     x = -708.0 if x < -708.0 else x
     x = 709.0 if x > 709.0 else x
-    n = math.floor(x * 1.4426950408889634 + 0.5)
-    r = (x - n * 0.693145751953125) - n * 1.4286068203094173e-06
-    p = 1.6059043836821613e-10
-    p = p * r + 2.08767569878681e-09
-    p = p * r + 2.505210838544172e-08
-    p = p * r + 2.755731922398589e-07
-    p = p * r + 2.7557319223985893e-06
-    p = p * r + 2.48015873015873e-05
-    p = p * r + 0.0001984126984126984
-    p = p * r + 0.001388888888888889
-    p = p * r + 0.008333333333333333
-    p = p * r + 0.041666666666666664
-    p = p * r + 0.16666666666666666
-    p = p * r + 0.5
-    p = p * r + 1.0
-    p = p * r + 1.0
-    # the low bits of n + 2**52 + 2**51 are n itself
-    return from_bits(bits_of(p) + (bits_of(n + 6755399441055744.0) << 52))
+    shifted = x * 1.4426950408889634 + 6755399441055744.0
+    n = shifted - 6755399441055744.0
+    rest = (x - n * 0.693145751953125) - n * 1.4286068203094173e-06
+    return two_to(shifted, rest * 1.4426950408889634)
 
 
 @njit(**FUNCTION)
@@ -80,33 +93,39 @@ def log(x):
 
 
 @njit(**FUNCTION)
-def wrightomega(p):
-    # L + exp(L) = p. Start: rational between -5 and 24, p below, log p - log p/p above with log read off the bits;
-    # then two Halley steps, the second one with the exponential carried over by its series
-    inside = -5.0 if p < -5.0 else p
-    inside = 24.0 if inside > 24.0 else inside
-    top = ((0.009156943182636457 * inside + 0.049618445252901794) * inside + 0.5073029828920402) * inside
-    low = ((0.0018984142398111993 * inside + 0.03854019487630284) * inside + 0.2250352705204395) * inside
-    count = from_bits((bits_of(p) >> 20) + 4841369599423283200) - 4503599627370496.0
-    rough = (count * 2.3283064365386963e-10 - 1022.957) * 0.6931471805599453
-    start = (top - 0.5694869514647896) / (low + 1.0)
-    start = p if p < -5.0 else start
-    start = rough - rough / p if p > 24.0 else start
-    power = exp(start)
-    miss = (start + power - p) / (1.0 + power)
-    shift = -miss / (1.0 - 0.5 * miss * power / (1.0 + power))
-    grow = 0.0001984126984126984
-    grow = grow * shift + 0.001388888888888889
-    grow = grow * shift + 0.008333333333333333
-    grow = grow * shift + 0.041666666666666664
-    grow = grow * shift + 0.16666666666666666
-    grow = grow * shift + 0.5
-    grow = grow * shift + 1.0
-    power = power * (grow * shift + 1.0)
-    start = start + shift
-    miss = (start + power - p) / (1.0 + power)
-    shift = miss + 0.5 * miss * miss * power / (1.0 + power)
-    return power * (1.0 - shift + 0.5 * shift * shift)
+def wrightomega_below_24(p):
+    # y = exp(L) with L + exp(L) = p. Start: log2(y) to 3e-4, rational between -8 and 24, below a straight line. Then
+    # the series of y around the start, in m and in b = dL/dp there; what is left out is m**4/24
+    low = -8.0 if p < -8.0 else p
+    p = -700.0 if p < -700.0 else p
+    top = 0.00011072075573655662
+    top = top * low + 0.0017453797235457513
+    top = top * low + 0.033564115415736305
+    top = top * low + 0.08235211367797804
+    top = top * low + 0.7010005474163719
+    top = top * low - 0.8186519570288853
+    bottom = 1.4265236442888172e-05
+    bottom = bottom * low + 0.0005511463825132435
+    bottom = bottom * low + 0.007771445050429686
+    bottom = bottom * low + 0.07218180668419655
+    bottom = bottom * low + 0.268335298843771
+    bottom = bottom * low + 1.0
+    start = top / bottom + (p - low) * 1.4426950408889634
+    shifted = start + 6755399441055744.0
+    y = two_to(shifted, start - (shifted - 6755399441055744.0))
+    b = 1.0 / (1.0 + y)
+    m = ((p - start * 0.6931471805599453) - y) * b
+    return y + y * m * (1.0 + b * m * (0.5 + m * (0.5 * b - 0.3333333333333333)))
+
+
+@njit(**FUNCTION)
+def wrightomega_above_24(p):
+    # y + log(y) = p by Newton's method
+    y = p - log(p)
+    y = y * (1.0 + p - log(y)) / (1.0 + y)
+    y = y * (1.0 + p - log(y)) / (1.0 + y)
+    y = y * (1.0 + p - log(y)) / (1.0 + y)
+    return y if p < math.inf else p
 
 
 @njit(**FUNCTION)
@@ -126,4 +145,37 @@ def sign(a):
     side = 1.0 if a > 0.0 else 0.0
     side = -1.0 if a < 0.0 else side
     return a if a != a else side
+
+
+# the long functions on rows of the workspace: from row ``source`` on, every ``step``-th; answers from ``target`` on
+@njit(**FUNCTION)
+def exp_rows(w, source, step, target, onward, rows, lanes):
+    use_full_vectors()
+    for r in range(rows):
+        for l in range(lanes):
+            w[target + onward * r + l] = exp(w[source + step * r + l])
+
+
+@njit(**FUNCTION)
+def log_rows(w, source, step, target, onward, rows, lanes):
+    use_full_vectors()
+    for r in range(rows):
+        for l in range(lanes):
+            w[target + onward * r + l] = log(w[source + step * r + l])
+
+
+@njit(**FUNCTION)
+def wrightomega_rows(w, source, step, target, onward, rows, lanes):
+    use_full_vectors()
+    above = False
+    for r in range(rows):
+        for l in range(lanes):
+            above |= w[source + step * r + l] > 24.0
+            w[target + onward * r + l] = wrightomega_below_24(w[source + step * r + l])
+    if above:
+        for r in range(rows):
+            for l in range(lanes):
+                p = w[source + step * r + l]
+                y = w[target + onward * r + l]
+                w[target + onward * r + l] = wrightomega_above_24(p) if p > 24.0 else y
 """

@@ -1,8 +1,8 @@
 """Printing a sorted network as a self-contained file of numba code.
 
 Time is the outer loop, lanes the inner one. Everything a lane owns lies in one flat workspace, 64 lanes a row, so that
-the compiler sees constant distances and vectorises. The first loop of a step runs only at turning points of the drive
-and moves the states of rate-independent branches; the second one makes the step.
+the compiler sees constant distances and vectorises. At turning points of the drive only the states of rate-independent
+branches move; then comes the step itself. Where an event is due, states are corrected before.
 """
 
 from __future__ import annotations
@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from typing import Literal
 
 from dashpot.expr.node import Node, is_logical
+from dashpot.kernel.layout import Layout, Passes, score_row
 from dashpot.kernel.prelude import PRELUDE
+from dashpot.kernel.stages import Stage
 from dashpot.kernel.tiers import Program
 
 WIDTH = 64
@@ -23,9 +24,9 @@ _INFIX = {
     "add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**", "less": "<", "less_equal": "<=",
     "greater": ">", "greater_equal": ">=", "equal": "==", "not_equal": "!=", "logical_and": "&", "logical_or": "|",
 }  # fmt: skip
-_CALLS = {"exp": "exp", "log": "log", "wrightomega": "wrightomega", "minimum": "minimum", "maximum": "maximum",
-          "sign": "sign", "absolute": "abs", "sqrt": "math.sqrt", "expm1": "math.expm1", "log1p": "math.log1p",
-          "tanh": "math.tanh", "sin": "math.sin", "cos": "math.cos"}  # fmt: skip
+_CALLS = {"minimum": "minimum", "maximum": "maximum", "sign": "sign", "absolute": "abs", "sqrt": "math.sqrt",
+          "expm1": "math.expm1", "log1p": "math.log1p", "tanh": "math.tanh", "sin": "math.sin",
+          "cos": "math.cos"}  # fmt: skip
 
 _ARGUMENTS = "columns, index, local, turn_at, turn_columns, tables, w, lanes"
 _TYPES = "float64[:,::1], int64[:,::1], float64[:,::1], int64[::1], float64[:,::1], float64[::1], float64[::1], int64"
@@ -35,119 +36,111 @@ def print_source(program: Program) -> str:
     """The source file of a network: the functions ``simulate`` and ``score``.
 
     Both take ``columns`` (samples, columns), ``index`` and ``local`` (samples, lookups), ``turn_at`` (turns,),
-    ``turn_columns`` (turns, columns), ``tables``, the workspace ``w`` and the number of ``lanes`` in it.
-    ``simulate`` fills ``out`` (samples, lanes); ``score`` adds weight * (force - measured)^2 to the last row of ``w``.
+    ``turn_columns`` (turns, columns), ``tables``, the workspace ``w`` and the number of ``lanes`` in it, in eights.
+    ``simulate`` fills ``out`` (samples, lanes); ``score`` adds weight * (force - measured)^2 to its row of ``w``.
     """
-    names = _Names(program)
-    last = WIDTH * names.rows
-    store = [f"out[k, l] = {names.of(program.force)}"]
-    add = [f"miss = {names.of(program.force)} - target",
-           f"w[{last} + l] = w[{last} + l] + weight[k] * (miss * miss)"]  # fmt: skip
+    passes, gather = Passes.of(program), f"w[{WIDTH * score_row(program)} + l]"
+    store = ["out[k, l] = {force}"]
+    add = ["miss = {force} - target", f"{gather} = {gather} + weigh * (miss * miss)"]
+    begin = ["target = measured[k]", "weigh = weight[k]"]
     return "\n".join([
         f'"""Network kernel: {len(program.states)} states, {len(program.constants)} constants."""',
         PRELUDE,
-        _function("simulate", ", out", ", float64[:,::1]", names, store, ""),
-        _function("score", ", measured, weight", ", float64[::1], float64[::1]", names, add, "target = measured[k]"),
+        _function("simulate", ", out", ", float64[:,::1]", [], _passes(program, passes, store)),
+        _function("score", ", measured, weight", ", float64[::1], float64[::1]", begin, _passes(program, passes, add)),
     ])  # fmt: skip
 
 
-def rows(program: Program) -> int:
-    """Rows of the workspace before the one of the score: constants, then states."""
-    return len(program.constants) + len(program.states)
+def _function(name: str, extra: str, types: str, begin: Sequence[str], body: Sequence[str]) -> str:
+    # the mask tells the compiler that no lane is left over when vectors are full
+    lines = [f'@njit("void({_TYPES}{types})", cache=True, **LOOP)', f"def {name}({_ARGUMENTS}{extra}):",
+             "    use_full_vectors()", "    lanes = lanes & -8", "    m = 0",
+             "    for k in range(columns.shape[0]):"]  # fmt: skip
+    return _renumber("\n".join([*lines, *_indent(8, [*begin, *body])])) + "\n"
 
 
-# where the loop finds a node: printed as it is, hoisted per lane, hoisted per sample, a memory, a table, or computed
-_Kind = Literal["number", "lane", "drive", "state", "table", "result"]
+def _passes(program: Program, passes: Passes, ending: Sequence[str]) -> list[str]:
+    lines: list[str] = []
+    if passes.turn:
+        turn = [*_correction(program, passes, "turn_columns[m"), *_pass(passes.turn, "turn_columns[m", []), "m += 1"]
+        lines += ["while m < turn_at.shape[0] and turn_at[m] == k:", *_indent(4, turn)]
+    return [*lines, *_correction(program, passes, "columns[k"), *_pass(passes.step, "columns[k", ending)]
 
 
-class _Names:
-    """Which name every node has in the printed loop."""
+def _correction(program: Program, passes: Passes, column: str) -> list[str]:
+    if not passes.correct:
+        return []
+    due = [f"{column}, {passes.correct.columns[event.serial]}] != 0.0" for event in program.events]
+    return [f"if {' or '.join(due)}:", *_indent(4, _pass(passes.correct, column, []))]
 
-    def __init__(self, program: Program) -> None:
-        self.program = program
-        self.constants = {node.serial: number for number, node in enumerate(program.constants)}
-        self.columns = {node.serial: number for number, node in enumerate(program.columns)}
-        self.states = {name: len(self.constants) + number for number, name in enumerate(program.states)}
-        self.lookups = {(look.curve, look.argument.serial): number for number, look in enumerate(program.lookups)}
-        self.rows = rows(program)
 
-    def kind(self, node: Node) -> _Kind:
-        if node.operation == "constant":
-            return "number"
-        if node.serial in self.constants:
-            return "lane"
-        if node.serial in self.columns:
-            return "drive"
+def _pass(layout: Layout, column: str, ending: Sequence[str]) -> list[str]:
+    *early, last = layout.stages
+    lines = []
+    for stage in early:
+        lines += _loop(layout, stage, column, [])
+        lines += _calls(layout, stage)
+    moved = [f"w[{WIDTH * row} + l] = {_name(layout, node)}" for row, node in layout.moved()]
+    force = _name(layout, layout.force) if layout.force is not None else ""
+    return lines + _loop(layout, last, column, [*moved, *(line.format(force=force) for line in ending)])
+
+
+def _loop(layout: Layout, stage: Stage, column: str, ending: Sequence[str]) -> list[str]:
+    head: list[str] = []
+    body: list[str] = []
+    for node in stage.reads:
+        if layout.kind(node) == "drive":
+            head += [f"{_name(layout, node)} = {column}, {layout.columns[node.serial]}]{_truth(node)}"]
+        elif layout.kind(node) != "number":
+            body += [f"{_name(layout, node)} = w[{WIDTH * layout.row(node)} + l]{_truth(node)}"]
+    for node in stage.nodes:
         if node.operation == "table":
-            return "table"
-        return "state" if node.operation == "symbol" else "result"
-
-    def of(self, node: Node) -> str:
-        kind = self.kind(node)
-        if kind == "number":
-            return _number(node.payload)
-        if kind == "lane":
-            return f"a{self.constants[node.serial]}"
-        if kind == "drive":
-            return f"c{self.columns[node.serial]}"
-        return f"z{self.states[node.payload]}" if kind == "state" else f"t{node.serial}"
-
-    def row(self, node: Node) -> int:
-        """The row of the workspace that holds a constant or a state."""
-        return self.constants[node.serial] if self.kind(node) == "lane" else self.states[node.payload]
-
-    def inner(self, turning: bool) -> list[Node]:
-        """The nodes that the loop has to compute or load, arguments first."""
-        found: dict[int, Node] = {}
-        stack = [(root, False) for root in reversed(self.program.roots(turning))]
-        while stack:
-            node, ready = stack.pop()
-            if node.serial in found or self.kind(node) == "number":
-                continue
-            if ready or self.kind(node) != "result":
-                found[node.serial] = node
-            else:
-                stack.append((node, True))
-                stack.extend((argument, False) for argument in reversed(node.arguments))
-        return list(found.values())
-
-
-def _function(name: str, extra: str, types: str, names: _Names, ending: Sequence[str], beginning: str) -> str:
-    lines = [f'@njit("void({_TYPES}{types})", cache=True, **LOOP)', f"def {name}({_ARGUMENTS}{extra}):"]
-    if names.program.turning:
-        lines += ["    m = 0"]
-    lines += ["    for k in range(columns.shape[0]):"]
-    if names.program.turning:
-        lines += ["        while m < turn_at.shape[0] and turn_at[m] == k:",
-                  *_indent(12, _loop(names, True, [])), "            m += 1"]  # fmt: skip
-    if beginning:
-        lines += [f"        {beginning}"]
-    lines += _indent(8, _loop(names, False, ending))
-    return _renumber("\n".join(lines)) + "\n"
-
-
-def _loop(names: _Names, turning: bool, ending: Sequence[str]) -> list[str]:
-    nodes = names.inner(turning)
-    program = names.program
-    row, place = ("turn_columns", "m") if turning else ("columns", "k")
-    head = [_loaded(n, names, f"{row}[{place}, {names.columns[n.serial]}]") for n in nodes if names.kind(n) == "drive"]
-    body = [_loaded(n, names, f"w[{WIDTH * names.row(n)} + l]") for n in nodes if names.kind(n) in ("lane", "state")]
-    for node in nodes:
-        if names.kind(node) == "table":
-            number = names.lookups[node.payload[0], node.arguments[0].serial]
+            number = layout.lookups[node.payload[0], node.arguments[0].serial]
             head += [f"h{number} = tables[index[k, {number}] : index[k, {number}] + {SEGMENT}]",
                      f"u{number} = local[k, {number}]"]  # fmt: skip
-            body += [f"{names.of(node)} = {_cubic(number)}"]
-        elif names.kind(node) == "result":
-            body += [f"{names.of(node)} = {_expression(node, names)}"]
-    states = program.turning if turning else program.states
-    body += [f"w[{WIDTH * names.states[s]} + l] = {names.of(program.updates[s])}" for s in states]
-    return [*head, "for l in range(lanes):", *_indent(4, [*body, *ending])]
+            body += [f"{_name(layout, node)} = {_cubic(number)}"]
+        else:
+            body += [f"{_name(layout, node)} = {_expression(layout, node)}"]
+    body += [f"w[{WIDTH * layout.row(node)} + l] = {_name(layout, node)}" for node in stage.nodes
+             if node.serial in layout.kept]  # fmt: skip
+    return [*head, "for l in range(lanes):", *_indent(4, [*body, *ending])] if stage.nodes or ending else []
 
 
-def _loaded(node: Node, names: _Names, home: str) -> str:
-    # what is hoisted is kept as a number, also where it is true or false
-    return f"{names.of(node)} = {home}" + (" != 0.0" if is_logical(node) else "")
+def _calls(layout: Layout, stage: Stage) -> list[str]:
+    # calls of the same function, whose rows follow one another at equal distances, are one call
+    runs: list[tuple[str, list[tuple[int, int]]]] = []
+    for node in stage.calls:
+        rows = layout.row(node.arguments[0]), layout.row(node)
+        if runs and runs[-1][0] == node.operation and _continues(runs[-1][1], rows):
+            runs[-1][1].append(rows)
+        else:
+            runs.append((node.operation, [rows]))
+    return [f"{operation}_rows(w, {_places(run)}, {len(run)}, lanes)" for operation, run in runs]
+
+
+def _continues(run: Sequence[tuple[int, int]], rows: tuple[int, int]) -> bool:
+    return len(run) == 1 or all(2 * run[-1][k] - run[-2][k] == rows[k] for k in (0, 1))
+
+
+def _places(run: Sequence[tuple[int, int]]) -> str:
+    ends = run[1] if len(run) > 1 else run[0]
+    return ", ".join(f"{WIDTH * first}, {WIDTH * (second - first)}" for first, second in zip(run[0], ends, strict=True))
+
+
+def _name(layout: Layout, node: Node) -> str:
+    kind = layout.kind(node)
+    if kind == "number":
+        return _number(node.payload)
+    if kind == "lane":
+        return f"a{layout.constants[node.serial]}"
+    if kind == "drive":
+        return f"c{layout.columns[node.serial]}"
+    return f"z{layout.states[node.payload]}" if kind == "state" else f"t{node.serial}"
+
+
+def _truth(node: Node) -> str:
+    # the workspace and the columns hold numbers, also for what is true or false
+    return " != 0.0" if is_logical(node) else ""
 
 
 def _number(value: float | bool) -> str:
@@ -161,8 +154,8 @@ def _cubic(number: int) -> str:
     return f"{terms[0]} + u{number} * ({terms[1]} + u{number} * ({terms[2]} + u{number} * {terms[3]}))"
 
 
-def _expression(node: Node, names: _Names) -> str:
-    arguments = [names.of(argument) for argument in node.arguments]
+def _expression(layout: Layout, node: Node) -> str:
+    arguments = [_name(layout, argument) for argument in node.arguments]
     if node.operation == "where":
         return f"({arguments[1]} if {arguments[0]} else {arguments[2]})"
     if node.operation == "negative":

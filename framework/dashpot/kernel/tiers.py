@@ -12,11 +12,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntFlag
 
-from dashpot.expr.node import Node, apply, constant, table, walk
-from dashpot.kernel.trace import RATES, TracedBranch
+from dashpot.expr.node import Node, apply, constant, symbol, table, walk
+from dashpot.kernel.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
+from dashpot.kernel.trace import TracedBranch
 
 ONE, ZERO = constant(1.0), constant(0.0)
-DRIVE_SYMBOLS = {f"{sight}.{key}" for sight in ("still", "path", "monotone") for key in ("old", "new", *RATES)}
 
 
 class Tier(IntFlag):
@@ -38,45 +38,76 @@ class Lookup:
 
 @dataclass(frozen=True)
 class Program:
-    """A network ready to be printed: what is hoisted, and the roots of the inner loop."""
+    """A network ready to be printed: what is hoisted, and what the passes over the lanes compute.
+
+    A step computes ``force`` and ``updates``; at a turning point the states in ``turning`` alone move. Where one of the
+    ``events`` is true, ``corrections`` of old states come first.
+    """
 
     columns: tuple[Node, ...]
     constants: tuple[Node, ...]
     lookups: tuple[Lookup, ...]
-    states: tuple[str, ...]
+    followers: Mapping[str, Node]
     force: Node
     updates: Mapping[str, Node]
     turning: tuple[str, ...]
-    tiers: Mapping[int, Tier]
+    events: tuple[Node, ...]
+    corrections: Mapping[str, Node]
 
-    def roots(self, turning: bool) -> list[Node]:
-        """What the loop computes: at a turning point the states of rate-independent branches only."""
-        if turning:
-            return [self.updates[name] for name in self.turning]
+    @property
+    def states(self) -> tuple[str, ...]:
+        """The memories of the lanes."""
+        return tuple(self.updates)
+
+    @property
+    def roots(self) -> list[Node]:
+        """What a step computes."""
         return [self.force, *self.updates.values()]
 
 
 def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
     """Regroup the laws of a network and decide what leaves the inner loop."""
-    states = tuple(name for branch in branches for name in branch.states)
     total = ZERO
     for branch in branches:
         total = total + branch.force
     laws = {name: node for branch in branches for name, node in branch.states.items()}
-    regroup = _Regrouping(set(states), _shared([total, *laws.values()]))
-    force = regroup(total)
-    updates = {name: regroup(node) for name, node in laws.items()}
-    turning = tuple(name for branch in branches if branch.sight == "monotone" for name in branch.states)
-    tiers = regroup.tiers
-    inner = [node for node in walk([force, *updates.values()]) if _is_inner(tiers[node.serial])]
-    edges = [argument for node in inner if node.operation != "table" for argument in node.arguments]
-    edges += [root for root in (force, *updates.values()) if not _is_inner(tiers[root.serial])]
+    followers = find_followers(laws)
+    states = tuple(name for name in laws if name not in followers)
+    known = {*DRIVE_SYMBOLS, *followers}
+    roots = merge_followers([total, *(laws[name] for name in states)], followers)
+    roots, corrections = split_events(roots, known)
+    events = _unique(correction.condition for correction in corrections)
+    before = [_corrected(correction, len(events) > 1) for correction in corrections]
+    regroup = _Regrouping(set(states), known, _shared([*roots, *before]))
+    force, *updates = [regroup(root) for root in roots]
+    corrected = {correction.state: regroup(node) for correction, node in zip(corrections, before, strict=True)}
+    for event in events:
+        regroup.settle(event)
+    everything = [force, *updates, *corrected.values()]
+    columns, constants, lookups = _hoist(everything, events, regroup.tiers)
+    turning = {name for branch in branches if branch.sight == "monotone" for name in branch.states}
     return Program(
-        columns=_unique(node for node in edges if tiers[node.serial] == Tier.DRIVE),
-        constants=_unique(node for node in edges if _is_lane(node, tiers[node.serial])),
-        lookups=tuple(Lookup(node.payload[0], node.arguments[0]) for node in inner if node.operation == "table"),
-        states=states, force=force, updates=updates, turning=turning, tiers=tiers,
+        columns, constants, lookups, followers, force, dict(zip(states, updates, strict=True)),
+        tuple(name for name in states if name in turning), events, corrected,
     )  # fmt: skip
+
+
+def _corrected(correction: Correction, among_others: bool) -> Node:
+    if not among_others:
+        return correction.then
+    return apply("where", correction.condition, correction.then, symbol(correction.state))
+
+
+def _hoist(roots: Sequence[Node], events: Sequence[Node], tiers: Mapping[int, Tier],
+           ) -> tuple[tuple[Node, ...], tuple[Node, ...], tuple[Lookup, ...]]:  # fmt: skip
+    inner = [node for node in walk(roots) if _is_inner(tiers[node.serial])]
+    edges = [argument for node in inner if node.operation != "table" for argument in node.arguments]
+    edges += [root for root in roots if not _is_inner(tiers[root.serial])]
+    return (
+        _unique([*(node for node in edges if tiers[node.serial] == Tier.DRIVE), *events]),
+        _unique(node for node in edges if _is_lane(node, tiers[node.serial])),
+        tuple(Lookup(node.payload[0], node.arguments[0]) for node in inner if node.operation == "table"),
+    )
 
 
 def _shared(roots: Sequence[Node]) -> set[int]:
@@ -102,9 +133,8 @@ def _unique(nodes: Iterable[Node]) -> tuple[Node, ...]:
 class _Regrouping:
     """Rebuilds a graph bottom up with the factors and terms of each tier together."""
 
-    def __init__(self, states: set[str], shared: set[int]) -> None:
-        self.states = states
-        self.shared = shared
+    def __init__(self, states: set[str], known: set[str], shared: set[int]) -> None:
+        self.states, self.known, self.shared = states, known, shared
         self.kept: set[int] = set()
         self.tiers: dict[int, Tier] = {}
         self.done: dict[int, Node] = {}
@@ -128,7 +158,7 @@ class _Regrouping:
         if node.operation == "symbol":
             if node.payload in self.states:
                 return Tier.STATE
-            return Tier.NOTHING if node.payload == "dt" else Tier.DRIVE if node.payload in DRIVE_SYMBOLS else Tier.LANE
+            return Tier.NOTHING if node.payload == "dt" else Tier.DRIVE if node.payload in self.known else Tier.LANE
         found = Tier.LANE if node.operation == "table" else Tier.NOTHING
         for argument in node.arguments:
             found |= self.tiers[argument.serial]
@@ -156,12 +186,26 @@ class _Regrouping:
         for group in groups:
             self.settle(group)
         inner = [part for part in above.values() if part is not ONE]
+        if len(inner) == 1 and hoisted == [Tier.LANE] and not below:
+            spread = self.spread(groups[0], inner[0])
+            if spread is not None:
+                return spread
         total = groups[0] if groups else ONE
         for part in (*groups[1:], *inner):
             total = apply("multiply", total, part)
         for part in below.values():
             total = apply("divide", total, part)
         return total
+
+    def spread(self, factor: Node, total: Node) -> Node | None:
+        """A lane's factor times a sum, where every term holds a number of the lane that can take the factor in."""
+        if total.operation in ("add", "subtract") and total.serial not in self.kept:
+            first, second = (self.spread(factor, argument) for argument in total.arguments)
+            return None if first is None or second is None else apply(total.operation, first, second)
+        if total.operation != "multiply" or self.tiers[total.arguments[0].serial] != Tier.LANE:
+            return None
+        lane, rest = total.arguments
+        return apply("multiply", self.settle(apply("multiply", factor, lane)), rest)
 
     def collect_factors(self, node: Node, above: dict[Tier, Node], below: dict[Tier, Node]) -> None:
         self.settle(node)

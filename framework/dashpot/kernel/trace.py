@@ -16,6 +16,7 @@ from dashpot.text.problem import InputError, Place
 # point to turning point
 Sight = Literal["still", "path", "monotone"]
 
+STATE_MARK = "|"  # between the branch and the state in the symbol of a state
 RATES = ("velocity_old", "velocity_new", "acceleration")
 
 
@@ -94,7 +95,7 @@ def _see(branch: Branch) -> TracedBranch:
 def _trace(branch: Branch, sight: Sight) -> TracedBranch:
     motion = Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
     declared = branch.element.declares
-    states = {key: f"{branch.name}|{key}" for key in declared.states}
+    states = {key: f"{branch.name}{STATE_MARK}{key}" for key in declared.states}
     response = branch.element().step(
         motion,
         SimpleNamespace(**{key: symbol(name) for key, name in states.items()}),

@@ -125,6 +125,11 @@ class NetworkSpec:
             raise ValueError(f"expected a network that was read from a text, got '{self.name}', which was built")
         return self.document.text
 
+    @property
+    def file(self) -> str | None:
+        """The file of that text: what the network uses lies beside it. None for a text without one."""
+        return self.document.file if self.document else None
+
     def leaves(self) -> tuple[Branch, ...]:
         """Every branch that holds an element, in the order of the file."""
         return tuple(self.root.leaves())

@@ -21,9 +21,7 @@ def write_out_uses(spec: NetworkSpec) -> tuple[Document, NetworkSpec]:
     A network whose searched numbers and curves from data all stand in its own text stays as it is. ValueError for one
     that was not read from a text.
     """
-    document = spec.document
-    if document is None:
-        raise ValueError(f"expected a network that was read from a text, got '{spec.name}' without one")
+    document = Document.parse(spec.text, spec.file)
     curves = [curve.node for curve in spec.data_curves().values()]
     nodes = [*(slot.value.node for slot in spec.slots() if slot.value.searched), *curves]
     if all(node is None or node.place.file == document.file for node in nodes):

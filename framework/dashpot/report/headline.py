@@ -15,6 +15,8 @@ Json = Mapping[str, Any]
 # where an error is taken from, best first
 RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"}
 
+WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
+
 
 @dataclass(frozen=True)
 class Errors:
@@ -49,12 +51,21 @@ def headline(diagnosis: Json) -> str:
 
 
 def cause_phrase(cause: Json) -> str:
-    """The cause with its first parameter: what, how much, how sure."""
-    parameters = list((cause.get("parameters") or {}).values())
-    if not parameters or parameters[0].get("value") is None:
+    """The cause with its first parameter: what, how much, how sure; no number that says nothing."""
+    parameters = cause.get("parameters") or {}
+    branches = {name.rpartition(".")[0] for name in parameters}
+    if len(branches) > 1:
+        return f"{cause_title(cause)} in {len(branches)} branches"
+    first = next(iter(parameters.values()), {})
+    if first.get("value") is None or not _is_known(first):
         return cause_title(cause)
-    first = parameters[0]
     return f"{cause_title(cause)} of {with_interval(first['value'], first.get('interval'), first.get('unit') or '')}"
+
+
+def _is_known(parameter: Json) -> bool:
+    """Whether the interval of a value leaves anything of it."""
+    low, high = parameter.get("interval") or (0.0, 0.0)
+    return high - low <= WIDE * abs(parameter["value"])
 
 
 def error_phrase(errors: Errors) -> str:

@@ -46,15 +46,7 @@ def rich_table(grid: Grid) -> Table:
     from rich.table import Table
     from rich.text import Text
 
-    caption = Text(grid.caption) if grid.caption else None
-    table = Table(
-        title=Text(grid.title),
-        title_justify="left",
-        caption=caption,
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-        pad_edge=False,
-    )
+    table = Table(title=Text(grid.title), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in grid.columns:
         table.add_column(Text(column.heading), justify="left" if column.digits is None else "right")
     for row in grid.rows:
@@ -63,11 +55,14 @@ def rich_table(grid: Grid) -> Table:
 
 
 def plain_table(grid: Grid, width: int = 120) -> str:
-    """The grid as plain text, for files and pipes."""
+    """The grid with its caption as plain text, for files and pipes."""
     from rich.console import Console
 
     lines = io.StringIO()
-    Console(file=lines, width=width, color_system=None, force_terminal=False).print(rich_table(grid))
+    console = Console(file=lines, width=width, color_system=None, force_terminal=False)
+    console.print(rich_table(grid))
+    if grid.caption:
+        console.print(grid.caption, markup=False, highlight=False)
     return "\n".join(line.rstrip() for line in lines.getvalue().splitlines()) + "\n"
 
 

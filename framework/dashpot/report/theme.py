@@ -97,10 +97,13 @@ DASHES = ("solid", "dash", "dot", "dashdot")
 
 
 def layout(height: int, **more: Any) -> dict[str, Any]:
-    """The frame all plots share: margins, face, legend above the plot on the left."""
+    """The frame all plots share: margins, face, legend above the plot on the left.
+
+    Above the titles of panels there is room for the buttons of the plot.
+    """
     return {
         "height": height,
-        "margin": {"l": 60, "r": 16, "t": 24, "b": 48},
+        "margin": {"l": 60, "r": 16, "t": 48 if any(more.get("annotations", ())) else 24, "b": 48},
         "paper_bgcolor": "@paper",
         "plot_bgcolor": "@paper",
         "font": {"family": FONT, "size": 13, "color": "@ink"},

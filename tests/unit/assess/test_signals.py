@@ -1,5 +1,7 @@
 """The evidence of a report groups runs by what they were meant to be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -46,3 +48,11 @@ def test_sweeps_are_cut_into_the_same_bands():
     bands = {name: [row["band"] for row in rows if row["run"] == name] for name in "ab"}
     assert bands["b"] == [(0, 5), (5, 10), (10, 15), (15, 20), (20, 25)]
     assert bands["a"] == bands["b"][:3]
+
+
+def test_the_map_leaves_out_the_warm_up_as_all_errors_do():
+    """A residual that ends with the warm-up is not shown."""
+    each = run("a", 1e-3, kind="harmonic")
+    each = replace(each, settings={**each.settings, "warm_up": 2.0})
+    (row,) = signal_evidence((each,), {"before": {"a": np.where(TIME < 2.0, 1e3, 3.0)}})["misfit_map"]
+    assert row["rmse"]["before"] == pytest.approx(3.0)

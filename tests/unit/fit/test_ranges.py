@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from unit.fit.bench import network
 
 from dashpot.data.drive import drive_from_samples
-from dashpot.fit.ranges import ABOVE, BELOW, natural_sizes
+from dashpot.fit.ranges import ABOVE, BELOW, natural_sizes, with_ranges
 from dashpot.fit.scored import ScoredRun
 
 STEP = 1e-3
@@ -51,3 +52,52 @@ def test_a_quasi_static_run_says_nothing_about_the_size_of_dynamic_forces():
 def test_pure_numbers_and_dead_channels_have_no_natural_size():
     assert natural_sizes([harmonic(2e-3, 4.0, 3e5)]).of_unit("1") is None
     assert natural_sizes([harmonic(2e-3, 4.0, 0.0)]).of_unit("m/N") is None
+
+
+def ranged(branches: str, runs: list[ScoredRun], more: str = "") -> dict[str, tuple[float, float]]:
+    spec = with_ranges(network(branches, more), natural_sizes(runs))
+    return {slot.path: slot.value.bounds for slot in spec.slots() if slot.value.searched}
+
+
+RUNS = [harmonic(2e-3, 4.0, 3e5)]
+
+
+def test_bounds_of_the_file_stay_and_fixed_numbers_get_none():
+    found = ranged("it: {element: dahl, stiffness: {start: 5, bounds: [2, 9]}, limit: 3}", RUNS)
+    assert found == {"it.stiffness": (2.0, 9.0)}
+
+
+def test_a_logarithmic_number_is_searched_over_what_the_runs_can_feel_inside_what_makes_sense():
+    found = ranged("it: {element: maxwell, stiffness: {start: 5}, relaxation_time: {start: 5 ms}}", RUNS)
+    assert found["it.stiffness"] == pytest.approx((BELOW * 3e5, ABOVE * 3e5), rel=1e-3)
+    assert found["it.relaxation_time"] == pytest.approx((0.5 * STEP, STEP * TIME.size))
+    soft = ranged("it: {element: spring, stiffness: {start: 5}}", [harmonic(2e-3, 4.0, 100.0)])
+    assert soft["it.stiffness"][0] == 1.0
+
+
+def test_a_pure_number_is_searched_where_it_makes_sense():
+    branches = "it: {element: prandtl, stiffness: 5, limit: 5, sharpness: {start: 5}, exponent: {start: 0}}"
+    assert ranged(branches, RUNS) == {"it.sharpness": (0.1, 1e3), "it.exponent": (0.0, 4.0)}
+
+
+def test_a_linear_number_is_searched_to_both_sides():
+    low, high = ranged("it: {element: inerter, inertance: {start: 0}}", RUNS)["it.inertance"]
+    assert low == -high < 0.0
+    assert high <= 50.0
+
+
+def test_the_force_channel_is_searched_where_a_channel_may_be_wrong():
+    channel = "measurement: {force: {delay: {start: 0 s}, gain: {start: 1}}}\n"
+    found = ranged("it: {element: spring, stiffness: 5}", RUNS, channel)
+    assert found["measurement.force.gain"] == (0.2, 5.0)
+    assert -0.1 <= found["measurement.force.delay"][0] < 0.0 < found["measurement.force.delay"][1] <= 0.1
+
+
+def test_where_nothing_is_known_a_number_is_searched_around_its_start():
+    dead = [harmonic(2e-3, 4.0, 0.0)]
+    assert ranged("it: {element: spring, stiffness: {start: 600}}", dead)["it.stiffness"] == (1.0, 1e9)
+
+
+def test_a_start_outside_its_range_moves_to_the_nearest_end():
+    spec = with_ranges(network("it: {element: spring, stiffness: {start: 1e9}}"), natural_sizes(RUNS))
+    assert spec.slots()[0].value.number == spec.slots()[0].value.bounds[1] < 1e9

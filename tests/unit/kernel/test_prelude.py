@@ -14,6 +14,14 @@ def mapped(x, out):
     for k in range(x.size):
         out[k] = {name}(x[k])
 """
+ROWS = """
+@njit("void(float64[::1], float64[::1])")
+def mapped(x, out):
+    w = np.concatenate((x, np.empty(x.size)))
+    {name}_rows(w, 0, 0, x.size, 0, 1, x.size)
+    out[:] = w[x.size:]
+"""
+LONG = ("exp", "log", "wrightomega")
 PAIRED = """
 @njit("void(float64[::1], float64[::1], float64[::1])")
 def paired(x, y, out):
@@ -30,7 +38,8 @@ def run():
     def call(name: str, *arguments: np.ndarray) -> np.ndarray:
         if name not in made:
             space: dict = {}
-            exec(PRELUDE + (MAPPED if len(arguments) == 1 else PAIRED).format(name=name), space)
+            form = ROWS if name in LONG else MAPPED if len(arguments) == 1 else PAIRED
+            exec(PRELUDE + form.format(name=name), space)
             made[name] = space["mapped" if len(arguments) == 1 else "paired"]
         out = np.empty(arguments[0].size)
         made[name](*(np.ascontiguousarray(argument, dtype=float) for argument in arguments), out)

@@ -22,7 +22,7 @@ def program(branches: str) -> Program:
 def inner(program: Program) -> list[Node]:
     """What the loop over lanes computes."""
     hoisted = {node.serial for node in (*program.columns, *program.constants)}
-    found, stack = {}, program.roots(False)
+    found, stack = {}, program.roots
     while stack:
         node = stack.pop()
         if node.serial not in found and node.serial not in hoisted and node.arguments:
@@ -89,7 +89,7 @@ def test_regrouping_does_not_change_the_value():
 def test_what_is_used_twice_is_computed_once():
     found = program(DAHL)
     assert found.force is found.updates["it|force"]
-    assert len([node for node in walk(found.roots(False)) if node.operation == "exp"]) == 1
+    assert len([node for node in walk(found.roots) if node.operation == "exp"]) == 1
 
 
 def test_a_law_without_numbers_is_a_column():

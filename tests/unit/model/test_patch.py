@@ -211,7 +211,7 @@ def test_a_used_network_with_fixed_numbers_stays_where_it_is(tmp_path):
 
 
 def test_a_network_without_a_text_cannot_be_filled_in():
-    with pytest.raises(ValueError, match="expected a network that was read from a text, got 'bench'"):
+    with pytest.raises(ValueError, match="expected a network that was read from a text, got 'bench', which was built"):
         fill_numbers(replace(read(BLOCK), document=None), read(BLOCK), {})
 
 

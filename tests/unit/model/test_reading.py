@@ -166,6 +166,13 @@ def test_a_network_uses_another_one_beside_it(tmp_path):
     assert numbers(spec) == {"mount.core.stiffness": 3e3, "oil.damping": 3.0}
 
 
+def test_a_text_with_a_file_finds_what_lies_beside_it(tmp_path):
+    (tmp_path / "rubber.yaml").write_text(written("core: {element: elastic, stiffness: 3 N/mm}"))
+    spec = parse_network(written("mount: {use: rubber.yaml}"), ELEMENTS, str(tmp_path / "n.yaml"))
+    assert numbers(spec) == {"mount.core.stiffness": 3e3}
+    assert spec.file == str(tmp_path / "n.yaml")
+
+
 def test_the_force_channel_has_delay_gain_and_offset():
     spec = parse_network(HEAD + "  it: {element: elastic, stiffness: 1e3}\n"
                          "measurement:\n  force:\n    delay: {start: 1 ms}\n    offset: -20 N\n", ELEMENTS)  # fmt: skip

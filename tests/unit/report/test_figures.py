@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,6 +30,7 @@ def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
     return [
         figures.loops({run: {"time": time, "displacement": 1e-3 * time, "force": time}}, {label: {run: time}}),
         figures.dynamic_stiffness([curve | {"amplitude": 1e-3, "preload": 0.01}, curve]),
+        figures.steady_stiffness([steady(run, 1e-3, 2.0, label), steady(run, 2e-3, 2.0, label)]),
         figures.residual_traces({run: time}, {label: {run: time}}),
         figures.harmonic_bars({label: {run: [3.0, 2.0, 1.0]}}),
         figures.misfit_map([{"run": run, "band": (1.0, 3.0), "rmse": {label: 5.0}}]),
@@ -36,6 +38,12 @@ def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
         figures.gain_intervals([friction(title=label), relaxation(gain=None, gain_interval=None)]),
         figures.convergence_history({label: {"evaluations": [1, 2], "best": [9.0, 3.0]}}),
     ]
+
+
+def steady(run: str, amplitude: float, frequency: float, label: str = "before") -> dict[str, Any]:
+    response = {"stiffness": np.array([1e2 / amplitude]), "loss_angle": np.array([np.pi / 4])}
+    curve = {"run": run, "frequency": np.array([frequency]), "measured": response, "simulated": {label: response}}
+    return curve | {"amplitude": amplitude}
 
 
 def strings(item: object) -> Iterator[str]:
@@ -159,6 +167,51 @@ def test_the_misfit_map_puts_each_error_into_its_cell():
     (panel,) = figures.misfit_map(rows).plot["data"]
     assert panel["x"] == ["1–3 Hz", "3–25 Hz"]
     assert np.array_equal(panel["z"], [[1.0, np.nan], [np.nan, 2.0]], equal_nan=True)
+
+
+def test_simulations_of_one_band_stand_side_by_side():
+    rows = [{"run": run, "band": "whole run", "rmse": {"spring": 1.0, "gehmann": 2.0}} for run in "ab"]
+    (panel,) = figures.misfit_map(rows).plot["data"]
+    assert panel["x"] == ["spring", "gehmann"] and np.array_equal(panel["z"], [[1.0, 2.0]] * 2)
+
+
+def test_bands_stand_in_the_order_of_frequency_whatever_run_comes_first():
+    bands = ["whole run", (5.0, 10.0), (0.0, 5.0)]
+    rows = [{"run": run, "band": band, "rmse": {"before": 1.0}} for run, band in zip("abc", bands, strict=True)]
+    assert figures.misfit_map(rows).plot["data"][0]["x"] == ["0–5 Hz", "5–10 Hz", "whole run"]
+
+
+def test_many_models_are_mapped_in_rows_of_three():
+    rmse = {f"model {k}": 1.0 for k in range(7)}
+    layout = figures.misfit_map([{"run": "a", "band": (k, k + 1.0), "rmse": rmse} for k in (0.0, 1.0)]).plot["layout"]
+    assert len({tuple(axis["domain"]) for key, axis in layout.items() if key.startswith("yaxis")}) == 3
+
+
+def test_steady_runs_are_drawn_over_what_they_differ_in():
+    ladder = figures.steady_stiffness([steady("a", 1e-3, 2.0), steady("b", 2e-3, 2.001)])
+    assert ladder.title.endswith("over amplitude")
+    assert list(plotly_figure(ladder).data[0].x) == pytest.approx([1.0, 2.0])
+    assert list(plotly_figure(ladder).data[0].y) == pytest.approx([100.0, 50.0])
+    swept = figures.steady_stiffness([steady("a", 1e-3, 0.1), steady("b", 1e-3, 5.0)])
+    assert swept.title.endswith("over frequency") and swept.plot["layout"]["xaxis"]["type"] == "log"
+
+
+def test_sweeps_are_curves_and_steady_runs_are_points():
+    sweep = every_figure()[1]
+    both = figures.stiffness_figures([*EVIDENCE["dynamic_stiffness"], steady("s", 1e-3, 2.0)])
+    assert [figure.title for figure in both] == [sweep.title, "Dynamic stiffness and loss angle over frequency"]
+
+
+@pytest.mark.parametrize("make", ["loops", "harmonics", "stiffness", "residuals"])
+def test_the_series_asked_for_is_drawn_at_first(make):
+    made = {
+        "loops": lambda: figures.loops(**EVIDENCE["loops"], series=["after"]),
+        "harmonics": lambda: figures.harmonic_bars(EVIDENCE["harmonics"], ["after"]),
+        "stiffness": lambda: figures.dynamic_stiffness(EVIDENCE["dynamic_stiffness"], ["after"]),
+        "residuals": lambda: figures.residual_traces(**EVIDENCE["residuals"], series=["after"]),
+    }[make]()
+    visible = {trace["meta"]["series"] for trace in made.plot["data"] if trace["visible"] is True}
+    assert visible - {"measured"} == {"after"}
 
 
 def test_missing_numbers_are_null_and_never_nan():

@@ -88,3 +88,37 @@ def test_a_comparison_names_the_closest_model():
         "tire_model_5 is closest: 14.9 N of error, 1.0 × the noise floor (14.5 N)."
     )
     assert comparison_headline({"models": []}) == "No model could be compared."
+
+
+def test_a_cause_in_several_branches_is_not_given_the_number_of_one_of_them():
+    sliders = {
+        "limit": {"value": 9.0, "unit": "N"},
+        "stiffness": {"value": 5e3, "unit": "N/m"},
+        "friction_2.limit": {"value": 50.0, "unit": "N"},
+        "friction_2.stiffness": {"value": 1e3, "unit": "N/m"},
+    }
+    assert "is dry friction in 2 branches, missing" in headline(diagnosis(causes=[friction(parameters=sliders)]))
+
+
+def test_a_fault_of_a_channel_is_one_number():
+    lag = {"force.delay": {"value": 2e-3, "interval": [1e-3, 3e-3], "unit": "s"}}
+    fault = friction(cause="delay", title=None, **{"class": "measurement"}, parameters=lag)
+    assert "delay of 2.0 ms [1.0, 3.0], a fault" in headline(diagnosis(causes=[fault]))
+
+
+def test_a_number_that_the_data_leave_open_is_not_quoted():
+    unknown = {"limit": {"value": 9.0, "interval": [1e-3, 1e6], "unit": "N"}}
+    assert "is dry friction, missing" in headline(diagnosis(causes=[friction(parameters=unknown)]))
+
+
+def test_what_is_sure_comes_before_what_cannot_be_told_apart():
+    causes = [friction(gain=0.6), relaxation(accepted=True, indistinguishable_from=["delay", "friction"])]
+    said = headline(diagnosis(verdict="ambiguous", causes=causes))
+    assert "60 % of it is dry friction of 41 N [38, 44], missing in the model; a further part" in said
+    assert "more dry friction, relaxation of 160 ms [20, 900] and delay explain alike" in said
+
+
+def test_large_forces_are_given_in_kilonewtons():
+    rmse = {"before": {"held_out": 56311.8}, "after": {"held_out": 25617.2}}
+    said = headline(diagnosis(rmse=rmse, noise_floor={"value": 3626.0, "from": "repeats"}))
+    assert said.startswith("56.3 kN of error is 16 × the noise floor (3626 N)")

@@ -226,10 +226,26 @@ def test_a_comparison_shows_every_model_next_to_the_floor():
 
 
 def test_a_failed_model_keeps_its_row_and_says_why():
-    failed = {"name": "axle", "parameters": {}, "rmse": {"train": None, "held_out": None, "all": None}, "per_run": {}}
+    failed = {"name": "axle", "parameters": {}, "rmse": None, "nrmse": None, "per_run": {}}
     result = comparison() | {"models": [*comparison()["models"], failed | {"status": "did not converge"}]}
     html = render(comparison_page(result, {}))
     assert "did not converge" in html
+
+
+def test_of_many_models_only_the_best_is_drawn_at_first():
+    page = comparison_page(comparison(), comparison_evidence())
+    shown = [
+        {
+            choice["value"]
+            for group in groups
+            for choice in group["choices"]
+            if group["key"] == "series" and choice["shown"]
+        }
+        for section in page.sections
+        for part in section.parts
+        if isinstance(part, Figure) and (groups := part.plot["layout"].get("meta", {}).get("toggles"))
+    ]
+    assert shown and all(values - {"measured"} == {"tire_model_5"} for values in shown)
 
 
 def test_importing_the_report_loads_no_heavy_library():

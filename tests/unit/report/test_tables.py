@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from unit.report.report_samples import comparison, model
 
+from dashpot.report.grids import comparison_grid, parameters_grid
 from dashpot.report.parts import Column, Grid
 from dashpot.report.tables import plain_table, to_csv
 
@@ -58,3 +60,28 @@ def test_markup_in_a_name_is_shown_not_obeyed():
 def test_counts_are_not_given_decimals():
     columns = [Column("free", "free parameters", "", 3)]
     assert "12" in plain_table(Grid("", columns, [{"free": 12}])).split()
+
+
+def test_the_terminal_shows_what_is_said_below_a_table():
+    assert "where the noise comes from" in plain_table(Grid("Errors", COLUMNS, [], "where the noise comes from"))
+
+
+def test_parameters_stand_in_a_row_with_those_of_other_models():
+    one = model("one", 9.0) | {"parameters": {"a.limit": {"value": 9e3, "unit": "N"}, "c.gain": {"value": 2.0}}}
+    other = model("other", 9.0) | {
+        "parameters": {"a.limit": {"value": 3e4, "unit": "N"}, "b.time": {"value": 1e-3, "unit": "s"}}
+    }
+    grid = parameters_grid({"models": [one, other, model("failed", 1.0) | {"parameters": {}}]})
+    assert [row["parameter"] for row in grid.rows] == ["a.limit", "b.time", "c.gain"]
+    assert [column.title for column in grid.columns] == ["parameter", "unit", "one", "other"]
+    limit, time, gain = grid.rows
+    assert limit["unit"] == "kN" and (limit["model 0"], limit["model 1"]) == pytest.approx((9.0, 30.0))
+    assert (time["model 0"], time["model 1"]) == (None, pytest.approx(1.0))
+    assert gain["unit"] is None and gain["model 0"] == 2.0
+
+
+def test_a_model_that_failed_has_no_numbers_and_its_reason_below():
+    failed = {"name": "axle", "parameters": {}, "rmse": None, "nrmse": None, "per_run": {}, "status": "it fell apart"}
+    grid = comparison_grid(comparison() | {"models": [model("one", 9.0), failed]})
+    assert grid.rows[1]["train"] is None and grid.rows[1]["ratio"] is None
+    assert grid.caption.endswith("axle: it fell apart.")

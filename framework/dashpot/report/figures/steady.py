@@ -16,7 +16,7 @@ from dashpot.report.theme import axis, axis_number, layout, plain, series_color
 
 AMPLITUDE, FREQUENCY = "amplitude (mm)", "frequency (Hz)"
 WIDE = 20.0  # a range of more than this factor is drawn on a logarithmic axis
-SYMBOLS = ("x", "diamond-open", "square-open", "triangle-up-open", "cross", "star-open")
+SYMBOLS = ("diamond-open", "square-open", "triangle-up-open", "x-open", "cross-open", "star-open")
 
 
 def stiffness_figures(curves: Sequence[Curve], series: Sequence[str] = ()) -> list[Figure]:

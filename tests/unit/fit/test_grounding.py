@@ -1,0 +1,106 @@
+"""Curves taken out of the data."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.fit.bench import DT, network, run
+
+from dashpot.data.drive import drive_from_samples
+from dashpot.fit.grounding import correct_ends, ground_curves, table_of, widest
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+
+SPRING = "rubber: {element: spring, stiffness: {from: quasi_static}}"
+FRICTION = "friction: {element: dahl, stiffness: 5e4, limit: 50}"
+
+
+def progressive(x):
+    return 2e5 * x + 2e6 * x**2
+
+
+def elastic(x, v, a):
+    return progressive(x)
+
+
+def loop(stroke: float, friction: float, name: str = "loop") -> ScoredRun:
+    """Two slow triangles with a slider that yields over a millimetre."""
+    quarter = np.linspace(0.0, stroke, 2000)
+    x = np.concatenate([quarter, quarter[-2::-1], quarter[1:], quarter[-2::-1]])
+    force, memory = np.empty(x.size), 0.0
+    for k, travel in enumerate(np.diff(x, prepend=x[0])):
+        side = np.sign(travel) or 1.0
+        memory = side * friction + (memory - side * friction) * np.exp(-abs(travel) / 1e-3)
+        force[k] = progressive(x[k]) + memory
+    return ScoredRun(name, "quasi_static", drive_from_samples(DT, x, smooth=False), force, 0)
+
+
+def curve_of(spec):
+    return spec.curves()["rubber.stiffness"]
+
+
+def force_of(spec):
+    return np.array([value.number for value in curve_of(spec).values])
+
+
+def test_without_friction_the_loop_is_the_curve():
+    curve = curve_of(ground_curves(network(SPRING), [loop(20e-3, 0.0)]))
+    assert curve.form == "table" and curve.data == "quasi_static"
+    assert all(value.role == "identified" for value in curve.values)
+    force = np.array([value.number for value in curve.values])
+    assert force == pytest.approx(progressive(np.array(curve.at)), abs=2.0)
+
+
+def test_the_number_of_knots_may_be_given():
+    spec = network("rubber: {element: spring, stiffness: {from: quasi_static, knots: 11}}")
+    assert len(curve_of(ground_curves(spec, [loop(20e-3, 0.0)])).at) == 11
+
+
+def test_the_widest_loop_counts_and_the_knots_cover_all_runs():
+    short, long = loop(5e-3, 0.0, "short"), loop(20e-3, 0.0, "long")
+    dynamic = run("fast", 4e-3, 5.0, elastic, middle=22e-3)
+    assert widest([short, dynamic, long]) is long
+    assert widest([dynamic]) is None
+    at = curve_of(ground_curves(network(SPRING), [short, long, dynamic])).at
+    assert at[0] == pytest.approx(0.0, abs=1e-4) and at[-1] == pytest.approx(26e-3, abs=1e-6)
+
+
+def test_without_a_loop_the_sweeps_give_the_curve():
+    dynamic = run("fast", 8e-3, 3.0, elastic, middle=12e-3)
+    curve = curve_of(ground_curves(network(SPRING), [dynamic]))
+    force = np.array([value.number for value in curve.values])
+    inside = (np.array(curve.at) > 4.5e-3) & (np.array(curve.at) < 19.5e-3)
+    assert force[inside] == pytest.approx(progressive(np.array(curve.at))[inside], rel=0.02)
+
+
+def test_friction_bends_the_ends_of_the_middle_line_and_the_correction_takes_it_out():
+    spec = ground_curves(network(f"{SPRING}\n{FRICTION}"), [loop(20e-3, 50.0)])
+    at = np.array(curve_of(spec).at)
+    before = np.abs(force_of(spec) - progressive(at))
+    corrected = correct_ends(spec, [loop(20e-3, 50.0)])
+    after = np.abs(force_of(corrected) - progressive(at))
+    # the ends are off by the friction, the middle is not
+    assert before[0] == pytest.approx(50.0, abs=1.0) and before[-1] == pytest.approx(50.0, abs=1.0)
+    assert np.max(before[8:-8]) < 0.1
+    assert np.max(after) < 0.02
+
+
+def test_without_a_loop_there_is_nothing_to_correct():
+    dynamic = run("fast", 8e-3, 3.0, elastic, middle=12e-3)
+    spec = ground_curves(network(f"{SPRING}\n{FRICTION}"), [dynamic])
+    assert correct_ends(spec, [dynamic]) is spec
+    fixed = network("rubber: {element: spring, stiffness: 2e5}")
+    assert correct_ends(fixed, [loop(20e-3, 0.0)]) is fixed
+    assert ground_curves(fixed, [dynamic]) == fixed
+
+
+def test_a_curve_that_has_its_numbers_keeps_them():
+    once = ground_curves(network(SPRING), [loop(20e-3, 0.0)])
+    assert ground_curves(once, [loop(5e-3, 0.0)]) == once
+
+
+def test_the_knots_of_a_grounded_curve_may_be_searched_within_its_span():
+    curve = curve_of(network(SPRING))
+    table = table_of(curve, np.array([0.0, 1e-2]), np.array([0.0, 2e3]))
+    assert [value.bounds for value in table.values] == [(-2e3, 2e3), (0.0, 4e3)]
+    assert compile_network(network(SPRING).with_curve("rubber.stiffness", table)).start.tolist() == [0.0, 2e3]

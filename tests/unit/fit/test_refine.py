@@ -1,0 +1,139 @@
+"""Damped Gauss-Newton finds what is there, and says how it ended."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, kelvin_voigt, network, ready, run, runs
+
+from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import Outcome, linearise, refine
+from dashpot.fit.starts import KEPT, refine_from_starts
+from dashpot.kernel.network import compile_network
+
+
+def numbers(spec, coordinates, point):
+    return {slot.path: slot.value.number for slot in with_point(spec, coordinates, point).slots()}
+
+
+def test_it_finds_the_numbers_that_made_the_data():
+    spec, objective, coordinates = ready(KELVIN_VOIGT, runs())
+    heard = []
+    found = refine(objective, coordinates, coordinates.start, watch=heard.append)
+    expected = {"rubber.stiffness": STIFFNESS, "oil.damping": DAMPING}
+    assert numbers(spec, coordinates, found.point) == pytest.approx(expected, rel=1e-6)
+    assert found.outcome is Outcome.CONVERGED
+    assert found.loss < 1e-4
+    assert heard == sorted(heard, reverse=True)
+    assert found.loss == pytest.approx(objective.losses(coordinates.to_values(found.point))[0])
+
+
+def test_friction_and_relaxation_are_found_from_a_distant_start():
+    branches = """
+        rubber: {element: spring, stiffness: {start: 3e5}}
+        friction: {element: dahl, stiffness: {start: 4e4}, limit: {start: 60}}
+        memory: {element: maxwell, stiffness: {start: 8e4}, relaxation_time: {start: 10 ms}}
+    """
+    truth = compile_network(
+        network("""
+        rubber: {element: spring, stiffness: 2e5}
+        friction: {element: dahl, stiffness: 9e4, limit: 25}
+        memory: {element: maxwell, stiffness: 3e4, relaxation_time: 30 ms}
+    """)
+    )
+
+    def law(drive):
+        return truth.simulate(truth.prepare(drive))
+
+    scored = [run(name, amplitude, frequency, kelvin_voigt) for name, amplitude, frequency in
+              (("a", 0.3e-3, 3.0), ("b", 2e-3, 3.0), ("c", 1e-3, 15.0))]  # fmt: skip
+    scored = [type(each)(each.name, each.kind, each.drive, law(each.drive), each.first) for each in scored]
+    spec, objective, coordinates = ready(branches, scored)
+    found = refine(objective, coordinates, coordinates.start, steps=80)
+    assert list(numbers(spec, coordinates, found.point).values()) == pytest.approx(
+        [2e5, 9e4, 25.0, 3e4, 0.03], rel=1e-3
+    )
+
+
+def test_a_bound_holds_and_the_others_go_on():
+    scored = runs()
+    spec = network("""
+        rubber: {element: spring, stiffness: {start: 1.1e5, bounds: [1e5, 1.5e5]}}
+        oil: {element: damper, damping: {start: 1000, bounds: [1, 1e5]}}
+    """)
+    objective, coordinates = Objective(compile_network(spec), scored), search_coordinates(spec)
+    found = refine(objective, coordinates, coordinates.start)
+    stiffness, damping = coordinates.to_values(found.point)[0]
+    assert stiffness == pytest.approx(1.5e5)
+    # what remains is a regression on the velocity, each run weighing the same
+    pairs = [(each.drive.velocity[each.first :], (each.force - 1.5e5 * each.drive.displacement)[each.first :])
+             for each in scored]  # fmt: skip
+    best = sum(v @ f / v.size for v, f in pairs) / sum(v @ v / v.size for v, _ in pairs)
+    assert damping == pytest.approx(best, rel=1e-5)
+
+
+def test_it_says_when_the_steps_were_spent():
+    _, objective, coordinates = ready(KELVIN_VOIGT, runs())
+    assert refine(objective, coordinates, coordinates.start, steps=1).outcome is Outcome.STEPS_SPENT
+
+
+def test_a_start_that_cannot_be_simulated_is_told():
+    scored = runs(lambda x, v, a: np.full(x.size, np.nan))
+    spec = network("it: {element: spring, stiffness: {start: 1e5, bounds: [1e4, 1e6]}}")
+    objective, coordinates = Objective(compile_network(spec), scored), search_coordinates(spec)
+    found = refine(objective, coordinates, coordinates.start)
+    assert found.outcome is Outcome.FAILED and found.loss == np.inf
+
+
+def test_without_anything_to_search_the_start_is_the_end():
+    _, objective, coordinates = ready("it: {element: spring, stiffness: 1e5}", runs())
+    found = refine(objective, coordinates, coordinates.start)
+    assert (found.outcome, found.point.size, found.evaluations) == (Outcome.CONVERGED, 0, 1)
+    assert found.loss == pytest.approx(objective.losses(np.array([[1e5]]))[0])
+
+
+def test_the_jacobian_is_per_natural_step_on_both_sides_of_a_bound():
+    spec, objective, coordinates = ready(KELVIN_VOIGT, runs())
+    (slow, fast) = objective.runs
+    point = np.array([np.log(STIFFNESS), np.log(DAMPING)])
+    weights = [np.sqrt(objective.total / (2.0 * each.samples)) for each in (slow, fast)]
+    expected = np.concatenate([weight * STIFFNESS * each.drive.displacement[each.first :]
+                               for weight, each in zip(weights, (slow, fast), strict=True)])  # fmt: skip
+    for at in (point, np.array([coordinates.high[0], np.log(DAMPING)])):
+        _, jacobian = linearise(objective, coordinates, at)
+        stiffness = np.exp(at[0]) / STIFFNESS
+        assert jacobian[0] == pytest.approx(
+            stiffness * expected, rel=1e-4, abs=1e-6 * np.max(np.abs(expected)) * stiffness
+        )
+
+
+def test_a_parameter_without_influence_stays_where_it_is():
+    branches = (
+        KELVIN_VOIGT
+        + "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm], force: [0, {start: 0, bounds: [-1, 1]}]}}"
+    )
+    spec, objective, coordinates = ready(branches, runs())
+    found = refine(objective, coordinates, coordinates.start)
+    assert np.isfinite(found.point).all()
+    assert coordinates.to_values(found.point)[0][0] == pytest.approx(STIFFNESS, rel=0.2)
+
+
+def test_several_starts_end_where_the_best_of_them_does_and_repeat_with_the_seed():
+    _, objective, coordinates = ready(KELVIN_VOIGT, runs())
+    heard = []
+    first = refine_from_starts(objective, coordinates, 7, lambda done, loss: heard.append((done, loss)))
+    again = refine_from_starts(objective, coordinates, 7, lambda done, loss: None)
+    assert np.array_equal(first.refined.point, again.refined.point)
+    assert first.refined.loss <= min(first.spread)
+    assert list(first.spread) == sorted(first.spread)
+    assert len(first.spread) in (KEPT, KEPT + 1)
+    assert [loss for _, loss in first.history] == sorted((loss for _, loss in first.history), reverse=True)
+    assert first.history[-1][0] == first.evaluations
+    assert [done for done, _ in heard] == sorted(done for done, _ in heard) and heard[-1][0] < 1.0
+
+
+def test_several_starts_of_nothing():
+    _, objective, coordinates = ready("it: {element: spring, stiffness: 1e5}", runs())
+    best = refine_from_starts(objective, coordinates, 0, lambda done, loss: None)
+    assert best.spread == (best.refined.loss,)

@@ -1,0 +1,97 @@
+"""Intervals hold the truth as often as they say, and say when nothing is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, network, ready, runs
+
+from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import refine
+from dashpot.fit.scored import ScoredRun
+from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.kernel.network import compile_network
+
+NOISE = 20.0
+
+
+def noisy(rng, spread=NOISE) -> list[ScoredRun]:
+    return [ScoredRun(each.name, each.kind, each.drive, each.force + spread * rng.standard_normal(each.force.size), 0)
+            for each in runs()]  # fmt: skip
+
+
+def assessed(branches, scored):
+    _, objective, coordinates = ready(branches, scored)
+    found = refine(objective, coordinates, coordinates.start)
+    return coordinates, found.point, assess_uncertainty(objective, coordinates, found.point)
+
+
+def test_the_intervals_hold_the_truth_in_most_of_many_repeats():
+    rng = np.random.default_rng()
+    hits = 0
+    for _ in range(40):
+        _, _, known = assessed(KELVIN_VOIGT, noisy(rng))
+        pairs = zip(known.intervals, (STIFFNESS, DAMPING), strict=True)
+        hits += sum(low <= truth <= high for (low, high), truth in pairs)
+    # 93 % of 80 intervals on so few blocks; less than 62 is five standard deviations away
+    assert hits >= 62
+
+
+def test_the_intervals_of_white_noise_are_those_of_linear_regression():
+    rng = np.random.default_rng()
+    x = np.concatenate([each.drive.displacement for each in runs()])
+    v = np.concatenate([each.drive.velocity for each in runs()])
+    normal = np.array([[x @ x, x @ v], [x @ v, v @ v]])
+    expected = 2.0 * 1.96 * NOISE * np.sqrt(np.diag(np.linalg.inv(normal)))
+    widths = [[high - low for low, high in assessed(KELVIN_VOIGT, noisy(rng))[2].intervals] for _ in range(12)]
+    # a single width scatters by a quarter, as it is found from twelve blocks
+    assert np.mean(widths, axis=0) == pytest.approx(expected, rel=0.35)
+
+
+def test_twice_the_noise_gives_twice_the_width():
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    widths = []
+    for spread in (NOISE, 2.0 * NOISE):
+        _, _, known = assessed(KELVIN_VOIGT, noisy(np.random.default_rng(seed), spread))
+        widths.append([high - low for low, high in known.intervals])
+    assert np.array(widths[1]) / np.array(widths[0]) == pytest.approx(2.0, rel=0.05)
+
+
+def test_intervals_stay_inside_the_bounds_and_parameters_at_one_are_named():
+    spec = network("""
+        rubber: {element: spring, stiffness: {start: 1.1e5, bounds: [1e5, 1.5e5]}}
+        oil: {element: damper, damping: {start: 1000, bounds: [1, 1e5]}}
+    """)
+    objective, coordinates = Objective(compile_network(spec), noisy(np.random.default_rng())), search_coordinates(spec)
+    found = refine(objective, coordinates, coordinates.start)
+    known = assess_uncertainty(objective, coordinates, found.point)
+    assert known.at_bound == ("rubber.stiffness",)
+    assert known.intervals[0][1] == pytest.approx(1.5e5)
+
+
+def test_a_parameter_that_the_data_do_not_feel_is_named_and_may_be_anything_in_its_range():
+    branches = KELVIN_VOIGT + (
+        "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm, 92 mm], "
+        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}")  # fmt: skip
+    coordinates, _, known = assessed(branches, noisy(np.random.default_rng()))
+    assert known.idle == ("far.stiffness[2]",)
+    assert known.intervals[2] == (0.0, 9.0)
+    low, high = known.intervals[0]
+    assert high - low < 0.03 * STIFFNESS
+
+
+def test_two_parameters_that_make_up_for_each_other_are_not_known():
+    branches = """
+        rubber: {element: spring, stiffness: {start: 1e5}}
+        oil: {element: damper, damping: {start: 100, bounds: [1, 1000]}}
+        more: {element: damper, damping: {start: 300, bounds: [1, 2000]}}
+    """
+    coordinates, point, known = assessed(branches, noisy(np.random.default_rng()))
+    values = coordinates.to_values(point)[0]
+    # the noise leaves the sum of both uncertain by 3 % (one standard deviation)
+    assert values[1] + values[2] == pytest.approx(DAMPING, rel=0.2)
+    assert known.intervals[1] == pytest.approx((1.0, 1000.0))
+    assert known.intervals[2] == pytest.approx((1.0, 2000.0))
+    low, high = known.intervals[0]
+    assert high - low < 0.03 * STIFFNESS
