@@ -10,28 +10,51 @@ from typing import Literal
 
 from dashpot.model.curves import read_curve, read_scale
 from dashpot.model.element import Element
-from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.model.joints import read_ends
+from dashpot.model.network import Branch, Characteristic, Ends, Group, Joint, NetworkSpec, Value
 from dashpot.model.values import ONLY, Copy, Reading, kind_of, read_value
-from dashpot.text.form import Form
+from dashpot.text.form import Form, read_text
+from dashpot.text.node import Node
 from dashpot.text.problem import InputError, Problem, nearest
 
 MAXIMUM_COPIES = 100
 NAME = re.compile(r"\w[\w+-]*")
-WAYS = ("element", "series", "parallel", "use")
+WAYS = ("element", "series", "parallel", "use", "same_as")
 FOR_ALL = ("repeat", "about", "scale")
 
 
 class BranchReader:
-    """Reads named branches and notes mistakes in ``problems``; ``use`` finds another network by the word for it."""
+    """Reads named branches and notes mistakes in ``problems``; ``use`` finds another network by the word for it.
+
+    ``ends`` gathers which ``joints`` every outermost branch connects.
+    """
 
     def __init__(self, elements: MappingType[str, type[Element]], problems: list[Problem],
-                 use: Callable[[str], NetworkSpec]) -> None:  # fmt: skip
-        self.elements, self.problems, self.use = elements, problems, use
+                 use: Callable[[str], NetworkSpec], joints: MappingType[str, Joint]) -> None:  # fmt: skip
+        self.elements, self.problems, self.use, self.joints = elements, problems, use, joints
+        self.ends: dict[str, Ends] = {}
+
+    def outermost(self, form: Form) -> tuple[Branch | Group, ...]:
+        """The branches of the file."""
+        found: list[Branch | Group] = []
+        for name, entry in (form.named("branches") or {}).items():
+            ends = read_ends(name, entry, self.joints)
+            known = {member.name: member for member in found}
+            members = self._twin(name, entry, known) if "same_as" in entry else self._copies(name, entry, ONLY)
+            found += members
+            self.ends |= {member.name: ends for member in members if ends}
+        return tuple(found)
 
     def members(self, form: Form, key: str, copy: Copy = ONLY) -> tuple[Branch | Group, ...]:
         """The branches named below a key."""
         named = form.named(key) or {}
         return tuple(member for name, entry in named.items() for member in self._copies(name, entry, copy))
+
+    def _twin(self, name: str, form: Form, known: MappingType[str, Branch | Group]) -> list[Branch | Group]:
+        form.text("about", "")
+        word = form.take("same_as", lambda node: _known(node, known))
+        form.close()
+        return [_sharing(known[word], word, name)] if word else []
 
     def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
         if not NAME.fullmatch(name) or name == "measurement":
@@ -140,3 +163,18 @@ def _named(member: Branch | Group, name: str, family: str) -> Branch | Group:
 
 def _join(*names: str) -> str:
     return ".".join(name for name in names if name)
+
+
+def _known(node: Node, known: MappingType[str, Branch | Group]) -> str:
+    word = read_text(node)
+    if word not in known:
+        raise ValueError(f"there is no branch '{word}' above; {nearest(word, known)}".rstrip("; "))
+    return word
+
+
+def _sharing(member: Branch | Group, name: str, twin: str) -> Branch | Group:
+    # the same part once more, under another name, with the numbers of the first
+    renamed = twin + member.name.removeprefix(name)
+    if isinstance(member, Branch):
+        return replace(member, name=renamed, family=renamed, shares=member.numbers)
+    return replace(member, name=renamed, members=tuple(_sharing(inner, name, twin) for inner in member.members))

@@ -1,4 +1,4 @@
-"""A network as it is declared: a tree of named branches between two ends, and how the rig sees it."""
+"""A network as it is declared: a tree of named branches between two ends or between nodes, and how the rig sees it."""
 
 from __future__ import annotations
 
@@ -14,14 +14,19 @@ from dashpot.text.problem import Place
 
 Role = Literal["fixed", "free", "identified"]
 Form = Literal["constant", "polynomial", "table", "data"]
+# moved by the rig, loaded by a known force, held still, or moving as the forces on it say
+Hold = Literal["driven", "loaded", "ground", "free"]
+
+END, GROUND = "", "ground"  # the nodes of a network that has only two ends
+MASSES = ("mass", "added_mass")
 
 
 @dataclass(frozen=True)
 class Value:
     """A number of a file: fixed, free (``start``) or identified earlier (``value`` with ``bounds``). SI throughout.
 
-    ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``node``
-    where it stands.
+    ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``setting``
+    the setting by which a run may give the number itself, ``node`` where it stands.
     """
 
     number: float
@@ -31,6 +36,7 @@ class Value:
     scale: Scale = "log"
     interval: tuple[float, float] | None = None
     sensible: tuple[float, float] = (-math.inf, math.inf)
+    setting: str = ""
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -65,7 +71,8 @@ class Characteristic:
 class Branch:
     """One element between two ends, with its numbers; ``scale`` multiplies its force, over its deflection.
 
-    ``family`` is the name as it stands in the file: the copies of a repeated branch share it.
+    ``family`` is the name as it stands in the file: the copies of a repeated branch share it. ``shares`` is the branch
+    whose numbers these are, where a second part of the same make is not to have numbers of its own.
     """
 
     name: str
@@ -74,7 +81,13 @@ class Branch:
     curves: Mapping[str, Characteristic]
     scale: Characteristic | None = None
     family: str = ""
+    shares: str = ""
     place: Place = field(default_factory=Place, compare=False)
+
+    @property
+    def numbers(self) -> str:
+        """The name of the branch under which its numbers stand."""
+        return self.shares or self.name
 
     def characteristics(self) -> dict[str, Characteristic]:
         """All curves of the branch, the scaling among them."""
@@ -100,6 +113,34 @@ class Group:
 
 
 @dataclass(frozen=True)
+class Joint:
+    """A node of the network; its motion counts upwards. ``shares`` is the node whose masses it has, if not its own."""
+
+    name: str
+    hold: Hold
+    masses: Mapping[str, Value] = field(default_factory=dict)
+    shares: str = ""
+    place: Place = field(default_factory=Place, compare=False)
+
+    @property
+    def numbers(self) -> str:
+        """The name of the node under which its masses stand."""
+        return self.shares or self.name
+
+
+@dataclass(frozen=True)
+class Ends:
+    """The two nodes that a branch of the file connects, the lower one first.
+
+    Its deflection is z_lower - z_upper + offset: ``offset`` is what it is when both nodes stand at zero; None is none.
+    """
+
+    lower: str
+    upper: str
+    offset: Value | None = None
+
+
+@dataclass(frozen=True)
 class Slot:
     """One number of a network with the path by which everybody calls it, e.g. ``maxwell_1.stiffness``."""
 
@@ -109,11 +150,18 @@ class Slot:
 
 @dataclass(frozen=True)
 class NetworkSpec:
-    """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset, delay)."""
+    """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset, delay).
+
+    A network without ``joints`` has two ends: one is driven, the other held. With joints, ``ends`` says for every
+    member of ``root`` what it connects; ``gravity`` in m/s^2 pulls at the masses.
+    """
 
     name: str
     root: Group
     measurement: Mapping[str, Value] = field(default_factory=dict)
+    joints: Mapping[str, Joint] = field(default_factory=dict)
+    ends: Mapping[str, Ends] = field(default_factory=dict)
+    gravity: float = 0.0
     about: str = ""
     source: str = ""
     document: Document | None = field(default=None, compare=False, repr=False)
@@ -135,8 +183,11 @@ class NetworkSpec:
         return tuple(self.root.leaves())
 
     def slots(self) -> tuple[Slot, ...]:
-        """Every number of the network: branch by branch, then the measurement."""
-        found = [slot for branch in self.leaves() for slot in _branch_slots(branch)]
+        """Every number of the network: branch by branch, node by node, then the measurement."""
+        found = [slot for branch in self.leaves() if not branch.shares for slot in _branch_slots(branch)]
+        found += [Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items() if ends.offset]
+        found += [Slot(f"{joint.name}.{key}", value) for joint in self.joints.values() if not joint.shares
+                  for key, value in joint.masses.items()]  # fmt: skip
         return (*found, *(Slot(f"measurement.{key}", value) for key, value in self.measurement.items()))
 
     def with_values(self, values: Mapping[str, Value]) -> NetworkSpec:
@@ -144,8 +195,13 @@ class NetworkSpec:
         unknown = set(values) - {slot.path for slot in self.slots()}
         if unknown:
             raise KeyError(f"'{self.name}' has no slot {', '.join(sorted(unknown))}")
-        measurement = {key: values.get(f"measurement.{key}", value) for key, value in self.measurement.items()}
-        return replace(self, root=_regroup(self.root, lambda branch: _revalue(branch, values)), measurement=measurement)
+        return replace(
+            self,
+            root=_regroup(self.root, lambda branch: _revalue(branch, values)),
+            measurement={key: values.get(f"measurement.{key}", value) for key, value in self.measurement.items()},
+            joints={name: _reweigh(joint, values) for name, joint in self.joints.items()},
+            ends={name: _replace_offset(name, ends, values) for name, ends in self.ends.items()},
+        )
 
     def with_curve(self, path: str, characteristic: Characteristic) -> NetworkSpec:
         """The same network with the curve at ``branch.curve`` replaced. KeyError for a path that it has not."""
@@ -154,7 +210,7 @@ class NetworkSpec:
             raise KeyError(f"'{self.name}' has no curve {path}")
 
         def swap(branch: Branch) -> Branch:
-            if branch.name != name:
+            if branch.numbers != name:
                 return branch
             if key == "scale":
                 return replace(branch, scale=characteristic)
@@ -165,7 +221,10 @@ class NetworkSpec:
     def curves(self) -> dict[str, Characteristic]:
         """Every curve by path, the scalings among them."""
         return {
-            f"{branch.name}.{key}": curve for branch in self.leaves() for key, curve in branch.characteristics().items()
+            f"{branch.name}.{key}": curve
+            for branch in self.leaves()
+            if not branch.shares
+            for key, curve in branch.characteristics().items()
         }
 
     def data_curves(self) -> dict[str, Characteristic]:
@@ -197,10 +256,18 @@ def _regroup(group: Group, change: Callable[[Branch], Branch]) -> Group:
 
 
 def _revalue(branch: Branch, values: Mapping[str, Value]) -> Branch:
-    plain = {key: values.get(f"{branch.name}.{key}", value) for key, value in branch.values.items()}
-    curves = {key: _recurve(f"{branch.name}.{key}", curve, values) for key, curve in branch.curves.items()}
-    scale = _recurve(f"{branch.name}.scale", branch.scale, values) if branch.scale else None
+    plain = {key: values.get(f"{branch.numbers}.{key}", value) for key, value in branch.values.items()}
+    curves = {key: _recurve(f"{branch.numbers}.{key}", curve, values) for key, curve in branch.curves.items()}
+    scale = _recurve(f"{branch.numbers}.scale", branch.scale, values) if branch.scale else None
     return replace(branch, values=plain, curves=curves, scale=scale)
+
+
+def _reweigh(joint: Joint, values: Mapping[str, Value]) -> Joint:
+    return replace(joint, masses={k: values.get(f"{joint.numbers}.{k}", value) for k, value in joint.masses.items()})
+
+
+def _replace_offset(name: str, ends: Ends, values: Mapping[str, Value]) -> Ends:
+    return replace(ends, offset=values.get(f"{name}.offset", ends.offset)) if ends.offset else ends
 
 
 def _recurve(path: str, curve: Characteristic, values: Mapping[str, Value]) -> Characteristic:

@@ -9,6 +9,7 @@ from pathlib import Path
 from dashpot.model.branches import BranchReader
 from dashpot.model.clashes import find_clashes
 from dashpot.model.element import Element
+from dashpot.model.joints import read_joints
 from dashpot.model.network import Group, NetworkSpec, Value
 from dashpot.model.shipped import find_network, find_used_network
 from dashpot.model.values import Kind, Reading, read_value
@@ -49,14 +50,18 @@ def build_network(document: Document, elements: Elements, trail: tuple[Path, ...
     form.choice("format", (FORMAT,))
     name = form.text("name")
     about, source = form.text("about", ""), form.text("source", "")
-    members = BranchReader(elements, problems, _Uses(document.file, elements, trail).network).members(form, "branches")
+    joints = read_joints(form)
+    gravity = form.quantity("gravity", "m/s^2", 0.0)
+    reader = BranchReader(elements, problems, _Uses(document.file, elements, trail).network, joints)
+    members = reader.outermost(form)
     measurement = _read_measurement(form, problems)
     # where the numbers of an identified model came from: written for people, read by nobody
     form.node("identified")
     form.close()
     if not problems and not members:
         form.complain("branches", "the network has no branch", "add a branch, e.g. 'stiffness: {element: spring, ...}'")
-    spec = NetworkSpec(name, Group("", "parallel", members), measurement, about, source, document)
+    root = Group("", "parallel", members)
+    spec = NetworkSpec(name, root, measurement, joints, reader.ends, gravity, about, source, document)
     problems.extend(find_clashes(spec))
     if problems:
         raise InputError(problems)
@@ -96,6 +101,9 @@ class _Uses:
             raise InputError.at(Place(str(found)), f"the network uses itself: {names}", "break the circle")
         document = Document.read(found)
         inner = build_network(document, self.elements, trail)
+        if inner.joints:
+            raise InputError.at(document.root.place, "a network that is used has two ends, expected no 'nodes'",
+                                "use a network whose branches all lie between the same two ends")  # fmt: skip
         for value in inner.measurement.values():
             place = value.node.place if value.node else document.root.place
             message = "a network that is used describes the specimen only, expected no 'measurement'"

@@ -77,11 +77,11 @@ def kind_of(parameter: Parameter) -> Kind:
 def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
     """A number: fixed (``220 N/mm``), free (``{start, bounds, scale}``) or identified (``{value, bounds, interval}``).
 
-    In a repeated branch a list holds one number for each copy. None when there is no number to be had; every mistake is
-    noted.
+    With ``{setting: word, value: 0 kg}`` a run that has a setting of that word gives the number. In a repeated branch a
+    list holds one number for each copy. None when there is no number to be had; every mistake is noted.
     """
     if isinstance(node, Mapping):
-        return _read_searched(node, kind, reading)
+        return _read_setting(node, kind, reading) if "setting" in node.entries else _read_searched(node, kind, reading)
     try:
         number = read_quantity(reading.pick(node), kind.unit)
     except ValueError as error:
@@ -104,10 +104,20 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     if number is None:
         return None
     role: Role = "identified" if key == "value" else "free"
-    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, node)
+    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, node=node)
     for complaint in _complaints(value):
         reading.complain(form.place_of(key), complaint)
     return value
+
+
+def _read_setting(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
+    form = reading.form(node)
+    word = form.text("setting")
+    number = form.take("value", lambda inner: read_quantity(inner, kind.unit))
+    form.close()
+    if word is None or number is None:
+        return None
+    return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, setting=word, node=node)
 
 
 def _pick_pair(node: Node, reading: Reading) -> Node:

@@ -1,0 +1,70 @@
+"""A network as a graph: which nodes there are, and which two of them each element connects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from dashpot.model.network import END, GROUND, Branch, Ends, Group, Hold, Joint, NetworkSpec
+
+
+@dataclass(frozen=True)
+class Edge:
+    """An element between two nodes: its deflection is z_lower - z_upper, plus the number at the slot ``offset``."""
+
+    branch: Branch
+    lower: str
+    upper: str
+    offset: str = ""
+
+
+@dataclass(frozen=True)
+class Topology:
+    """The nodes of a network, the ones inside series connections among them, and its edges in the order of the file."""
+
+    joints: Mapping[str, Joint]
+    edges: tuple[Edge, ...]
+
+    def held(self, *holds: Hold) -> tuple[str, ...]:
+        """The names of the nodes that are held in one of these ways."""
+        return tuple(name for name, joint in self.joints.items() if joint.hold in holds)
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """The nodes whose motion has to be solved for."""
+        return self.held("free", "loaded")
+
+    @property
+    def parallel(self) -> bool:
+        """Whether every element sees the motion of the one driven node alone."""
+        return not self.unknown and self.held("driven") == (END,)
+
+    def edges_at(self, joint: str) -> tuple[Edge, ...]:
+        """The edges that end at a node."""
+        return tuple(edge for edge in self.edges if joint in (edge.lower, edge.upper))
+
+
+def topology_of(spec: NetworkSpec) -> Topology:
+    """The graph of a network. Nodes inside the series connection ``leg`` are called ``leg:1``, ``leg:2`` ..."""
+    joints = dict(spec.joints) or {END: Joint(END, "driven"), GROUND: Joint(GROUND, "ground")}
+    edges: list[Edge] = []
+    for member in spec.root.members:
+        ends = spec.ends.get(member.name, Ends(END, GROUND))
+        for edge in _edges(member, ends.lower, ends.upper, joints):
+            first = ends.offset is not None and edge.lower == ends.lower
+            edges.append(Edge(edge.branch, edge.lower, edge.upper, f"{member.name}.offset" if first else ""))
+    return Topology(joints, tuple(edges))
+
+
+def _edges(member: Branch | Group, lower: str, upper: str, joints: dict[str, Joint]) -> Iterator[Edge]:
+    if isinstance(member, Branch):
+        yield Edge(member, lower, upper)
+        return
+    if member.kind == "parallel":
+        for inner in member.members:
+            yield from _edges(inner, lower, upper, joints)
+        return
+    between = [f"{member.name}:{number}" for number in range(1, len(member.members))]
+    joints.update({name: Joint(name, "free", place=member.place) for name in between})
+    for inner, below, above in zip(member.members, [lower, *between], [*between, upper], strict=True):
+        yield from _edges(inner, below, above, joints)
