@@ -1,6 +1,6 @@
 """dashpot: rheological models as networks of small laws, fitted to measurements, with what is missing named.
 
-Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause`` or ``Specimen`` and mark its hook with
+Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen`` or ``Rig`` and mark its hook with
 ``hookimpl``. Use the parts from Python with ``load_registry``, ``read_network``, ``read_dataset``, ``simulate_runs``,
 ``fit_network``, ``compare`` and ``diagnose``. Everything is imported on first use: ``import dashpot`` costs nothing.
 """
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
     from dashpot.contract.reader import ReadingError as ReadingError
     from dashpot.contract.reader import Table as Table
     from dashpot.contract.registry import load_registry as load_registry
+    from dashpot.contract.rig import PlannedRun as PlannedRun
+    from dashpot.contract.rig import PrescribedPath as PrescribedPath
+    from dashpot.contract.rig import Rig as Rig
     from dashpot.contract.specimen import Specimen as Specimen
     from dashpot.data.dataset import read_dataset as read_dataset
     from dashpot.fit.api import fit_network as fit_network
@@ -49,6 +52,7 @@ _HOMES = {
     "dashpot.contract.reader": ("Reader", "ReadingError", "Table"),
     "dashpot.contract.cause": ("Cause", "Suspect", "View", "added_branch"),
     "dashpot.contract.specimen": ("Specimen",),
+    "dashpot.contract.rig": ("PlannedRun", "PrescribedPath", "Rig"),
     "dashpot.kernel.api": ("simulate_runs",),
     "dashpot.fit.api": ("fit_network",),
     "dashpot.assess.compare": ("compare",),

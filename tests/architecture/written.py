@@ -11,9 +11,9 @@ import inspect
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_origin
 
-from dashpot.contract.options import options_of
+from dashpot.contract.options import kind_and_unit, options_of
 from dashpot.contract.registry import load_registry
 from dashpot.model.element import Curve, Parameter
 
@@ -79,6 +79,14 @@ def specimens() -> Iterator[str]:
         yield f"Stands for {made.about}. " + " ".join(paragraphs(made))
 
 
+def rigs() -> Iterator[str]:
+    """A section for each test procedure: what it does and its options."""
+    for word, made in things("rigs").items():
+        yield f"### `{word}`"
+        yield from paragraphs(made)
+        yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
+
+
 def modules() -> Iterator[str]:
     """A list for each layer of the framework: its modules, each with what it says about itself."""
     layers = ("text", "expr", "model", "data", "contract", "kernel", "fit", "assess", "report", "cli", "testing")
@@ -98,6 +106,7 @@ PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
         "formats": formats,
         "causes": causes,
         "specimens": specimens,
+        "rigs": rigs,
     },
     "framework/README.md": {"modules": modules},
 }
@@ -145,7 +154,11 @@ def _number_row(key: str, number: Parameter | Curve) -> tuple[str, ...]:
 
 
 def _option_row(option: inspect.Parameter) -> tuple[str, str, str]:
-    return f"`{option.name}`", option.annotation.__name__, f"`{option.default}`"
+    kind, unit = kind_and_unit(option.annotation)
+    many, default = get_origin(kind) is tuple, option.default
+    name = get_args(kind)[0].__name__ if many else kind.__name__
+    shown = ", ".join(map(repr, default)) if many else repr(default) if not isinstance(default, str) else default
+    return f"`{option.name}`", ("list of " * many + name) + (f", {unit}" if unit else ""), f"`{shown}`"
 
 
 def _module_line(path: Path) -> str:

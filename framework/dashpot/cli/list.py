@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
     from dashpot.contract.registry import Registry
 
 KINDS = ("elements", "networks", "optimizers", "causes", "formats", "specimens", "rigs", "exports", "plugins")
-NOT_YET = ("rigs", "exports")
+NOT_YET = ("exports",)
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,8 @@ def entries_of(kind: str, session: Session) -> list[Entry]:
         return []
     if kind == "networks":
         return networks(session)
+    if kind == "rigs":
+        return things(kind, session.registry) + benches(session.registry)
     return plugins(session.registry) if kind == "plugins" else things(kind, session.registry)
 
 
@@ -77,10 +81,30 @@ def networks(session: Session) -> list[Entry]:
     return [Entry(name, origin, about_network(name, session)) for name in shipped_networks()]
 
 
+def benches(registry: Registry) -> list[Entry]:
+    """The shipped benches: procedures with options, and how they measure."""
+    from dashpot.contract.bench import shipped_benches
+
+    origin = Origin("specs", "dashpot", __version__)
+    return [Entry(name, origin, about_or_why(partial(about_bench, name, registry))) for name in shipped_benches()]
+
+
+def about_bench(name: str, registry: Registry) -> str:
+    """What a bench says about itself. InputError when it needs what is not installed."""
+    from dashpot.contract.bench import find_bench
+
+    return find_bench(name, registry.rigs).about
+
+
 def about_network(name: str, session: Session) -> str:
     """What a network says about itself, or why it cannot be used with the plugins at hand."""
+    return about_or_why(lambda: session.network(name).about)
+
+
+def about_or_why(read: Callable[[], str]) -> str:
+    """What a file says about itself, or why it cannot be used."""
     try:
-        return session.network(name).about
+        return read()
     except InputError as error:
         return f"cannot be used: {error.problems[0]}"
 

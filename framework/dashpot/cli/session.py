@@ -81,7 +81,7 @@ def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Re
     if optimizer is not None and optimizer not in known:
         hint = nearest(optimizer, known) or f"there are: {', '.join(known) or 'none'}"
         raise click.UsageError(f"No such optimizer '{optimizer}', {hint}")
-    texts = dict(_split(setting) for setting in settings)
+    texts = dict(split_setting(setting) for setting in settings)
     if not texts:
         return {}
     if optimizer is None:
@@ -92,7 +92,8 @@ def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Re
         raise click.UsageError(str(error)) from error
 
 
-def _split(setting: str) -> tuple[str, str]:
+def split_setting(setting: str) -> tuple[str, str]:
+    """Key and value of ``--set KEY=VALUE``; click.UsageError for anything else."""
     key, equals, value = setting.partition("=")
     if not (key and equals):
         raise click.UsageError(f"--set expected KEY=VALUE, got '{setting}'")

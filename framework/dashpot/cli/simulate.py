@@ -1,4 +1,4 @@
-"""``dashpot simulate``: the force of a network along measured motions."""
+"""``dashpot simulate``: the force of a network along measured or prescribed motions."""
 
 from __future__ import annotations
 
@@ -10,34 +10,54 @@ from zipfile import ZipFile, ZipInfo
 
 import click
 
-from dashpot.cli.session import Session
+from dashpot.cli.session import Session, split_setting
 from dashpot.cli.switches import Switches, output_option, switches
 
 if TYPE_CHECKING:
     import numpy as np
 
     from dashpot.data.run import Run
+    from dashpot.model.network import NetworkSpec
 
 
 @click.command("simulate")
 @click.argument("spec")
-@click.option("--data", "dataset", metavar="DATASET", required=True, help="Measured runs that give the motion.")
-@output_option("A folder for one CSV file per run, or a file ending in .npz.")
-@switches("quiet", "force")
-def verb(spec: str, dataset: str, output: Path, switches: Switches) -> None:
-    """Simulate a network along the measured motion of every run.
+@click.option("--data", "dataset", metavar="DATASET", help="Measured runs that give the motion.")
+@click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.")
+@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".')
+@output_option("A folder; with --data also a file ending in .npz.")
+@switches("seed", "quiet", "force")
+def verb(
+    spec: str, dataset: str | None, rig: str | None, settings: tuple[str, ...], output: Path, switches: Switches
+) -> None:
+    """Simulate a network along measured motions, or measure it on a virtual test rig.
 
-    SPEC is a network file or a shipped name. Each CSV file holds time, displacement and the simulated force in SI
-    units; an .npz file holds the force of each run under the run's name.
+    SPEC is a network file or a shipped name. With --data the folder gets a CSV file for every run with time,
+    displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
+    With --rig it becomes a dataset, with the noise of the rig, that every verb reads.
 
     \b
     Example:
-      dashpot simulate gehmann --data my/dataset.yaml -o simulated
+      dashpot simulate gehmann.yaml --data my/dataset.yaml -o simulated
+      dashpot simulate gehmann.yaml --rig tire_bench -o measured
     """
+    if (dataset is None) == (rig is None):
+        raise click.UsageError("Say either --data DATASET or --rig RIG")
+    session = Session(switches)
+    network = session.network(spec)
+    if rig is not None:
+        return measure_on(rig, settings, network, output, session)
+    if settings:
+        raise click.UsageError("--set gives an option of a rig: name it with --rig")
+    assert dataset is not None
+    return follow(dataset, network, output, session)
+
+
+def follow(dataset: str, network: NetworkSpec, output: Path, session: Session) -> None:
+    """Write the force along every measured run."""
     from dashpot.kernel.api import simulate_runs
 
-    session = Session(switches)
-    network, measured = session.network(spec), session.dataset(dataset)
+    measured = session.dataset(dataset)
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
     folder = session.claim(output.parent if archive else output, *map(escape, files))
@@ -48,6 +68,24 @@ def verb(spec: str, dataset: str, output: Path, switches: Switches) -> None:
         for name, force in forces.items():
             folder.write(f"{name}.csv", csv_text(measured.run(name), force))
     session.talk.say(f"simulated {len(forces)} runs: {output}")
+
+
+def measure_on(rig: str, settings: tuple[str, ...], network: NetworkSpec, output: Path, session: Session) -> None:
+    """Write what a virtual rig measures as a dataset."""
+    from dashpot.contract.bench import find_bench
+    from dashpot.data.writing import dataset_files
+    from dashpot.fit.virtual_test import virtual_test
+
+    try:
+        bench = find_bench(rig, session.registry.rigs, dict(map(split_setting, settings)))
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
+    runs = virtual_test(network, bench, session.switches.seed)
+    files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
+    folder = session.claim(output, *map(escape, files))
+    for name, text in files.items():
+        folder.write(name, text)
+    session.talk.say(f"measured {len(runs)} runs: {output / 'dataset.yaml'}")
 
 
 def csv_text(run: Run, force: np.ndarray) -> str:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
+    from dashpot.contract.rig import Rig
     from dashpot.contract.specimen import Specimen
     from dashpot.model.element import Element
 
@@ -51,3 +52,8 @@ def dashpot_causes() -> list[type[Cause]]:  # type: ignore[empty-body]
 @hookspec
 def dashpot_specimens() -> list[type[Specimen]]:  # type: ignore[empty-body]
     """Virtual test specimens that write a dataset of their own, for demonstrations and trials."""
+
+
+@hookspec
+def dashpot_rigs() -> list[type[Rig]]:  # type: ignore[empty-body]
+    """Test procedures: named runs with the motion that the rig prescribes."""

@@ -44,6 +44,7 @@ KINDS = (
     Kind("formats", "dashpot.contract.reader", "Reader"),
     Kind("causes", "dashpot.contract.cause", "Cause"),
     Kind("specimens", "dashpot.contract.specimen", "Specimen"),
+    Kind("rigs", "dashpot.contract.rig", "Rig"),
 )
 
 

@@ -1,12 +1,13 @@
-"""Constructor arguments given as text, such as ``particles=48`` on the command line."""
+"""Constructor arguments given as text, such as ``particles=48`` or ``amplitudes="1 mm, 3 mm"``."""
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Annotated, Any, get_args, get_origin
 
 from dashpot.text.problem import nearest
+from dashpot.text.quantity import si
 
 YES_AND_NO = {"true": True, "yes": True, "false": False, "no": False}
 
@@ -33,7 +34,16 @@ def read_options(made: type, texts: Mapping[str, str]) -> dict[str, Any]:
 
 
 def read_option(name: str, text: str, kind: Any) -> Any:
-    """One option's text in its declared type: int, float, bool or str."""
+    """One option's text in its declared type: int, float, bool, str, or a list of numbers `tuple[float, ...]`.
+
+    `Annotated[float, "m"]` is a quantity, `Annotated[tuple[float, ...], "m"]` a list of quantities, both in SI.
+    """
+    kind, unit = kind_and_unit(kind)
+    if get_origin(kind) is tuple:
+        item = Annotated[float, unit] if unit else get_args(kind)[0]
+        return tuple(read_option(name, part.strip(), item) for part in text.strip("[]").split(","))
+    if unit:
+        return _quantity(name, text, unit)
     if kind not in READERS:
         raise ValueError(f"option '{name}' is of a type that cannot be given as text")
     read, expected = READERS[kind]
@@ -41,6 +51,21 @@ def read_option(name: str, text: str, kind: Any) -> Any:
         return read(text)
     except ValueError:
         raise ValueError(f"option '{name}' expected {expected}, got '{text}'") from None
+
+
+def kind_and_unit(annotation: Any) -> tuple[Any, str]:
+    """The type of an option and its unit, empty where it has none."""
+    if get_origin(annotation) is Annotated:
+        kind, unit = get_args(annotation)
+        return kind, unit
+    return annotation, ""
+
+
+def _quantity(name: str, text: str, unit: str) -> float:
+    try:
+        return si(text, unit)
+    except ValueError as error:
+        raise ValueError(f"option '{name}': {error}") from None
 
 
 def _truth(text: str) -> bool:

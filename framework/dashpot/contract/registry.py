@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
+    from dashpot.contract.rig import Rig
     from dashpot.contract.specimen import Specimen
     from dashpot.model.element import Element
 
@@ -33,6 +34,7 @@ class Registry:
     formats: Mapping[str, type[Reader]]
     causes: Mapping[str, type[Cause]]
     specimens: Mapping[str, type[Specimen]]
+    rigs: Mapping[str, type[Rig]]
     origins: Mapping[tuple[str, str], Origin]
     plugins: tuple[Origin, ...]
     faults: tuple[PluginFault, ...]

@@ -36,6 +36,7 @@ def registry(monkeypatch: pytest.MonkeyPatch) -> Registry:
         formats=empty,
         causes=empty,
         specimens=empty,
+        rigs=empty,
         origins={("optimizers", "swarm"): BUILT_IN},
         plugins=(BUILT_IN, FOREIGN),
         faults=(PluginFault(FOREIGN, "cannot be loaded: ImportError: no"), PluginFault(FOREIGN, "gave 7")),

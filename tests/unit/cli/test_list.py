@@ -43,7 +43,7 @@ def test_an_empty_list_says_that_no_plugin_gives_any(call, kind):
     assert call("list", kind)[1] == f"There are no {kind}: no plugin gives any.\n"
 
 
-@pytest.mark.parametrize("kind", ["rigs", "exports"])
+@pytest.mark.parametrize("kind", ["exports"])
 def test_what_does_not_exist_yet_is_said(call, kind):
     assert call("list", kind)[:2] == (0, f"There are no {kind} in this version of dashpot yet.\n")
 
@@ -52,6 +52,12 @@ def test_a_network_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reas
     _, out, _ = call("list", "networks")
     line = next(line for line in out.splitlines() if line.startswith("kelvin_voigt"))
     assert "cannot be used: " in line and "there is no element 'spring'" in line
+
+
+def test_a_bench_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reason(call):
+    _, out, _ = call("list", "rigs")
+    line = next(line for line in out.splitlines() if line.startswith("tire_bench"))
+    assert "cannot be used: " in line and "triangle" in line
 
 
 def test_without_a_kind_everything_is_listed_under_headings(call):

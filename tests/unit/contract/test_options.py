@@ -17,7 +17,7 @@ class Method:
         restart: bool = True,
         law: str = "ring",
         untyped="ring",
-        table: tuple[float, ...] = (),
+        table: dict | None = None,
     ) -> None:
         if particles < 1:
             raise ValueError("particles: expected at least 1")

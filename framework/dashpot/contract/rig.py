@@ -1,0 +1,73 @@
+"""What a test procedure promises: named runs, each with the prescribed motion of the nodes that the rig drives."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive, drive_from_path
+
+Array = NDArray[np.float64]
+
+PORT = ""
+"""The driven node of a network that has a single one."""
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedPath:
+    """The motion of a node, its rates known in closed form: (n,) in m, m/s and m/s^2."""
+
+    displacement: Array
+    velocity: Array
+    acceleration: Array
+
+    def drive(self, sample_time: float) -> Drive:
+        """The motion as a drive of a network."""
+        return drive_from_path(sample_time, self.displacement, self.velocity, self.acceleration)
+
+
+@dataclass(frozen=True, eq=False)
+class PlannedRun:
+    """A run before it is measured.
+
+    kind: one of the kinds of a dataset; sample_time: s; motion: driven node -> path, `PORT` where there is one driven
+    end; settings: numbers in SI, among them ``added_mass`` (kg on each wheel); notes: words.
+    """
+
+    name: str
+    kind: str
+    sample_time: float
+    motion: Mapping[str, PrescribedPath]
+    settings: Mapping[str, float] = field(default_factory=dict)
+    notes: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def samples(self) -> int:
+        """How many samples the run has."""
+        return len(next(iter(self.motion.values())).displacement)
+
+    @property
+    def time(self) -> Array:
+        """The instants (n,) in s."""
+        return self.sample_time * np.arange(self.samples)
+
+
+class Rig(ABC):
+    """A test procedure. Keyword arguments of the constructor, with types, units and defaults, are its options."""
+
+    word: ClassVar[str]
+    """The name of the procedure in files and on the command line."""
+
+    @abstractmethod
+    def runs(self) -> Sequence[PlannedRun]:
+        """All runs, in the order in which they are measured; their names differ."""
+
+
+def channel_at(quantity: str, node: str) -> str:
+    """The name of a channel at a node: ``displacement@platform_left``, or ``displacement`` for the single port."""
+    return f"{quantity}@{node}" if node else quantity

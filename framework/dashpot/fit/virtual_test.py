@@ -1,0 +1,106 @@
+"""A network on a test bench: what its load cell and its displacement sensor would write down."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.bench import Bench
+from dashpot.contract.measuring import Measuring
+from dashpot.contract.rig import PORT, PlannedRun, channel_at
+from dashpot.data.run import Run
+from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.kernel.observe import Observation
+from dashpot.model.network import NetworkSpec
+from dashpot.text.problem import InputError, Place
+
+Array = NDArray[np.float64]
+DYNAMIC = ("sweep", "harmonic", "random", "transient")
+LETTERS = "bcdefghijklmnopqrstuvwxyz"
+
+
+def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0) -> list[Run]:
+    """Every run of the bench, measured on the network; the same seed gives the same noise.
+
+    InputError for a network that cannot be simulated, or that has not the nodes that the bench drives.
+    """
+    network = compile_network(spec)
+    measured: list[Run] = []
+    for planned in bench.runs():
+        forces = forces_of(network, planned)
+        for repeat in range(bench.measuring.repeats if planned.kind in DYNAMIC else 1):
+            rng = np.random.default_rng([seed, len(measured)])
+            measured.append(_measured(planned, forces, bench.measuring, repeat, len(measured), rng))
+    return measured
+
+
+def forces_of(network: CompiledNetwork, planned: PlannedRun) -> dict[str, Array]:
+    """The force (n,) in N that each driven node feels, by node."""
+    if set(planned.motion) != {PORT}:
+        driven = ", ".join(repr(node) for node in planned.motion)
+        raise InputError.at(Place(network.spec.source or network.spec.name),
+                            f"run '{planned.name}' drives the nodes {driven}, '{network.spec.name}' has two ends only",
+                            "choose a rig for a single specimen")  # fmt: skip
+    return {PORT: network.simulate(network.prepare(planned.motion[PORT].drive(planned.sample_time)))}
+
+
+def _measured(
+    planned: PlannedRun,
+    forces: Mapping[str, Array],
+    chain: Measuring,
+    repeat: int,
+    order: int,
+    rng: np.random.Generator,
+) -> Run:
+    name = planned.name + (f"_{LETTERS[repeat - 1]}" if repeat else "")
+    channels = dict(_channels(planned, forces, chain, rng))
+    return Run(
+        name=name,
+        kind=planned.kind,
+        time=planned.time,
+        channels=channels,
+        settings=planned.settings,
+        notes=planned.notes,
+        repeats=planned.name if repeat else None,
+        group=planned.name,
+        sensors=_data_sheet(channels, chain),
+        order=order,
+    )
+
+
+def _channels(
+    planned: PlannedRun, forces: Mapping[str, Array], chain: Measuring, rng: np.random.Generator
+) -> Iterator[tuple[str, Array]]:
+    for node, path in planned.motion.items():
+        jitter = chain.displacement_noise * rng.standard_normal(planned.samples)
+        yield channel_at("displacement", node), path.displacement + jitter
+    for node, force in forces.items():
+        felt = force + carried_mass(chain) * planned.motion[node].acceleration
+        shown = Observation(np.array([chain.gain]), np.array([chain.zero]), np.array([chain.delay]))
+        noise = chain.force_noise * coloured_noise(rng, planned.samples, planned.sample_time, chain.noise_memory)
+        yield channel_at("force", node), shown.see(felt[None], planned.sample_time)[0] + noise
+
+
+def carried_mass(chain: Measuring) -> float:
+    """The mass in kg between the load cell and the driven end."""
+    return chain.platform_mass if chain.side == "platform" else 0.0
+
+
+def coloured_noise(rng: np.random.Generator, samples: int, sample_time: float, memory: float) -> Array:
+    """Gaussian noise (samples,) of variance 1, half of it white, half remembered over ``memory`` s."""
+    white, driven = rng.standard_normal((2, samples))
+    if memory == 0.0:
+        return white
+    from scipy.signal import lfilter
+
+    kept = np.exp(-sample_time / memory)
+    driven[1:] *= np.sqrt(1.0 - kept**2)
+    return np.sqrt(0.5) * (white + lfilter([1.0], [1.0, -kept], driven))
+
+
+def _data_sheet(channels: Mapping[str, Array], chain: Measuring) -> dict[str, dict[str, float]]:
+    noise = {"displacement": chain.displacement_noise, "force": chain.force_noise}
+    levels = {name: noise[name.partition("@")[0]] for name in channels}
+    return {name: {"noise": level} for name, level in levels.items() if level > 0.0}
