@@ -3,6 +3,7 @@
 compare    several networks, one table
 diagnose   the diagnosis, its steps called in order
 diagnosis  what it found, and how it is written down
+triage     faults of the measurement, before the model is blamed
 noise      the colour of the measurement noise, and whitening by it
 view       what a suspected cause may look at
 screen     every suspect against the residual, without a refit

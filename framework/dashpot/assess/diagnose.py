@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from dashpot.assess.contest import Bench, Model
@@ -11,6 +12,7 @@ from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.misfit import describe_misfit
 from dashpot.assess.pursuit import Pursuer, Pursuit, residuals_of
 from dashpot.assess.suspicion import linear_view
+from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
@@ -25,6 +27,8 @@ from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
+ATTEMPTS = 3
+
 
 @single_threaded_algebra
 def diagnose(
@@ -38,16 +42,18 @@ def diagnose(
     registry: Registry,
     progress: Progress | None = None,
 ) -> Diagnosis:
-    """Fit, look at what is left, pursue its causes, and say how sure that is.
+    """Triage the data, fit, look at what is left, pursue its causes, and say how sure that is.
 
     Raises InputError for a network that does not compile on these data, and where no plugin provides a cause.
     """
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress = progress or silent
+    triage = examine(dataset)
+    dataset = triage.dataset
     setting = prepare(dataset, seed)
     method = registry.optimizers[optimizer](**(options or {})) if optimizer else None
-    fit = fit_prepared(spec, setting, method, seed, jobs, progress)
+    fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs)
     pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name))
@@ -60,6 +66,7 @@ def diagnose(
     leftover = look_for_leftover(*linear_view(bench, last.model), last.noise, runs)
     return Diagnosis(
         setting=setting,
+        triage=replace(triage, remarks=(*triage.remarks, *restarts)),
         fit=fit,
         pursuit=pursuit,
         final=final,
@@ -67,10 +74,25 @@ def diagnose(
         after=measure_errors(final, setting, jobs),
         misfit=tuple(misfit),
         leftover=leftover,
-        verdict=give_verdict(pursuit, leftover),
+        verdict=give_verdict(triage.faults, pursuit, leftover),
         causes=causes,
         seed=seed,
     )
+
+
+def fit_to_rest(fit: Callable[[int], FitResult]) -> tuple[FitResult, list[str]]:
+    """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it."""
+    attempts = [fit(0)]
+    while attempts[-1].ending != Outcome.CONVERGED.value and len(attempts) < ATTEMPTS:
+        attempts.append(fit(len(attempts)))
+    best = min(attempts, key=lambda found: found.errors.train)
+    if len(attempts) == 1:
+        return best, []
+    ending = "converged" if attempts[-1].ending == Outcome.CONVERGED.value else "did not converge either"
+    return best, [
+        f"The fit of {best.declared.name} did not come to rest ({attempts[0].ending}); of {len(attempts)} starts the "
+        f"best counts, the last one {ending}."
+    ]
 
 
 def model_of(fit: FitResult) -> Model:

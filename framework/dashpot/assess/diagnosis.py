@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +15,8 @@ from dashpot.assess.leftover import Leftover
 from dashpot.assess.misfit import Misfit
 from dashpot.assess.named import NamedCause, name_causes
 from dashpot.assess.pursuit import Pursuit
+from dashpot.assess.triage.examine import Triage
+from dashpot.assess.triage.fault import Fault
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting
 from dashpot.fit.result import Errors, FitResult, floor_of
@@ -28,6 +30,7 @@ class Diagnosis:
     """Everything that was found; ``as_dict`` is the result file, ``evidence`` what the report shows besides."""
 
     setting: Setting
+    triage: Triage
     fit: FitResult
     pursuit: Pursuit
     final: NetworkSpec
@@ -84,7 +87,8 @@ class Diagnosis:
             "noise_floor": floor_of(self.setting.floor),
             "rmse": {"before": _pair(self.before), "after": _pair(self.after)},
             "misfit": [{"what": m.what, "share": m.share, "where": dict(m.where)} for m in self.misfit],
-            "causes": [self._cause(rank, named) for rank, named in enumerate(self.named, 1)],
+            "causes": self._all_causes(),
+            "faults": [vars(fault) for fault in self.triage.faults],
             "extended_model": self.extended_name,
             "held_out": list(self.setting.split.held_out),
             "tried": self.pursuit.tried,
@@ -96,7 +100,8 @@ class Diagnosis:
 
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report."""
-        return gather_evidence(self.setting, self.fit, self.pursuit, self.named, self.causes, self.patch())
+        triage = [*(fault.sentence for fault in self.triage.faults), *self.triage.remarks]
+        return gather_evidence(self.setting, self.fit, self.pursuit, self.named, self.causes, self.patch(), triage)
 
     def patch(self) -> dict[str, str]:
         """Texts and names of the network before and after; empty without an accepted cause."""
@@ -109,6 +114,13 @@ class Diagnosis:
             "before_name": before,
             "after_name": after,
         }
+
+    def _all_causes(self) -> list[dict[str, Any]]:
+        """Faults of the measurement first, then what was pursued."""
+        words = dict.fromkeys(fault.cause for fault in self.triage.faults if fault.cause)
+        faults = [[fault for fault in self.triage.faults if fault.cause == word] for word in words]
+        found = [_cause_of_faults(rank, group, self.causes) for rank, group in enumerate(faults, 1)]
+        return found + [self._cause(rank, named) for rank, named in enumerate(self.named, len(found) + 1)]
 
     def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
         rivals = [self.causes[word] for word in named.rivals]
@@ -128,6 +140,27 @@ class Diagnosis:
             "indistinguishable_from": list(named.rivals),
             "next_measurement": telling[0] if telling else None,
         }
+
+
+def _cause_of_faults(rank: int, faults: Sequence[Fault], causes: Mapping[str, type[Cause]]) -> dict[str, Any]:
+    word = faults[0].cause
+    known = causes.get(word)
+    return {
+        "cause": word,
+        "class": "measurement",
+        "title": known.about if known else word,
+        "rank": rank,
+        "accepted": True,
+        "branch": None,
+        "evidence": "; ".join(f"run '{fault.run}': {fault.evidence}" for fault in faults),
+        "expected_gain": None,
+        "gain": None,
+        "gain_interval": None,
+        "parameters": {fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
+                       for fault in faults if fault.factor is not None},
+        "indistinguishable_from": [],
+        "next_measurement": faults[0].cure,
+    }  # fmt: skip
 
 
 def digest_of(spec: NetworkSpec) -> str:

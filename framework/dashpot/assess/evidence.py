@@ -23,6 +23,7 @@ def gather_evidence(
     named: Sequence[NamedCause],
     causes: Mapping[str, type[Cause]],
     patch: Mapping[str, str],
+    triage: Sequence[str],
 ) -> dict[str, Any]:
     """The evidence of a diagnosis: see ``report.evidence.Evidence``."""
     residuals = {"before": residuals_of(pursuit.ladder[0], setting.scored)}
@@ -35,7 +36,7 @@ def gather_evidence(
         "tried": pursuit.tried,
         "limits": detection_limits(pursuit.last.screen),
         "next_measurement": next_measurements(named, causes),
-        "warnings": warnings_of(setting, [fit])
+        "warnings": [*triage, *warnings_of(setting, [fit])]
         + [f"The cause '{word}' could not be tried: {reason}" for word, reason in pursuit.last.unavailable],
         "history": {fit.declared.name: history_of(fit)},
         "provenance": provenance_of(setting, fit.seed),

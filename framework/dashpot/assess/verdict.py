@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from dashpot.assess.leftover import Leftover
 from dashpot.assess.pursuit import Pursuit
+from dashpot.assess.triage.fault import Fault
 
 
-def give_verdict(pursuit: Pursuit, leftover: Leftover) -> str:
+def give_verdict(faults: Sequence[Fault], pursuit: Pursuit, leftover: Leftover) -> str:
     """One of the verdict words of the result file.
 
-    ``ambiguous`` when an accepted cause has a rival that fits alike; ``partly_explained`` and ``unexplained`` when
-    structure is left that no suspect explains.
+    ``bad_data`` where triage found faults of the measurement; ``ambiguous`` when an accepted cause has a rival that
+    fits alike; ``partly_explained`` and ``unexplained`` when structure is left that no suspect explains.
     """
+    if faults:
+        return "bad_data"
     if any(entry.rivals for entry in pursuit.accepted):
         return "ambiguous"
     if pursuit.accepted:

@@ -48,7 +48,7 @@ def _tell(name: str, word: str, values: np.ndarray, flats: list[tuple[int, int]]
         f"({len(flats)} times, first in {where(flats[0][0])}): it is clipped"
     )
     hint = "measure with a larger range, cut it off with 'rows', or write 'accept: [clipping]' if it is sound"
-    return Trouble(message, hint)
+    return Trouble(message, hint, fault="clipping")
 
 
 def _clipped(values: np.ndarray, motion: np.ndarray | None) -> list[tuple[int, int]]:

@@ -24,13 +24,15 @@ from dashpot.text.problem import InputError, Place, Problem, in_text_order, near
 class Dataset:
     """Runs in the order of the dataset file; `problems` tells which were set aside and what to know about the others.
 
-    `folder` is where the dataset file is, None for a dataset made in memory.
+    `folder` is where the dataset file is, None for a dataset made in memory. `faults` are the faults of the measurement
+    itself that were found in reading, as (name of the run, finding).
     """
 
     name: str
     runs: tuple[Run, ...]
     problems: tuple[Problem, ...] = ()
     folder: Path | None = None
+    faults: tuple[tuple[str, Trouble], ...] = ()
 
     @cached_property
     def digest(self) -> str:
@@ -70,12 +72,13 @@ def read_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> Dataset
     document = Document.read(source.description)
     description = read_description(document, source)
     problems = list(description.problems)
-    runs = _Measurements(description, source.folder, readers, problems).read()
+    measurements = _Measurements(description, source.folder, readers, problems)
+    runs = measurements.read()
     if not runs:
         raise InputError(
             problems or [Problem(document.root.place, "the dataset has no runs", "list some under 'runs'")]
         )
-    return Dataset(description.name, tuple(runs), in_text_order(problems), source.folder)
+    return Dataset(description.name, tuple(runs), in_text_order(problems), source.folder, tuple(measurements.faults))
 
 
 class _Measurements:
@@ -88,6 +91,7 @@ class _Measurements:
         self._folder = folder
         self._readers = readers
         self._problems = problems
+        self.faults: list[tuple[str, Trouble]] = []
         self._last: tuple[object, Table] = (None, Table({}))
 
     def read(self) -> list[Run]:
@@ -119,6 +123,8 @@ class _Measurements:
         return self._last[1]
 
     def _note(self, declaration: RunDeclaration, trouble: Trouble) -> None:
+        if trouble.fault:
+            self.faults.append((declaration.name, trouble))
         state = " is set aside" if trouble.severity == "error" else ""
         message = f"run '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
         place = trouble.place or declaration.place("file")

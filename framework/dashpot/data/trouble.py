@@ -11,12 +11,16 @@ from dashpot.text.problem import Place
 
 @dataclass(frozen=True)
 class Trouble:
-    """A finding about a run: what it is and what to do. `place` is the key of the dataset file that caused it."""
+    """A finding about a run: what it is and what to do. `place` is the key of the dataset file that caused it.
+
+    `fault` names a fault of the measurement itself ("clipping"); empty for what is merely written or read wrong.
+    """
 
     message: str
     hint: str = ""
     place: Place | None = None
     severity: Literal["error", "warning"] = "error"
+    fault: str = ""
 
 
 class Unusable(Exception):

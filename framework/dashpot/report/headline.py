@@ -133,9 +133,17 @@ def _gain_of(causes: list[Json]) -> float | None:
 
 
 def _bad_data(diagnosis: Json, errors: Errors) -> str:
+    faults = diagnosis.get("faults") or []
+    first = f"{faults[0]['evidence']} (run '{faults[0]['run']}')" if faults else _measurement_faults(diagnosis)
+    more = f", and {len(faults) - 1} more" if len(faults) > 1 else ""
+    causes = [cause for cause in accepted_causes(diagnosis) if cause.get("branch")]
+    rest = f"; the sound runs show {_named(causes)}" if causes else ""
+    return f"The measurement is at fault first: {first}{more}. {error_phrase(errors)}{rest}."
+
+
+def _measurement_faults(diagnosis: Json) -> str:
     faults = [cause for cause in accepted_causes(diagnosis) if cause.get("class") == "measurement"]
-    what = join([cause_phrase(cause) for cause in faults]) if faults else "see the findings below"
-    return f"The measurement is at fault first: {what}. {error_phrase(errors)}, but says little about the model."
+    return join([cause_phrase(cause) for cause in faults]) if faults else "see the findings below"
 
 
 def _named(causes: list[Json]) -> str:
