@@ -40,10 +40,14 @@ if TYPE_CHECKING:
     from dashpot.model.element import Parameter as Parameter
     from dashpot.model.element import Response as Response
     from dashpot.model.element import State as State
+    from dashpot.model.picture import Parallel as Parallel
+    from dashpot.model.picture import Series as Series
+    from dashpot.model.picture import Symbol as Symbol
     from dashpot.model.reading import read_network as read_network
 
 _HOMES = {
     "dashpot.model.element": ("Curve", "Element", "Motion", "Parameter", "Response", "State"),
+    "dashpot.model.picture": ("Parallel", "Series", "Symbol"),
     "dashpot.model.reading": ("read_network",),
     "dashpot.data.dataset": ("read_dataset",),
     "dashpot.contract.hooks": ("hookimpl",),

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Symbol
 
 
 class Coulomb(Element):
@@ -15,6 +16,7 @@ class Coulomb(Element):
     It has no memory and no pre-sliding spring: for contacts whose yield travel is below what the sensor resolves.
     """
 
+    picture = Symbol.SLIDER
     source = "Andersson, Soderberg and Bjorklund, Tribology International 40 (2007) 580"
 
     limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")

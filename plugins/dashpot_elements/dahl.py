@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
 
 TINY = 1e-300
 
@@ -18,6 +19,7 @@ class Dahl(Element):
     behind a spring (Jenkin). Minor loops drift: the law has no memory of turning points.
     """
 
+    picture = Symbol.SLIDER
     source = "Dahl, AIAA J. 14 (1976) 1675"
 
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dashpot.model.element import Curve, Element, Motion, Response
+from dashpot.model.picture import Symbol
 
 
 class Damper(Element):
@@ -12,6 +13,8 @@ class Damper(Element):
 
     A table over negative and positive velocities gives rebound and compression their own shapes.
     """
+
+    picture = Symbol.DASHPOT
 
     damping = Curve(
         ("force", "N"), ("velocity", "m/s"), "force over velocity, or its constant slope",

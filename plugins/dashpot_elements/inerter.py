@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Symbol
 
 
 class Inerter(Element):
@@ -13,6 +14,7 @@ class Inerter(Element):
     It stands for the part of a fixture that moves between the driven end and the load cell.
     """
 
+    picture = Symbol.INERTER
     passive = False  # a negative inertance stands for a mass that was subtracted from the measurement
 
     inertance = Parameter("kg", "moving mass", bounds=(-50.0, 50.0), scale="linear", symbol="b")

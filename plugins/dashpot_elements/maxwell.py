@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.path import fading_travel
+from dashpot.model.picture import Series, Symbol
 
 
 class Maxwell(Element):
@@ -16,6 +17,8 @@ class Maxwell(Element):
     k is the stiffness, T the relaxation time. The dynamic stiffness is k j w T/(1 + j w T); its loss part peaks with
     k/2 at w = 1/T.
     """
+
+    picture = Series(Symbol.SPRING, Symbol.DASHPOT)
 
     stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k")
     relaxation_time = Parameter("s", "damping over stiffness", bounds=(1e-5, 1e4), symbol="T")

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import wrightomega
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Series, Symbol
 
 NEWTON_STEPS = 5
 TINY = 1e-75  # its fourth power is still a number
@@ -22,6 +23,7 @@ class Prandtl(Element):
     the equation convex.
     """
 
+    picture = Series(Symbol.SPRING, Symbol.SLIDER)
     source = "Corless and Jeffrey, The Wright omega function (2002), for the solution"
 
     stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k_p")

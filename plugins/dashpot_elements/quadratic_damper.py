@@ -7,10 +7,13 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Symbol
 
 
 class QuadraticDamper(Element):
     """A dashpot whose force grows with the square of the velocity: F = damping v |v|."""
+
+    picture = Symbol.DASHPOT
 
     damping = Parameter("N*s^2/m^2", "force at 1 m/s", bounds=(1e-2, 1e8), symbol="d_2")
 

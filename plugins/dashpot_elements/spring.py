@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dashpot.model.element import Curve, Element, Motion, Response
+from dashpot.model.picture import Symbol
 
 
 class Spring(Element):
@@ -13,6 +14,7 @@ class Spring(Element):
     A table is interpolated by a monotone cubic with continuous slope and continued linearly outside its knots.
     """
 
+    picture = Symbol.SPRING
     source = "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300 for the monotone cubic"
 
     stiffness = Curve(

@@ -12,6 +12,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
+from dashpot.model.picture import Picture, Symbol
+
 Scale = Literal["log", "linear"]
 
 
@@ -113,13 +115,15 @@ class Element(ABC):
     Subclasses declare ``Parameter``, ``Curve`` and ``State`` as class attributes and implement ``step``. ``word`` is
     the name in a file; it defaults to the name of the module that holds the class. ``source`` is the publication that
     the law follows. ``exact`` claims that one step is the same as two over its halves, ``passive`` that the law never
-    gives back more work than was put in, whatever its numbers; set to False what does not hold.
+    gives back more work than was put in, whatever its numbers; set to False what does not hold. ``picture`` is how a
+    schematic shows the element.
     """
 
     word: ClassVar[str] = ""
     source: ClassVar[str] = ""
     exact: ClassVar[bool] = True
     passive: ClassVar[bool] = True
+    picture: ClassVar[Picture] = Symbol.BOX
     declares: ClassVar[Declaration] = Declaration()
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
