@@ -10,11 +10,11 @@ from typing import Literal
 
 from dashpot.model.curves import read_curve, read_scale
 from dashpot.model.element import Element
-from dashpot.model.joints import read_ends
+from dashpot.model.fixing import fixed_as_found
+from dashpot.model.joints import read_ends, read_known
 from dashpot.model.network import Branch, Characteristic, Ends, Group, Joint, NetworkSpec, Value
 from dashpot.model.values import ONLY, Copy, Reading, kind_of, read_value
-from dashpot.text.form import Form, read_text
-from dashpot.text.node import Node
+from dashpot.text.form import Form
 from dashpot.text.problem import InputError, Problem, nearest
 
 MAXIMUM_COPIES = 100
@@ -39,27 +39,48 @@ class BranchReader:
         found: list[Branch | Group] = []
         for name, entry in (form.named("branches") or {}).items():
             ends = read_ends(name, entry, self.joints)
-            known = {member.name: member for member in found}
-            members = self._twin(name, entry, known) if "same_as" in entry else self._copies(name, entry, ONLY)
+            members = self._entry(name, entry, found, ONLY)
             found += members
-            self.ends |= {member.name: ends for member in members if ends}
+            if ends and members:
+                self._connect(members, ends, entry.text("same_as", ""))
         return tuple(found)
+
+    def _connect(self, members: list[Branch | Group], ends: Ends, model: str) -> None:
+        # a twin has the offset of its model unless it has one of its own; copies have that of the first one
+        if model in self.ends and not ends.offset:
+            ends = replace(self.ends[model], lower=ends.lower, upper=ends.upper)
+            ends = replace(ends, shares=ends.shares or model) if ends.offset else ends
+        first = members[0].name
+        self.ends[first] = ends
+        shares = ends.shares or (first if ends.offset else "")
+        self.ends |= {member.name: replace(ends, shares=shares) for member in members[1:]}
 
     def members(self, form: Form, key: str, copy: Copy = ONLY) -> tuple[Branch | Group, ...]:
         """The branches named below a key."""
-        named = form.named(key) or {}
-        return tuple(member for name, entry in named.items() for member in self._copies(name, entry, copy))
+        found: list[Branch | Group] = []
+        for name, entry in (form.named(key) or {}).items():
+            found += self._entry(name, entry, found, copy)
+        return tuple(found)
+
+    def _entry(self, name: str, form: Form, above: list[Branch | Group], copy: Copy) -> list[Branch | Group]:
+        if "same_as" in form:
+            return self._twin(name, form, {member.name: member for member in above})
+        return self._copies(name, form, copy)
 
     def _twin(self, name: str, form: Form, known: MappingType[str, Branch | Group]) -> list[Branch | Group]:
+        self._refuse_name(name, form)
         form.text("about", "")
-        word = form.take("same_as", lambda node: _known(node, known))
+        word = form.take("same_as", lambda node: read_known(node, known, "branch"))
         form.close()
         return [_sharing(known[word], word, name)] if word else []
 
-    def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
+    def _refuse_name(self, name: str, form: Form) -> None:
         if not NAME.fullmatch(name) or name == "measurement":
             form.complain(None, f"expected a name of letters, digits, '_', '-' and '+' other than 'measurement', got "
                           f"'{name}'", "rename the branch")  # fmt: skip
+
+    def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
+        self._refuse_name(name, form)
         count = self._count(form, outer)
         first, found = len(self.problems), []
         for number in range(count):
@@ -97,9 +118,16 @@ class BranchReader:
 
     def _used(self, form: Form) -> Group | None:
         other = form.text("use")
+        fixed = form.flag("fixed", False)
+        if "fixed" in form and not fixed:
+            form.complain("fixed", "expected 'true': without the key its numbers are searched as it says itself",
+                          "leave the key out")  # fmt: skip
         form.close()
         try:
-            return Group("", "parallel", self.use(other).root.members, form.place) if other else None
+            spec = self.use(other) if other else None
+            if spec and fixed:
+                spec = fixed_as_found(spec)
+            return Group("", "parallel", spec.root.members, form.place) if spec else None
         except InputError as error:
             self._complain_of_use(other, form, error)
             return None
@@ -156,20 +184,14 @@ class BranchReader:
 def _named(member: Branch | Group, name: str, family: str) -> Branch | Group:
     # a member that was read has no name yet, one from a group or another network is called by its path
     if isinstance(member, Branch):
-        return replace(member, name=_join(name, member.name), family=_join(family, member.family))
+        shares = _join(name, member.shares) if member.shares else ""
+        return replace(member, name=_join(name, member.name), family=_join(family, member.family), shares=shares)
     members = tuple(_named(inner, name, family) for inner in member.members)
     return replace(member, name=_join(name, member.name), members=members)
 
 
 def _join(*names: str) -> str:
     return ".".join(name for name in names if name)
-
-
-def _known(node: Node, known: MappingType[str, Branch | Group]) -> str:
-    word = read_text(node)
-    if word not in known:
-        raise ValueError(f"there is no branch '{word}' above; {nearest(word, known)}".rstrip("; "))
-    return word
 
 
 def _sharing(member: Branch | Group, name: str, twin: str) -> Branch | Group:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from dashpot.model.network import Branch, NetworkSpec, Value
+from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.text.node import Mapping, Node
 from dashpot.text.problem import Place, Problem
 
 
 def find_clashes(spec: NetworkSpec) -> Iterator[Problem]:
-    """Branches of one name, several curves from the same data, searched numbers in two places at once."""
+    """Parts of one name, curves that cannot come from data, searched numbers in two places at once."""
     yield from _equal_names(spec.leaves())
+    yield from _equal_paths(spec)
+    yield from _curves_without_a_loop(spec)
     yield from _curves_from_the_same_data(spec)
     yield from _shared_numbers(spec)
 
@@ -26,8 +28,50 @@ def _equal_names(leaves: tuple[Branch, ...]) -> Iterator[Problem]:
         first.setdefault(branch.name, branch)
 
 
+def _equal_paths(spec: NetworkSpec) -> Iterator[Problem]:
+    seen: set[str] = set()
+    branches = {branch.name for branch in spec.leaves()}
+    for slot in spec.slots():
+        name, place = slot.path.rpartition(".")[0], slot.value.node.place if slot.value.node else Place()
+        if slot.path in seen and name not in _doubled(spec):
+            yield Problem(place, f"two numbers are called '{slot.path}'",
+                          f"rename the {'branch' if name in branches else 'node'} '{name}'")  # fmt: skip
+        seen.add(slot.path)
+
+
+def _doubled(spec: NetworkSpec) -> set[str]:
+    names = [branch.name for branch in spec.leaves()]
+    return {name for name in names if names.count(name) > 1}
+
+
+def _curves_without_a_loop(spec: NetworkSpec) -> Iterator[Problem]:
+    # a slow loop is one force over one deflection: it is the curve of what lies between the two ends, of nothing else
+    inside = {branch.name for group in _series(spec.root) for branch in group.leaves()}
+    for path, curve in spec.data_curves().items():
+        place = curve.node.place if curve.node else Place()
+        if spec.joints:
+            yield Problem(place, f"'{path}' cannot come from {curve.data} data in a network with nodes: the loop of "
+                          "the whole is not the curve of a part",
+                          "write a table; or fit the part by itself, on runs of its own, and write "
+                          "'use: fitted.yaml, fixed: true'")  # fmt: skip
+        elif path.rpartition(".")[0] in inside:
+            yield Problem(place, f"'{path}' cannot come from {curve.data} data inside a series connection: it sees a "
+                          "part of the deflection only", "write a number or a table")  # fmt: skip
+
+
+def _series(group: Group) -> Iterator[Group]:
+    for member in group.members:
+        if isinstance(member, Group):
+            if member.kind == "series":
+                yield member
+            else:
+                yield from _series(member)
+
+
 def _curves_from_the_same_data(spec: NetworkSpec) -> Iterator[Problem]:
     seen: dict[str, str] = {}
+    if spec.joints:
+        return
     for path, curve in spec.data_curves().items():
         if curve.data in seen:
             place = curve.node.place if curve.node else Place()

@@ -2,41 +2,46 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from collections.abc import Mapping as MappingType
 from typing import get_args
 
 from dashpot.model.network import Ends, Hold, Joint
 from dashpot.model.values import Kind, Reading, read_value
 from dashpot.text.form import Form, read_items, read_text
-from dashpot.text.node import Node, Scalar
-from dashpot.text.problem import nearest
+from dashpot.text.node import Mapping, Node, Scalar
+from dashpot.text.problem import Problem, nearest
 
 HOLDS: tuple[Hold, ...] = get_args(Hold)
 WEIGHTS = {"mass": Kind("kg", (1e-9, 1e9), "log", off=True), "added_mass": Kind("kg", (0.0, 1e9), "linear")}
 OFFSET = Kind("m", (-10.0, 10.0), "linear")
 
 
+NAME = re.compile(r"\w[\w+-]*")
+
+
 def read_joints(form: Form) -> dict[str, Joint]:
-    """The nodes under ``nodes:``: ``platform: driven``, ``wheel: {mass: 40 kg}``, ``right: {same_as: left}``."""
-    node = form.node("nodes")
-    if node is None:
-        return {}
+    """The nodes under ``nodes:``: ``platform: driven``, ``wheel: {mass: 40 kg}``, ``right: {same_as: left}``.
+
+    A node with mistakes is there nevertheless, so that branches may connect it without another complaint.
+    """
     found: dict[str, Joint] = {}
-    for name, entry in (form.take("nodes", _entries) or {}).items():
-        joint = _read_joint(name, entry, form, found)
-        if joint:
-            found[name] = joint
+    for name, entry in (form.take("nodes", _entries, None) or {}).items():
+        if not NAME.fullmatch(name):
+            form.problems.append(Problem(entry.place, f"expected a name of letters, digits, '_', '-' and '+', got "
+                                         f"'{name}'", "rename the node"))  # fmt: skip
+        found[name] = _read_joint(name, entry, form, found)
     return found
 
 
 def _entries(node: Node) -> MappingType[str, Node]:
-    entries = getattr(node, "entries", None)
-    if entries is None:
-        raise ValueError(f"expected named nodes 'name: driven' or 'name: {{mass: 40 kg}}', got {node.describe()}")
-    return entries
+    if isinstance(node, Mapping) and node.entries:
+        return node.entries
+    raise ValueError(f"expected named nodes 'name: driven' or 'name: {{mass: 40 kg}}', got {node.describe()}")
 
 
-def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Joint]) -> Joint | None:
+def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Joint]) -> Joint:
     what = f"the node '{name}'"
     if isinstance(node, Scalar):
         word = node.written
@@ -45,11 +50,11 @@ def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Join
         Reading(what, outer.problems).complain(
             node.place, f"expected {', '.join(HOLDS)} or '{{mass: ...}}', got '{word}'", nearest(word, HOLDS)
         )
-        return None
+        return Joint(name, "free", place=node.place)
     form = Form(node, outer.problems, what)
     form.text("about", "")
-    hold = form.choice("hold", HOLDS, "free")
-    twin = form.take("same_as", lambda inner: _known(inner, known), "")
+    twin = form.take("same_as", lambda inner: read_known(inner, known, "node"), "")
+    hold = form.choice("hold", HOLDS, known[twin].hold if twin else "free")
     reading = Reading(what, outer.problems)
     masses = {key: value for key, kind in WEIGHTS.items() if (weight := form.node(key))
               and (value := read_value(weight, kind, reading.named(f"{name}.{key}")))}  # fmt: skip
@@ -60,16 +65,21 @@ def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Join
     return Joint(name, hold, shared, known[twin].numbers if twin else "", form.place)  # type: ignore[arg-type]
 
 
-def _known(node: Node, known: MappingType[str, Joint]) -> str:
-    word = read_text(node)
-    if word not in known:
-        raise ValueError(f"there is no node '{word}' above; {nearest(word, known)}".rstrip("; "))
+def read_known(node: Node, known: Iterable[str], kind: str) -> str:
+    """The name of a part that stands above. ValueError for another one."""
+    word, names = read_text(node), tuple(known)
+    if word not in names:
+        raise ValueError(f"there is no {kind} '{word}' above; {nearest(word, names)}".rstrip("; "))
     return word
 
 
 def read_ends(name: str, form: Form, joints: MappingType[str, Joint]) -> Ends | None:
     """What a branch connects, ``between: [lower, upper]``, and its ``offset``; None in a network without nodes."""
     if not joints:
+        for key in ("between", "offset"):
+            if form.node(key):
+                form.complain(key, f"'{name}' has '{key}', but the network has no nodes",
+                              "name them at the top: 'nodes: {platform: driven, body: ground}'")  # fmt: skip
         return None
     pair = form.take("between", lambda node: _read_pair(node, joints))
     offset = form.node("offset")

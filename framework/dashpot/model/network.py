@@ -133,11 +133,13 @@ class Ends:
     """The two nodes that a branch of the file connects, the lower one first.
 
     Its deflection is z_lower - z_upper + offset: ``offset`` is what it is when both nodes stand at zero; None is none.
+    ``shares`` is the branch whose offset it has, if not its own.
     """
 
     lower: str
     upper: str
     offset: Value | None = None
+    shares: str = ""
 
 
 @dataclass(frozen=True)
@@ -185,7 +187,8 @@ class NetworkSpec:
     def slots(self) -> tuple[Slot, ...]:
         """Every number of the network: branch by branch, node by node, then the measurement."""
         found = [slot for branch in self.leaves() if not branch.shares for slot in _branch_slots(branch)]
-        found += [Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items() if ends.offset]
+        found += [Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items()
+                  if ends.offset and not ends.shares]  # fmt: skip
         found += [Slot(f"{joint.name}.{key}", value) for joint in self.joints.values() if not joint.shares
                   for key, value in joint.masses.items()]  # fmt: skip
         return (*found, *(Slot(f"measurement.{key}", value) for key, value in self.measurement.items()))
@@ -267,7 +270,7 @@ def _reweigh(joint: Joint, values: Mapping[str, Value]) -> Joint:
 
 
 def _replace_offset(name: str, ends: Ends, values: Mapping[str, Value]) -> Ends:
-    return replace(ends, offset=values.get(f"{name}.offset", ends.offset)) if ends.offset else ends
+    return replace(ends, offset=values.get(f"{ends.shares or name}.offset", ends.offset)) if ends.offset else ends
 
 
 def _recurve(path: str, curve: Characteristic, values: Mapping[str, Value]) -> Characteristic:

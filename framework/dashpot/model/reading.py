@@ -52,6 +52,8 @@ def build_network(document: Document, elements: Elements, trail: tuple[Path, ...
     about, source = form.text("about", ""), form.text("source", "")
     joints = read_joints(form)
     gravity = form.quantity("gravity", "m/s^2", 0.0)
+    if "gravity" in form and "nodes" not in form:
+        form.complain("gravity", "gravity pulls at the masses of nodes, but the network has no nodes", "remove it")
     reader = BranchReader(elements, problems, _Uses(document.file, elements, trail).network, joints)
     members = reader.outermost(form)
     measurement = _read_measurement(form, problems)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dashpot.model.network import END, GROUND, Branch, Ends, Group, Hold, Joint, NetworkSpec
 
@@ -50,9 +50,9 @@ def topology_of(spec: NetworkSpec) -> Topology:
     edges: list[Edge] = []
     for member in spec.root.members:
         ends = spec.ends.get(member.name, Ends(END, GROUND))
+        offset = f"{ends.shares or member.name}.offset" if ends.offset else ""
         for edge in _edges(member, ends.lower, ends.upper, joints):
-            first = ends.offset is not None and edge.lower == ends.lower
-            edges.append(Edge(edge.branch, edge.lower, edge.upper, f"{member.name}.offset" if first else ""))
+            edges.append(replace(edge, offset=offset if edge.lower == ends.lower else ""))
     return Topology(joints, tuple(edges))
 
 

@@ -87,10 +87,14 @@ def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
     except ValueError as error:
         reading.complain(node.place, str(error))
         return None
+    _refuse_outside(number, kind, node.place, reading)
+    return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, node=node)
+
+
+def _refuse_outside(number: float, kind: Kind, place: Place, reading: Reading) -> None:
     low, high = kind.bounds
     if not (low <= number <= high or (kind.off and number == 0.0)):
-        reading.complain(node.place, f"expected {low:g} to {high:g} {kind.unit}, got {number:g}")
-    return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, node=node)
+        reading.complain(place, f"expected {low:g} to {high:g} {kind.unit}, got {number:g}")
 
 
 def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
@@ -117,6 +121,7 @@ def _read_setting(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     form.close()
     if word is None or number is None:
         return None
+    _refuse_outside(number, kind, form.place_of("value"), reading)
     return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, setting=word, node=node)
 
 
