@@ -10,13 +10,50 @@ hookimpl = pluggy.HookimplMarker("dashpot")
 @hookimpl
 def dashpot_elements() -> list[type]:
     """Every element of this package."""
+    from dashpot_elements.asymmetric_damper import AsymmetricDamper
+    from dashpot_elements.backlash import Backlash
+    from dashpot_elements.bedding_in import BeddingIn
+    from dashpot_elements.bouc_wen import BoucWen
+    from dashpot_elements.clearance import Clearance
+    from dashpot_elements.contact import Contact
     from dashpot_elements.coulomb import Coulomb
+    from dashpot_elements.creep import Creep
     from dashpot_elements.dahl import Dahl
     from dashpot_elements.damper import Damper
+    from dashpot_elements.end_stop import EndStop
+    from dashpot_elements.hydro import Hydro
     from dashpot_elements.inerter import Inerter
+    from dashpot_elements.iwan import Iwan
     from dashpot_elements.maxwell import Maxwell
+    from dashpot_elements.power_law_damper import PowerLawDamper
     from dashpot_elements.prandtl import Prandtl
     from dashpot_elements.quadratic_damper import QuadraticDamper
+    from dashpot_elements.softening import Softening
     from dashpot_elements.spring import Spring
+    from dashpot_elements.springpot import Springpot
+    from dashpot_elements.stribeck import Stribeck
 
-    return [Spring, Damper, QuadraticDamper, Maxwell, Dahl, Coulomb, Prandtl, Inerter]
+    return [
+        Spring,
+        Contact,
+        EndStop,
+        Clearance,
+        Backlash,
+        Damper,
+        AsymmetricDamper,
+        QuadraticDamper,
+        PowerLawDamper,
+        Maxwell,
+        Springpot,
+        Creep,
+        Hydro,
+        Coulomb,
+        Dahl,
+        Prandtl,
+        Stribeck,
+        BoucWen,
+        Iwan,
+        BeddingIn,
+        Softening,
+        Inerter,
+    ]

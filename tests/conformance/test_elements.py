@@ -63,9 +63,9 @@ def test_an_installed_element_conforms(word, check):
 
 def test_the_element_of_the_example_plugin_conforms(monkeypatch):
     monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "example_plugin"))
-    from dashpot_example.bouc_wen import BoucWen
+    from dashpot_example.soft_slider import SoftSlider
 
-    check_element(BoucWen)
+    check_element(SoftSlider)
     for name in [name for name in sys.modules if name.startswith("dashpot_example")]:
         del sys.modules[name]
 

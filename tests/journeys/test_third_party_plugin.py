@@ -22,7 +22,7 @@ name: mount
 branches:
   rubber: {element: spring, stiffness: {start: 100 N/mm, bounds: [10 N/mm, 1 kN/mm]}}
   hysteresis:
-    element: bouc_wen
+    element: soft_slider
     stiffness: {start: 50 N/mm, bounds: [5 N/mm, 500 N/mm]}
     limit: {start: 30 N, bounds: [1 N, 1 kN]}
 """
@@ -53,10 +53,10 @@ def test_the_plugin_is_listed_with_its_distribution(with_example, tmp_path):
     done = with_example.run(tmp_path, "dashpot", "list", "plugins")
     assert done.returncode == 0
     [line] = [line for line in done.stdout.splitlines() if line.startswith("example ")]
-    assert "dashpot-example 0.3.0" in line and line.endswith("bouc_wen, random_search")
+    assert "dashpot-example 0.3.0" in line and line.endswith("soft_slider, random_search")
 
 
-@pytest.mark.parametrize("kind, word", [("elements", "bouc_wen"), ("optimizers", "random_search")])
+@pytest.mark.parametrize("kind, word", [("elements", "soft_slider"), ("optimizers", "random_search")])
 def test_its_things_stand_among_the_built_in_ones(with_example, tmp_path, kind, word):
     done = with_example.run(tmp_path, "dashpot", "list", kind)
     [line] = [line for line in done.stdout.splitlines() if line.startswith(word)]
@@ -70,7 +70,7 @@ def test_its_element_works_in_a_file_at_once(with_example, installation, tmp_pat
     assert done.returncode == 0, done.stderr
     without = installation.run(tmp_path, "dashpot", "check", "mount.yaml")
     assert without.returncode == 1
-    assert "mount.yaml:6:14: there is no element 'bouc_wen'" in without.stderr
+    assert "mount.yaml:6:14: there is no element 'soft_slider'" in without.stderr
 
 
 def test_its_optimizer_identifies_its_element(with_example, tmp_path):
@@ -85,7 +85,7 @@ def test_its_optimizer_identifies_its_element(with_example, tmp_path):
 def test_the_allow_list_leaves_it_out(with_example, tmp_path):
     done = with_example.run(tmp_path, "dashpot", "list", "elements", DASHPOT_PLUGINS="elements")
     assert done.returncode == 0
-    assert "bouc_wen" not in done.stdout and "maxwell" in done.stdout
+    assert "soft_slider" not in done.stdout and "maxwell" in done.stdout
 
 
 def test_when_it_breaks_it_is_named_and_the_rest_works(with_example, tmp_path):
@@ -100,7 +100,7 @@ def test_when_it_breaks_it_is_named_and_the_rest_works(with_example, tmp_path):
 
 def test_its_law_is_the_published_one(monkeypatch):
     monkeypatch.syspath_prepend(str(EXAMPLE))
-    from dashpot_example.bouc_wen import BoucWen
+    from dashpot_example.soft_slider import SoftSlider
 
     seed = int(np.random.SeedSequence().entropy % 2**32)
     print(f"seed {seed}")
@@ -110,13 +110,13 @@ def test_its_law_is_the_published_one(monkeypatch):
     force, x = 0.0, 0.0
     for travel in rng.normal(scale=2 * limit / stiffness, size=20):
         motion = Motion(x, x + travel, None, None, None)
-        answer = BoucWen().step(motion, SimpleNamespace(force=force), given, None).force
-        expected = integrate_bouc_wen(stiffness, limit, force, travel)
+        answer = SoftSlider().step(motion, SimpleNamespace(force=force), given, None).force
+        expected = integrate_wen(stiffness, limit, force, travel)
         assert answer == pytest.approx(expected, abs=1e-8 * limit)
         force, x = float(answer), x + travel
 
 
-def integrate_bouc_wen(stiffness: float, limit: float, force: float, travel: float) -> float:
+def integrate_wen(stiffness: float, limit: float, force: float, travel: float) -> float:
     """Wen's rate equation with n = 1, beta = gamma = 1/2 over a travel; steps are short for the corner at zero."""
 
     def slope(_, z):

@@ -29,7 +29,8 @@ def check_passivity(element: type[Element], seed: int | None = None) -> None:
             network = compile_network(specimen.spec)
             force = network.simulate(network.prepare(drive), specimen.values)
             pieces = 0.5 * (force[:, 1:] + force[:, :-1]) * np.diff(drive.displacement)
-            lowest = np.min(np.cumsum(pieces, axis=1), axis=1) / np.sum(np.abs(pieces), axis=1)
+            moved = np.sum(np.abs(pieces), axis=1) + np.finfo(float).tiny
+            lowest = np.min(np.cumsum(pieces, axis=1), axis=1) / moved
             if not (lowest >= -TOLERANCE).all():
                 what = f"with {specimen.form}, a {kind} gives back more work than was put in"
                 examination.fail(f"{what}, by {-np.min(lowest):.1%} of all that goes to and fro", ADVICE)

@@ -6,9 +6,9 @@ from dashpot import hookimpl
 @hookimpl
 def dashpot_elements():
     """Laws of this package."""
-    from dashpot_example.bouc_wen import BoucWen
+    from dashpot_example.soft_slider import SoftSlider
 
-    return [BoucWen]
+    return [SoftSlider]
 
 
 @hookimpl

@@ -1,4 +1,4 @@
-"""Hysteresis after Bouc and Wen."""
+"""A slider that gives way gradually."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from dashpot import Element, Motion, Parameter, Response, State
 
 
-class BoucWen(Element):
+class SoftSlider(Element):
     """The Bouc-Wen law with n = 1 and equal shape constants, solved exactly over a monotone step.
 
     Towards the limit dF/dx = stiffness (1 - |F|/limit); back to zero the full stiffness.

@@ -1,0 +1,29 @@
+"""Lost motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+
+
+class Backlash(Element):
+    """A spring that is pushed to and fro through play: F = stiffness s, s follows x at a distance of at most the gap.
+
+    After a turn nothing moves until the play is crossed, 2 gap long. It stands for lost motion in a chain of sensors or
+    levers. As the spring follows late, the force gives work back.
+    """
+
+    source = "Brokate and Sprekels, Hysteresis and Phase Transitions (1996), for the play operator"
+    passive = False
+
+    stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1.0, 1e9), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
+    follower = State("m", "deflection behind the play")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The play operator at the end of the step."""
+        follower = np.minimum(np.maximum(z.follower, x.new - p.gap), x.new + p.gap)
+        return Response(p.stiffness * follower, follower=follower)

@@ -1,0 +1,24 @@
+"""A joint with play."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response
+
+
+class Clearance(Element):
+    """A spring whose joint has play: no force while |x| < gap, beyond that F = stiffness (|x| - gap) sgn(x).
+
+    The spring brings itself back to the middle of its play, so there is no memory. For a part that stays where it was
+    pushed see ``backlash``.
+    """
+
+    stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e9), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The law at the end of the step."""
+        return Response(p.stiffness * (np.maximum(x.new - p.gap, 0.0) + np.minimum(x.new + p.gap, 0.0)))

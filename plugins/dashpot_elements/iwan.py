@@ -1,0 +1,43 @@
+"""Amplitude softening of filled rubber."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+
+COUNT = 8
+
+
+class Iwan(Element):
+    """Eight springs in parallel, each behind a slider: F = sum of k_i e_i, |e_i| <= t_i.
+
+    The travels t_i at which the sliders yield are spread evenly over the logarithm from the shortest to the longest;
+    the stiffnesses k_i go with t_i^-slope and are together ``stiffness``. With a slope of 0 the storage stiffness falls
+    in proportion to the logarithm of the amplitude (Payne effect), while the loop stays near to an ellipse. Rate
+    independent; minor loops close.
+    """
+
+    source = "Iwan, J. Applied Mechanics 33 (1966) 893"
+
+    stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")
+    shortest = Parameter("m", "yield travel of the first slider", bounds=(1e-8, 1.0), symbol="t_1")
+    longest = Parameter("m", "yield travel of the last slider", bounds=(1e-7, 10.0), symbol="t_8")
+    slope = Parameter("1", "how the stiffness falls with the travel", bounds=(-2.0, 2.0), scale="linear", symbol="s",
+                      default=0.0)  # fmt: skip
+    stretch_1, stretch_2, stretch_3, stretch_4, stretch_5, stretch_6, stretch_7, stretch_8 = (
+        State("m", f"stretch of spring {number}") for number in range(1, COUNT + 1)
+    )
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """Every spring takes the travel up to its yield travel."""
+        distance = np.log(p.longest / p.shortest) / (COUNT - 1)
+        weights = [np.exp(-p.slope * number * distance) for number in range(COUNT)]
+        force, stretches = 0.0, {}
+        for number, weight in enumerate(weights):
+            travel = p.shortest * np.exp(number * distance)
+            stretch = np.minimum(np.maximum(getattr(z, f"stretch_{number + 1}") + x.travel, -travel), travel)
+            force, stretches[f"stretch_{number + 1}"] = force + weight / sum(weights) * stretch, stretch
+        return Response(p.stiffness * force, **stretches)

@@ -1,0 +1,52 @@
+"""Dry friction that falls with speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+
+
+class Stribeck(Element):
+    """A Dahl slider whose limit falls with speed: limit + (breakaway - limit) exp(-(v/stribeck_velocity)^2).
+
+    dF/dx = stiffness (1 - F/limit(v) sgn v). The limit is frozen over a step at the mean speed; where the path turns,
+    both pieces have their own. Second order in the step.
+    """
+
+    source = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, for the limit"
+    exact = False
+
+    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
+    limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
+    breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
+    stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
+    force = State("N", "friction force")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """From the beginning of the step to its turning point, and on to its end."""
+        turns = x.velocity_old * x.velocity_new < 0.0
+        middle = np.where(turns, _turning_place(x, dt), x.new)
+        speed = 0.5 * np.abs(np.where(turns, x.velocity_old, x.velocity_old + x.velocity_new))
+        force = _slide(z.force, middle - x.old, speed, p)
+        force = _slide(force, x.new - middle, 0.5 * np.abs(x.velocity_new), p)
+        return Response(force, force=force)
+
+
+def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
+    ratio = speed / p.stribeck_velocity
+    limit = p.limit + (p.breakaway - p.limit) * np.exp(-ratio * ratio)
+    end = np.where(travel < 0.0, -limit, limit)
+    return end + (force - end) * np.exp(-p.stiffness * np.abs(travel) / limit)
+
+
+def _turning_place(x: Motion, dt: Any) -> Any:
+    """Where the cubic path turns whose velocity v_old + b u + c u^2 changes its sign once over u = 0..1."""
+    rise = x.travel / dt
+    c = 3.0 * (x.velocity_old + x.velocity_new) - 6.0 * rise
+    b = x.velocity_new - x.velocity_old - c
+    root = np.sqrt(np.maximum(b * b - 4.0 * c * x.velocity_old, 0.0))
+    u = 2.0 * x.velocity_old / (np.where(x.velocity_old < 0.0, -root, root) - b)
+    return x.old + dt * u * (x.velocity_old + u * (0.5 * b + u * (c / 3.0)))
