@@ -12,6 +12,9 @@ def dashpot_optimizers() -> list[type]:
     from dashpot_optimizers.differential_evolution import DifferentialEvolution
     from dashpot_optimizers.least_squares import LeastSquares
     from dashpot_optimizers.multistart import Multistart
+    from dashpot_optimizers.nevergrad import Nevergrad
+    from dashpot_optimizers.optuna import Optuna
     from dashpot_optimizers.pso import ParticleSwarm
 
-    return [ParticleSwarm, LeastSquares, DifferentialEvolution, CovarianceMatrixAdaptation, Multistart]
+    own = [ParticleSwarm, LeastSquares, DifferentialEvolution, CovarianceMatrixAdaptation, Multistart]
+    return [*own, Nevergrad, Optuna]

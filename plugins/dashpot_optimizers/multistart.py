@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from dashpot.contract.optimizer import Blocks, Optimizer, Search, Space
+from dashpot.contract.chain import make_optimizer
+from dashpot.contract.optimizer import Blocks, Search, Space
 from dashpot.contract.registry import load_registry
 from dashpot.contract.side_by_side import agreement, side_by_side
-from dashpot.text.problem import nearest
 from dashpot_optimizers.latin_hypercube import scatter
 from dashpot_optimizers.option import require
 
@@ -15,7 +15,7 @@ from dashpot_optimizers.option import require
 class Multistart(Search):
     """An optimizer with its default options from the start and from a Latin hypercube of others, all in step.
 
-    of: word of the optimizer; starts: how many.
+    of: word of the optimizer, or a chain `A+B`; starts: how many.
     """
 
     word = "multistart"
@@ -26,16 +26,8 @@ class Multistart(Search):
 
     def search(self, space: Space, rng: np.random.Generator) -> Blocks:
         """Run one search from each start."""
-        kind = optimizer_called(self.of)
         spaces = [Space(space.names, start) for start in scatter(rng, self.starts, space.start)]
         seeds = [int(seed) for seed in rng.integers(2**32, size=self.starts)]
-        return agreement((yield from side_by_side(self, [kind() for _ in spaces], spaces, seeds)))
-
-
-def optimizer_called(word: str) -> type[Optimizer]:
-    """The registered optimizer of that name; ValueError if there is none."""
-    known = load_registry().optimizers
-    if word not in known:
-        hint = nearest(word, known) or f"there are: {', '.join(known)}"
-        raise ValueError(f"of: expected the word of an optimizer, got '{word}', {hint}")
-    return known[word]
+        known = load_registry().optimizers
+        members = [make_optimizer(self.of, known) for _ in spaces]
+        return agreement((yield from side_by_side(self, members, spaces, seeds)))

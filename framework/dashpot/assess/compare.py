@@ -10,6 +10,7 @@ import numpy as np
 
 from dashpot.assess.evidence import history_of, provenance_of, warnings_of
 from dashpot.assess.signals import signal_evidence
+from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -101,7 +102,7 @@ def compare(
     setting = prepare(dataset, seed)
     fits, failures = [], {}
     for spec in specs:
-        method = registry.optimizers[optimizer](**(options or {})) if optimizer else None
+        method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
         try:
             fits.append(fit_prepared(spec, setting, method, seed, jobs, progress or silent))
         except InputError as error:

@@ -75,21 +75,19 @@ class Session:
 
 def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Registry) -> dict[str, Any]:
     """The options given with ``--set`` in the types of the optimizer; click.UsageError if they do not fit it."""
-    from dashpot.contract.options import read_options
+    from dashpot.contract.chain import make_optimizer, read_optimizer_options
 
-    known = registry.optimizers
-    if optimizer is not None and optimizer not in known:
-        hint = nearest(optimizer, known) or f"there are: {', '.join(known) or 'none'}"
-        raise click.UsageError(f"No such optimizer '{optimizer}', {hint}")
     texts = dict(split_setting(setting) for setting in settings)
-    if not texts:
-        return {}
     if optimizer is None:
-        raise click.UsageError("--set gives an option of an optimizer: name it with --optimizer")
+        if texts:
+            raise click.UsageError("--set gives an option of an optimizer: name it with --optimizer")
+        return {}
     try:
-        return read_options(known[optimizer], texts)
+        options = read_optimizer_options(optimizer, registry.optimizers, texts)
+        make_optimizer(optimizer, registry.optimizers, options)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
+    return options
 
 
 def split_setting(setting: str) -> tuple[str, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Generator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import ClassVar, Literal, TypeAlias
 
 import numpy as np
@@ -53,6 +54,17 @@ class Optimizer(ABC):
 
     conclusion: str = ""
     """Why there is nothing more to ask, in the method's own words."""
+
+    allowance: int | None = None
+    """How many parameter vectors will be evaluated at most, set by the driver before `begin`; None: no limit."""
+
+    library: ClassVar[str] = ""
+    """The module that has to be importable for the method to work; empty where dashpot requires it anyway."""
+
+    @classmethod
+    def missing(cls) -> str:
+        """The name of the library that is not installed, or an empty text."""
+        return "" if not cls.library or find_spec(cls.library) else cls.library
 
     @abstractmethod
     def begin(self, space: Space, seed: int) -> None:

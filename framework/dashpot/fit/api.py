@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
@@ -86,7 +87,7 @@ def fit_network(
     ``optimizer`` is a plugged-in method for stage 2; without one the framework's own Gauss-Newton from several starts.
     Raises InputError for a network that does not compile.
     """
-    method = registry.optimizers[optimizer](**(options or {})) if optimizer else None
+    method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     return fit_prepared(spec, prepare(dataset, seed), method, seed, jobs, progress or silent)
 
 

@@ -97,6 +97,7 @@ def run_search(
     """
     ledger = _Ledger(space, progress)
     answers = Answers(evaluate_losses, evaluate_residuals, recorded, keep)
+    optimizer.allowance = budget
     try:
         optimizer.begin(space, seed)
         ending = _advance(optimizer, answers, ledger, Limits(budget, target))

@@ -17,6 +17,10 @@ from dashpot.contract.registry import Registry
 class Method:
     """A method with an option."""
 
+    @classmethod
+    def missing(cls) -> str:
+        return ""
+
     def __init__(self, particles: int = 96) -> None:
         if particles < 2:
             raise ValueError(f"particles: expected at least 2, got {particles}")
