@@ -11,7 +11,15 @@ from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.reading import read_network
 from dashpot.model.shipped import shipped_networks
 
-NAMES = tuple(shipped_networks())
+INTEGRATED = {"spring", "damper", "maxwell", "dahl", "prandtl"}
+
+
+def _between_two_ends(name: str) -> bool:
+    spec = read_network(name, load_registry().elements)
+    return bool(spec.data_curves()) and {branch.element.word for branch in spec.leaves()} <= INTEGRATED
+
+
+NAMES = tuple(filter(_between_two_ends, shipped_networks()))
 KNOTS = np.linspace(8e-3, 24e-3, 9)
 
 

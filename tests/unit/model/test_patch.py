@@ -166,9 +166,11 @@ def test_a_curve_from_data_becomes_a_table_that_still_says_so():
 def test_every_shipped_network_can_be_filled_in(name):
     elements = load_registry().elements
     spec = read_network(name, elements)
-    ((path, curve),) = spec.data_curves().items()
     values = tuple(Value(force, "N", "identified", scale="linear") for force in (0.0, 900.0, 2100.0))
-    fitted = moved(spec.with_curve(path, replace(curve, form="table", values=values, at=(0.0, 0.005, 0.01))), 8)
+    taken = spec
+    for path, curve in spec.data_curves().items():
+        taken = taken.with_curve(path, replace(curve, form="table", values=values, at=(0.0, 0.005, 0.01)))
+    fitted = moved(taken, 8)
     text = fill_numbers(spec, fitted, {"data": "abc"})
     assert_filled(text, fitted, elements)
     assert comments(text)[: len(comments(spec.document.text))] == comments(spec.document.text)

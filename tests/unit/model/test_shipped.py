@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import pytest
 
+from dashpot import load_registry
+from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import find_network, find_used_network, shipped_networks, spec_folder
+from dashpot.model.topology import topology_of
 from dashpot.text.problem import InputError
 
 
 def test_the_shipped_networks_lie_beside_the_other_specifications():
     assert (spec_folder() / "networks").is_dir()
-    assert set(shipped_networks()) >= {"spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_5"}
+    assert set(shipped_networks()) >= {"spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_5",
+                                       "axle_model_1", "axle_model_2", "axle_model_3", "axle_model_3_top_mount",
+                                       "quarter_car"}  # fmt: skip
 
 
 def test_a_network_is_found_by_its_shipped_name_or_its_file(tmp_path, monkeypatch):
@@ -41,3 +46,46 @@ def test_a_used_file_lies_in_or_below_the_folder(tmp_path):
     for word in ("../a.yaml", "parts/../../a.yaml", str(tmp_path.parent / "a.yaml"), "link.yaml"):
         with pytest.raises(InputError, match="expected a file in or below"):
             find_used_network(word, tmp_path)
+
+
+AXLES = [name for name in shipped_networks() if name.startswith("axle_model")]
+
+
+@pytest.mark.parametrize("name", AXLES)
+def test_an_axle_has_two_wheels_of_the_same_numbers_between_two_platforms_and_the_body(name):
+    spec = read_network(name, load_registry().elements)
+    topology = topology_of(spec)
+    assert topology.held("driven") == ("platform_left", "platform_right") and topology.held("ground") == ("body",)
+    assert {"wheel_left", "wheel_right"} <= set(topology.unknown)
+    assert spec.joints["wheel_right"].numbers == "wheel_left"
+    assert spec.joints["wheel_left"].masses["added_mass"].setting == "added_mass"
+    assert len([branch for branch in spec.leaves() if branch.shares]) == len(topology.edges) // 2 - 1
+
+
+@pytest.mark.parametrize("name", AXLES)
+def test_of_an_axle_the_mass_and_the_shock_absorber_are_searched(name):
+    spec = read_network(name, load_registry().elements)
+    searched = {slot.path.partition("[")[0] for slot in spec.slots() if slot.value.searched}
+    assert len(searched) == 2 and "wheel_left.mass" in searched
+    (curve,) = searched - {"wheel_left.mass"}
+    assert "shock_absorber.damping" in curve
+
+
+@pytest.mark.parametrize("name", [*AXLES, "quarter_car"])
+def test_the_tire_of_an_axle_is_exchanged_in_one_line(name, tmp_path):
+    elements = load_registry().elements
+    text = shipped_networks()[name].read_text()
+    (line,) = [line for line in text.splitlines() if "use:" in line]
+    used = line.partition("use: ")[2].partition(",")[0]
+    spec = parse_network(text.replace(line, line.replace(used, "car_tire_ftire")), elements)
+    tire = [branch.element.word for branch in spec.leaves() if branch.name.startswith("tire.")]
+    assert tire == [branch.element.word for branch in read_network("car_tire_ftire", elements).leaves()]
+
+
+def test_the_shipped_car_tires_have_numbers_and_the_structure_of_their_models():
+    elements = load_registry().elements
+    for name, model in (("car_tire_kelvin_voigt", "kelvin_voigt"), ("car_tire_ftire", "ftire"),
+                        ("car_tire_model_5", "tire_model_5")):  # fmt: skip
+        tire, found = read_network(name, elements), read_network(model, elements)
+        assert not tire.data_curves() and not any(slot.value.searched for slot in tire.slots())
+        assert [(b.name, b.element.word) for b in tire.leaves()] == [(b.name, b.element.word) for b in found.leaves()]
