@@ -1,0 +1,62 @@
+"""``dashpot draw``: the rheological schematic of a network."""
+
+from __future__ import annotations
+
+import sys
+from glob import escape
+from pathlib import Path
+
+import click
+
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, output_option, switches
+from dashpot.model.network import NetworkSpec
+
+WRITTEN = (".svg", ".txt")
+
+
+@click.command("draw")
+@click.argument("spec")
+@output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", required=False)
+@click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
+@switches("quiet", "force")
+def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> None:
+    """Draw the schematic of a network: springs, dashpots, sliders, masses, names and values.
+
+    SPEC is a network file or a shipped name. Where the terminal knows ASCII only, the drawing does without more.
+
+    \b
+    Example:
+      dashpot draw tire_model_5
+      dashpot draw tire_model_5 -o tire_model_5.svg
+    """
+    if output is not None and output.suffix not in WRITTEN:
+        raise click.UsageError(f"-o expected a file ending in {' or '.join(WRITTEN)}, got '{output.name}'")
+    session = Session(switches)
+    network = session.network(spec)
+    if output is None:
+        click.echo(text_for_terminal(network, plain), nl=False)
+        return
+    folder = session.claim(output.parent, escape(output.name))
+    folder.write(output.name, content_of(network, output.suffix, plain))
+    session.talk.say(f"drawn: {output}")
+
+
+def content_of(network: NetworkSpec, suffix: str, plain: bool) -> str:
+    """The content of a file with this ending."""
+    from dashpot.report.schematic.svg import svg
+    from dashpot.report.schematic.terminal import text_drawing
+
+    return svg(network) if suffix == ".svg" else text_drawing(network, plain)
+
+
+def text_for_terminal(network: NetworkSpec, plain: bool) -> str:
+    """The drawing in characters that standard output can carry."""
+    from dashpot.report.schematic.terminal import text_drawing
+
+    text = text_drawing(network, plain)
+    try:
+        text.encode(sys.stdout.encoding or "ascii")
+    except UnicodeEncodeError:
+        return text_drawing(network, ascii_only=True)
+    return text

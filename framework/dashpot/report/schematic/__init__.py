@@ -1,0 +1,1 @@
+"""The rheological schematic of a network: laid out once, drawn as SVG or with characters."""

@@ -1,0 +1,132 @@
+"""Which bundle stands left of which, so that as few wires as possible cross a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby, permutations
+
+from dashpot.report.schematic.graph import Bundle, Graph
+from dashpot.report.schematic.levels import Levels, levels_of, raised
+
+EXHAUSTIVE = 6  # bundles; more are ordered by exchanging and moving single ones
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Nodes on levels and bundles from left to right."""
+
+    graph: Graph
+    levels: Levels
+    bundles: tuple[Bundle, ...]
+
+    @property
+    def top(self) -> int:
+        """The highest level."""
+        return max(self.levels.values())
+
+    def span(self, bundle: Bundle) -> tuple[int, int]:
+        """The levels of the lower and the upper end as drawn."""
+        low, high = sorted((self.levels[bundle.lower], self.levels[bundle.upper]))
+        return low, high
+
+    def sideways(self, bundle: Bundle) -> bool:
+        """Whether both ends are on one level."""
+        low, high = self.span(bundle)
+        return low == high
+
+    def flipped(self, bundle: Bundle) -> bool:
+        """Whether the node that the file calls the upper one is drawn below, or to the left."""
+        if self.sideways(bundle):
+            runs = self.runs(self.levels[bundle.lower])
+            return runs.index(bundle.lower) > runs.index(bundle)
+        return self.levels[bundle.upper] < self.levels[bundle.lower]
+
+    def bundles_at(self, level: int) -> list[Bundle]:
+        """The bundles that end at a level, lie in it or pass it, from left to right."""
+        return [bundle for bundle in self.bundles if self.span(bundle)[0] <= level <= self.span(bundle)[1]]
+
+    def owners(self, level: int) -> list[str | Bundle]:
+        """What meets a level from left to right: a node for each bundle that ends there, else the bundle itself."""
+        return [self._owner(bundle, level) for bundle in self.bundles_at(level)]
+
+    def _owner(self, bundle: Bundle, level: int) -> str | Bundle:
+        ends = [key for key in (bundle.lower, bundle.upper) if self.levels[key] == level]
+        return ends[0] if len(ends) == 1 else bundle
+
+    def runs(self, level: int) -> list[str | Bundle]:
+        """The same with neighbours of one owner as one."""
+        return [owner for owner, _ in groupby(self.owners(level))]
+
+    def torn(self, level: int) -> Iterator[str]:
+        """The nodes of a level that something else stands in between."""
+        runs = self.runs(level)
+        yield from (key for key in dict.fromkeys(runs) if isinstance(key, str) and runs.count(key) > 1)
+
+    def apart(self, bundle: Bundle) -> bool:
+        """Whether something stands between a sideways bundle and one of its nodes."""
+        runs = self.runs(self.levels[bundle.lower])
+        place = runs.index(bundle)
+        return set(runs[max(place - 1, 0) : place + 2]) != {bundle, bundle.lower, bundle.upper}
+
+
+def arrange(graph: Graph, sideways: bool) -> Arrangement:
+    """Levels and order. A node that cannot be drawn beside the others of its level gets a level of its own."""
+    levels = levels_of(graph, sideways)
+    while True:
+        best = _ordered(graph, levels)
+        moved = _in_the_way(best, sideways)
+        if moved is None:
+            return best
+        levels = raised(levels, moved)
+
+
+def _in_the_way(arrangement: Arrangement, sideways: bool) -> str | None:
+    for level in range(arrangement.top + 1):
+        torn = set(arrangement.torn(level))
+        nodes = [key for key in arrangement.graph.nodes if arrangement.levels[key] == level]
+        for bundle in arrangement.bundles:
+            if arrangement.span(bundle) == (level, level) and (not sideways or arrangement.apart(bundle)):
+                return bundle.upper
+        if torn and len(nodes) > 1 and (clashing := _clashing(arrangement.runs(level))):
+            return clashing
+    return None
+
+
+def _clashing(runs: Sequence[str | Bundle]) -> str | None:
+    nodes = [key for key, _ in groupby(run for run in runs if isinstance(run, str))]
+    return next((key for key in reversed(nodes) if nodes.count(key) > 1), None)
+
+
+def _ordered(graph: Graph, levels: Levels) -> Arrangement:
+    def made(order: Sequence[Bundle]) -> Arrangement:
+        return Arrangement(graph, levels, tuple(order))
+
+    if len(graph.bundles) <= EXHAUSTIVE:
+        return min(map(made, permutations(graph.bundles)), key=_cost)
+    return _improved(made, list(graph.bundles))
+
+
+def _improved(made: Callable[[Sequence[Bundle]], Arrangement], order: list[Bundle]) -> Arrangement:
+    best = made(order)
+    while True:
+        tried = min((made(_shifted(best.bundles, old, new)) for old in range(len(order)) for new in range(len(order))),
+                    key=_cost)  # fmt: skip
+        if _cost(tried) >= _cost(best):
+            return best
+        best = tried
+
+
+def _shifted(order: Sequence[Bundle], old: int, new: int) -> list[Bundle]:
+    rest = [bundle for place, bundle in enumerate(order) if place != old]
+    return [*rest[:new], order[old], *rest[new:]]
+
+
+def _cost(arrangement: Arrangement) -> tuple[int, int]:
+    crossings = sum(len(runs) - len(set(runs)) for level in range(arrangement.top + 1)
+                    if (runs := arrangement.runs(level)))  # fmt: skip
+    crossings += 2 * sum(arrangement.apart(bundle) for bundle in arrangement.bundles if arrangement.sideways(bundle))
+    places = {bundle: place for place, bundle in enumerate(arrangement.graph.bundles)}
+    file_order = [places[bundle] for bundle in arrangement.bundles]
+    inversions = sum(a > b for i, a in enumerate(file_order) for b in file_order[i + 1 :])
+    return crossings, inversions
