@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from pkgutil import iter_modules
+
 import pluggy
 
 hookimpl = pluggy.HookimplMarker("dashpot")
@@ -10,22 +13,12 @@ hookimpl = pluggy.HookimplMarker("dashpot")
 @hookimpl
 def dashpot_causes() -> list[type]:
     """Every cause of this package."""
-    from dashpot_causes.delay import Delay
-    from dashpot_causes.friction import Friction
-    from dashpot_causes.moving_mass import MovingMass
-    from dashpot_causes.preload_dependent_damping import PreloadDependentDamping
-    from dashpot_causes.quadratic_damping import QuadraticDamping
-    from dashpot_causes.relaxation import Relaxation
-    from dashpot_causes.stiffness_curve import StiffnessCurve
-    from dashpot_causes.viscous_damping import ViscousDamping
+    from dashpot.contract.cause import Cause
 
+    modules = [import_module(f"{__name__}.{found.name}") for found in iter_modules(__path__)]
+    members = [(module, member) for module in modules for member in vars(module).values()]
     return [
-        Friction,
-        Relaxation,
-        ViscousDamping,
-        QuadraticDamping,
-        PreloadDependentDamping,
-        StiffnessCurve,
-        MovingMass,
-        Delay,
+        member
+        for module, member in members
+        if isinstance(member, type) and issubclass(member, Cause) and member.__module__ == module.__name__
     ]

@@ -8,7 +8,9 @@ noise      the colour of the measurement noise, and whitening by it
 view       what a suspected cause may look at
 screen     every suspect against the residual, without a refit
 suspicion  one look at a fitted model: noise learned, refit, screen
+mend       faults of the force channel taken out of the measured force
 contest    extended networks, refitted
+unseen     faults of single held-out runs
 pursuit    causes accepted one after the other, and pruned
 gain       what an extension gains on runs it never saw
 leftover   is there structure that no suspect explains

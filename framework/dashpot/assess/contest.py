@@ -8,12 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.assess.noise import NoiseModel
+from dashpot.assess.mend import Mend, corrected, make_mend, mended, shape_rows
+from dashpot.assess.noise import NoiseModel, flat_noise
+from dashpot.assess.projection import SparseRows, normal_equations, stack
 from dashpot.assess.screen import Finding
+from dashpot.assess.view import ModelView
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.fit.refine import Outcome, refine
+from dashpot.fit.refine import Outcome, linearise, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
@@ -23,6 +26,7 @@ from dashpot.model.reading import parse_network
 Array = NDArray[np.float64]
 
 STEPS = 20
+MEND_ROUNDS = 2
 TOLERANCE = 1e-5
 
 
@@ -30,7 +34,7 @@ TOLERANCE = 1e-5
 class Model:
     """A fitted network: its declaration without and with fitted numbers, and what it costs.
 
-    ``chi_square`` is the sum of squared whitened misfits on the training runs.
+    ``chi_square`` is the sum of squared whitened misfits on the training runs; ``mends`` are faults taken out of these.
     """
 
     declared: NetworkSpec
@@ -39,6 +43,12 @@ class Model:
     point: Array
     chi_square: float
     outcome: Outcome
+    mends: tuple[Mend, ...] = ()
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers were found from the data."""
+        return self.point.size + sum(mend.strengths.size for mend in self.mends)
 
     @property
     def values(self) -> Array:
@@ -55,18 +65,51 @@ class Bench:
     sensors: Mapping[str, Mapping[str, float]]
     jobs: int = 1
 
-    def fit(self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None) -> Model:
-        """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise."""
-        objective = Objective(compile_network(start), self.runs, self.jobs, noise.whiten if noise else None)
+    def fit(
+        self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None, mends: Sequence[Mend] = ()
+    ) -> Model:
+        """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
+
+        The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter.
+        """
+        model = self._fit(declared, start, noise, tuple(mends))
+        for _ in range(MEND_ROUNDS if mends else 0):
+            model = self._fit(declared, model.fitted, noise, self._strengthened(model, noise))
+        return model
+
+    def _fit(
+        self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None, mends: tuple[Mend, ...]
+    ) -> Model:
+        runs = [mended(run, mends) for run in self.runs]
+        objective = Objective(compile_network(start), runs, self.jobs, noise.whiten if noise else None)
         coordinates = search_coordinates(start)
         found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE)
         fitted = with_point(start, coordinates, found.point)
-        return Model(declared, fitted, coordinates, found.point, found.loss**2 * objective.total, found.outcome)
+        chi_square = found.loss**2 * objective.total
+        return Model(declared, fitted, coordinates, found.point, chi_square, found.outcome, mends)
+
+    def _strengthened(self, model: Model, noise: NoiseModel | None) -> tuple[Mend, ...]:
+        residual, tangents = self.linearise(model)
+        shapes = shape_rows(model.mends, self.runs)
+        white = noise or flat_noise(dict.fromkeys(residual, 1.0))
+        normal = normal_equations(residual, stack(SparseRows.of(tangents), SparseRows.dense(shapes)), white)
+        return corrected(model.mends, normal, noise is not None)
+
+    def linearise(self, model: Model) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Residual (n,) and tangents (p, n) of a model by run, warm-up cut off."""
+        runs = [mended(run, model.mends) for run in self.runs]
+        objective = Objective(compile_network(model.fitted), runs, self.jobs, whiten=lambda run, misfits: misfits)
+        misfit, jacobian = linearise(objective, model.coordinates, model.point)
+        pieces = dict(zip((run.name for run in runs), objective.pieces, strict=True))
+        return (
+            {name: -misfit[piece] for name, piece in pieces.items()},
+            {name: jacobian[:, piece] for name, piece in pieces.items()},
+        )
 
     def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel) -> Model:
         """The model with a patch of its text, refitted from its own numbers and those of the patch."""
         declared = parse_network(extend(model.declared.text), self.elements, model.declared.file)
-        return self.fit(declared, self.start_from(declared, model.fitted), noise)
+        return self.fit(declared, self.start_from(declared, model.fitted), noise, model.mends)
 
     def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
         """A network ready to be fitted: shared numbers inherited, the others given a range."""
@@ -84,12 +127,15 @@ class Trial:
     failure: str = ""
 
 
-def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int) -> Trial:
-    """Extend the base by a finding and refit both on equal terms."""
+def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int, view: ModelView) -> Trial:
+    """Extend the base by a finding, or mend the measurement, and refit; ``view`` shows the base on all runs."""
     suspect = finding.candidate.suspect
-    model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
+    if suspect.mends:
+        model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(view, finding)))
+    else:
+        model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
     gain = base.chi_square - model.chi_square
-    price = (model.point.size - base.point.size) * np.log(samples)
+    price = (model.numbers - base.numbers) * np.log(samples)
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 

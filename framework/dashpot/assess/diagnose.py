@@ -9,15 +9,17 @@ from typing import Any
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
+from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
 from dashpot.assess.pursuit import Pursuer, Pursuit, residuals_of
 from dashpot.assess.suspicion import linear_view
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict
+from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
-from dashpot.fit.api import Progress, fit_prepared, measure_errors, prepare, silent
+from dashpot.fit.api import Progress, Setting, fit_prepared, measure_errors, prepare, silent
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Outcome
@@ -52,7 +54,7 @@ def diagnose(
     triage = examine(dataset)
     dataset = triage.dataset
     setting = prepare(dataset, seed)
-    method = registry.optimizers[optimizer](**(options or {})) if optimizer else None
+    method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs)
@@ -71,7 +73,7 @@ def diagnose(
         pursuit=pursuit,
         final=final,
         before=measure_errors(first.fitted, setting, jobs),
-        after=measure_errors(final, setting, jobs),
+        after=measure_errors(final, mended_setting(setting, pursuit), jobs),
         misfit=tuple(misfit),
         leftover=leftover,
         verdict=give_verdict(triage.faults, pursuit, leftover),
@@ -101,10 +103,17 @@ def model_of(fit: FitResult) -> Model:
     return Model(fit.declared, fit.fitted, coordinates, coordinates.start, float("nan"), Outcome.CONVERGED)
 
 
+def mended_setting(setting: Setting, pursuit: Pursuit) -> Setting:
+    """The setting with the faults that were found taken out of the measured forces."""
+    mends = pursuit.ladder[-1].mends
+    return replace(setting, scored={name: mended(run, mends) for name, run in setting.scored.items()})
+
+
 def known_to(bench: Bench, pursuit: Pursuit) -> NetworkSpec:
     """The final network with the intervals of its numbers."""
     model = pursuit.ladder[-1]
-    objective = Objective(compile_network(model.fitted), bench.runs, bench.jobs)
+    runs = [mended(run, model.mends) for run in bench.runs]
+    objective = Objective(compile_network(model.fitted), runs, bench.jobs)
     known = assess_uncertainty(objective, model.coordinates, model.point)
     return with_intervals(model.fitted, dict(zip(model.coordinates.paths, known.intervals, strict=True)))
 

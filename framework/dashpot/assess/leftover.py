@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
-from dashpot.assess.projection import normal_equations, project_out, stack
+from dashpot.assess.projection import SparseRows, normal_equations, project_out, stack
 from dashpot.assess.view import ModelView
 from dashpot.data.run import Run
 
@@ -56,7 +56,8 @@ def look_for_leftover(
 def _correlation(view: ModelView, residual: Signals, tangents: Signals, noise: NoiseModel) -> Leftover:
     general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in residual}
     fixed = next(iter(tangents.values())).shape[0]
-    projected = project_out(normal_equations(residual, stack(tangents, general), noise), fixed)
+    rows = stack(SparseRows.of(tangents), SparseRows.of(general))
+    projected = project_out(normal_equations(residual, rows, noise), fixed)
     scale = np.sqrt(np.maximum(projected.original, 1e-300))
     values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
     kept = values > 1e-8 * values[-1]

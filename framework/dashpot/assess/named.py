@@ -8,6 +8,7 @@ from math import prod
 from typing import Any
 
 from dashpot.assess.gain import Gain
+from dashpot.assess.mend import Mend
 from dashpot.assess.pursuit import Accepted, Pursuit
 from dashpot.contract.cause import Cause
 from dashpot.model.network import NetworkSpec, Value
@@ -21,6 +22,7 @@ class NamedCause:
     steps: tuple[Accepted, ...]
     gain: Gain | None
     slots: Mapping[str, Value]
+    mends: tuple[Mend, ...] = ()
 
     @property
     def rivals(self) -> tuple[str, ...]:
@@ -42,7 +44,10 @@ class NamedCause:
 
     def parameters(self) -> dict[str, Any]:
         """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
-        found = {}
+        found: dict[str, Any] = {}
+        for mend in self.mends:
+            for name, (number, unit, interval) in mend.told().items():
+                found[name] = {"value": number, "unit": unit, "interval": list(interval)}
         for path, value in self.slots.items():
             branch, _, name = path.partition(".")
             found[name if branch == self.branch else path] = {
@@ -64,7 +69,9 @@ def name_causes(pursuit: Pursuit, final: NetworkSpec) -> list[NamedCause]:
         for _, before, after in mine:
             slots |= _added(before.declared, after.declared, final)
         entries = tuple(entry for entry, *_ in mine)
-        found.append(NamedCause(entries[0].finding.candidate.cause, entries, _together(entries), slots))
+        findings = [entry.finding for entry in entries]
+        mends = tuple(mend for mend in pursuit.ladder[-1].mends if any(mend.finding is known for known in findings))
+        found.append(NamedCause(entries[0].finding.candidate.cause, entries, _together(entries), slots, mends))
     return found
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dashpot.assess.noise import NoiseModel
 
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
 Rows = Mapping[str, Array]
 
 
@@ -36,14 +37,46 @@ class Projected:
     samples: int
 
 
-def normal_equations(residual: Rows, rows: Rows, noise: NoiseModel) -> Normal:
+@dataclass(frozen=True, eq=False)
+class SparseRows:
+    """Rows of which each run has only some: ``values[run]`` (k, n) stand at ``places[run]`` (k,) of ``size`` rows."""
+
+    values: Rows
+    places: Mapping[str, Places]
+    size: int
+
+    @classmethod
+    def of(cls, rows: Rows) -> SparseRows:
+        """Rows (c, n) by run, those that are zero throughout left out."""
+        places = {run: np.flatnonzero(values.any(axis=1)) for run, values in rows.items()}
+        size = next(iter(rows.values())).shape[0] if rows else 0
+        return cls({run: values[places[run]] for run, values in rows.items()}, places, size)
+
+    @classmethod
+    def dense(cls, rows: Rows) -> SparseRows:
+        """Rows (c, n) by run, all of them."""
+        size = next(iter(rows.values())).shape[0] if rows else 0
+        return cls(rows, {run: np.arange(size) for run in rows}, size)
+
+    def combined(self, strengths: Array, run: str) -> Array:
+        """The sum (n,) of the rows of a run, each times its strength (size,)."""
+        return strengths[self.places[run]] @ self.values[run]
+
+    def squares(self) -> Array:
+        """The sum of squares (size,) of every row over all runs."""
+        total = np.zeros(self.size)
+        for run, values in self.values.items():
+            total[self.places[run]] += np.sum(values**2, axis=1)
+        return total
+
+
+def normal_equations(residual: Rows, rows: SparseRows, noise: NoiseModel) -> Normal:
     """Sum over runs of residual (n,) and rows (c, n), each whitened by the noise of its run."""
-    size = next(iter(rows.values())).shape[0]
-    gram, right = np.zeros((size, size)), np.zeros(size)
+    gram, right = np.zeros((rows.size, rows.size)), np.zeros(rows.size)
     for run, values in residual.items():
-        white = noise.whiten(run, rows[run])
-        gram += white @ white.T
-        right += white @ noise.whiten(run, values)
+        white, at = noise.whiten(run, rows.values[run]), rows.places[run]
+        gram[np.ix_(at, at)] += white @ white.T
+        right[at] += white @ noise.whiten(run, values)
     return Normal(gram, right, sum(values.size for values in residual.values()))
 
 
@@ -64,6 +97,13 @@ def project_out(normal: Normal, fixed: int, precision: Array | None = None) -> P
     return Projected(scores * free, spread * np.outer(free, free), np.diag(gram)[fixed:], normal.samples)
 
 
-def stack(*parts: Rows) -> dict[str, Array]:
+def stack(*parts: SparseRows) -> SparseRows:
     """The rows of several kinds on top of one another, run by run."""
-    return {run: np.concatenate([part[run] for part in parts]) for run in parts[0]}
+    first = np.cumsum([0] + [part.size for part in parts])
+    runs = parts[0].values
+    values = {run: np.concatenate([part.values[run] for part in parts]) for run in runs}
+    places = {
+        run: np.concatenate([part.places[run] + shift for part, shift in zip(parts, first[:-1], strict=True)])
+        for run in runs
+    }
+    return SparseRows(values, places, int(first[-1]))

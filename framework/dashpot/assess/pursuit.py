@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
-from dashpot.assess.gain import Gain, measure_gain
+from dashpot.assess.gain import Gain, crossed, measure_gain
+from dashpot.assess.mend import Mend, mended, shape_rows
 from dashpot.assess.noise import NoiseModel
 from dashpot.assess.screen import Finding
-from dashpot.assess.suspicion import Look, expected_gain, look_at
+from dashpot.assess.suspicion import Look, expected_gain, look_at, view_of
+from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
@@ -98,7 +100,27 @@ class Pursuer:
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
             accepted, look = self.prune(accepted, look, first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
+        self.judge_the_jury(accepted, look, ladder)
         return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
+
+    def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
+        """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out."""
+        if not self.held_out:
+            return
+        jury = Jury(replace(self.bench, runs=self.held_out), known_directions(self.bench, look.model, look.noise),
+                    self.causes, self.seed)  # fmt: skip
+        for _ in self.held_out:
+            found = jury.faulty(replace(look.model, mends=ladder[-1].mends))
+            if found is None:
+                return
+            finding, mend = found
+            model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
+            gain = self.gain_of(ladder[-1], model)
+            if gain is None or gain.value <= 0.0:
+                return
+            trial = Trial(finding, model, finding.gain, finding.merit)
+            accepted.append(Accepted(finding, trial, gain.value, gain, ()))
+            ladder.append(model)
 
     def settle_gains(
         self, accepted: list[Accepted], look: Look, first: Look
@@ -120,7 +142,7 @@ class Pursuer:
         self.watch("final refits", 0.0)
         models = [self.rebuild(accepted[:count], last.model, first, None) for count in range(1, len(accepted))]
         steps = [first, *models, last.model] if accepted else [first]
-        return [self.bench.fit(step.declared, step.fitted, None) for step in steps]
+        return [self.bench.fit(step.declared, step.fitted, None, step.mends) for step in steps]
 
     def best_trial(self, look: Look, later: bool) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
@@ -128,7 +150,7 @@ class Pursuer:
         trials = []
         for finding in finalists:
             self.watch(f"refit with {finding.candidate.cause.word}", 0.0)
-            trials.append(try_finding(self.bench, look.model, finding, look.noise, look.screen.samples))
+            trials.append(self.try_out(finding, look))
         ranked = sorted(trials, key=lambda trial: -trial.merit)
         for trial in ranked:
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
@@ -145,13 +167,20 @@ class Pursuer:
             return Accepted(chosen.finding, chosen, foreseen, self.gain_of(look.model, chosen.model), rivals)
         return None
 
+    def try_out(self, finding: Finding, look: Look) -> Trial:
+        """A finding as a refitted model."""
+        view = look.view
+        if finding.candidate.suspect.mends:
+            view = view_of(look.model, [*self.bench.runs, *self.held_out], self.bench.elements)
+        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, view)
+
     def simplify(self, trial: Trial, look: Look) -> Trial:
         """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
         atoms = trial.finding.atoms
         if trial.finding.candidate.suspect.joint or len(atoms) < 2:
             return trial
-        fewer = replace(trial.finding, atoms=atoms[:-1])
-        simpler = try_finding(self.bench, look.model, fewer, look.noise, look.screen.samples)
+        fewer = trial.finding.without_last()
+        simpler = self.try_out(fewer, look)
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
     def objection(self, trial: Trial, gain: Gain | None, look: Look, later: bool) -> str:
@@ -175,18 +204,24 @@ class Pursuer:
         )
 
     def gain_of(self, before: Model, after: Model) -> Gain | None:
-        """The gain on the held-out runs."""
+        """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it."""
+        local = [
+            mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
+        ]
+        if local:
+            seen = any(run.name in mend.shapes for mend in local for run in self.bench.runs)
+            runs = self.bench.runs if seen else self.held_out
+            crossed = crossed_misfits(after, runs, local)
+            return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
         steps = [run.drive.dt for run in self.held_out]
-        return measure_gain(
-            held_out_misfits(before, self.held_out), held_out_misfits(after, self.held_out), steps, self.seed
-        )
+        return measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that a later one made superfluous."""
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.rebuild(kept, look.model, first.model, look.noise)
-            price = (look.model.point.size - model.point.size) * np.log(look.screen.samples)
+            price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             if model.chi_square - look.model.chi_square < price + look.screen.threshold:
                 word = accepted[number].finding.candidate.cause.word
                 self.rejected.append(
@@ -205,7 +240,9 @@ class Pursuer:
         for entry in kept:
             text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
         declared = parse_network(text, self.bench.elements, first.declared.file)
-        return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise)
+        known = [entry.finding for entry in kept]
+        mends = [mend for mend in model.mends if any(mend.finding is finding for finding in known)]
+        return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise, mends)
 
 
 def choose_finalists(look: Look) -> list[Finding]:
@@ -235,17 +272,28 @@ def tie_width(trial: Trial) -> float:
     return max(TIE, TIE_SHARE * trial.gain)
 
 
-def held_out_misfits(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
-    """Simulated minus measured force (samples,) of every run, warm-up cut off."""
+def misfits_of(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
+    """Simulated minus measured force (samples,) of runs, their mends taken out."""
     if not runs:
         return []
-    objective = Objective(compile_network(model.fitted), runs)
+    objective = Objective(compile_network(model.fitted), [mended(run, model.mends) for run in runs])
     misfits = objective.misfits(model.values)[0]
     return [misfits[piece] for piece in objective.pieces]
 
 
+def crossed_misfits(model: Model, runs: Sequence[ScoredRun], mends: Sequence[Mend]) -> list[Array]:
+    """As ``misfits_of``, but the strengths of ``mends`` come from the other pieces of every run."""
+    shapes = shape_rows(mends, runs)
+    strengths = np.concatenate([mend.strengths for mend in mends])
+    found = []
+    for run, misfit in zip(runs, misfits_of(model, runs), strict=True):
+        rows = shapes[run.name]
+        found.append(crossed(misfit - strengths @ rows, rows, run.drive.dt) if rows.any() else misfit)
+    return found
+
+
 def residuals_of(model: Model, runs: Mapping[str, ScoredRun]) -> dict[str, Array]:
-    """Measured minus simulated force (n,) of every run, warm-up included."""
-    objective = Objective(compile_network(model.fitted), list(runs.values()))
-    forces = objective.forces(model.values)
-    return {name: run.force - force[0] for (name, run), force in zip(runs.items(), forces, strict=True)}
+    """Measured minus simulated force (n,) of every run, warm-up included, mends taken out."""
+    sound = [mended(run, model.mends) for run in runs.values()]
+    forces = Objective(compile_network(model.fitted), sound).forces(model.values)
+    return {run.name: run.force - force[0] for run, force in zip(sound, forces, strict=True)}

@@ -8,13 +8,13 @@ out (Neyman's C(alpha) test), so a suspect may claim only what the model cannot 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
-from dashpot.assess.projection import Projected, normal_equations, project_out, stack
+from dashpot.assess.projection import Projected, SparseRows, normal_equations, project_out, stack
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Atom, Cause, Suspect
 
@@ -39,22 +39,31 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Columns of all runs: ``tangents`` (p, n), ``nuisance`` (q, n) and ``bank`` (m, n) by run, warm-up cut off.
+    """Columns of all runs: ``tangents``, ``nuisance`` and the ``bank`` of suspects, warm-up cut off.
 
     ``priors`` (q,) are the standard deviations of the nuisance strengths.
     """
 
     residual: Mapping[str, Array]
-    tangents: Mapping[str, Array]
-    nuisance: Mapping[str, Array]
-    bank: Mapping[str, Array]
+    tangents: SparseRows
+    nuisance: SparseRows
+    bank: SparseRows
     priors: Array
     candidates: tuple[Candidate, ...]
+
+    def samples_of(self, finding: Finding) -> int:
+        """How many samples the runs have that a finding touches."""
+        chosen = finding.candidate.columns.start + np.array(finding.chosen)
+        touched = [run for run, places in self.bank.places.items() if np.isin(chosen, places).any()]
+        return sum(self.residual[run].size for run in touched)
 
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What the screen says of a candidate: ``gain`` is the fall of chi square, ``merit`` that less its penalty."""
+    """What the screen says of a candidate: ``gain`` is the fall of chi square, ``merit`` that less its penalty.
+
+    ``deviations`` are those of the strengths.
+    """
 
     candidate: Candidate
     atoms: tuple[Atom, ...]
@@ -62,6 +71,12 @@ class Finding:
     merit: float
     strengths: Array
     chosen: tuple[int, ...]
+    deviations: Array
+
+    def without_last(self) -> Finding:
+        """The finding without the place that was added last."""
+        return replace(self, atoms=self.atoms[:-1], strengths=self.strengths[:-1], chosen=self.chosen[:-1],
+                       deviations=self.deviations[:-1])  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -88,21 +103,19 @@ class Screen:
         return self.findings[0] if self.findings and self.findings[0].merit > self.threshold else None
 
 
-def collect_columns(
-    view: ModelView,
-    residual: Mapping[str, Array],
-    tangents: Mapping[str, Array],
-    candidates: Sequence[Candidate],
-    nuisance: Mapping[str, Array],
-    priors: Array,
-) -> Columns:
-    """Evaluate the bank of all candidates on every run."""
-    bank = {}
+def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows:
+    """The columns of all candidates on every run."""
+    values, places = {}, {}
     for run in view.runs:
-        first = view.scored[run].first
-        rows = [np.atleast_2d(candidate.suspect.columns(view, run))[:, first:] for candidate in candidates]
-        bank[run] = np.concatenate(rows) if rows else np.empty((0, residual[run].size))
-    return Columns(residual, tangents, nuisance, bank, priors, tuple(candidates))
+        scored = view.scored[run]
+        rows, at = [np.empty((0, scored.samples))], [np.empty(0, dtype=np.intp)]
+        for candidate in candidates:
+            found = np.atleast_2d(candidate.suspect.columns(view, run))[:, scored.first :]
+            alive = np.flatnonzero(found.any(axis=1))
+            rows.append(found[alive])
+            at.append(alive + candidate.columns.start)
+        values[run], places[run] = np.concatenate(rows), np.concatenate(at)
+    return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
 
 def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
@@ -112,14 +125,13 @@ def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
     matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
     strengths = np.linalg.lstsq(matrix, normal.right / scale, rcond=1e-12)[0] / scale
-    return {run: values - strengths @ rows[run] for run, values in columns.residual.items()}
+    return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
 
 
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
     rows = stack(columns.tangents, columns.nuisance, columns.bank)
-    free = next(iter(columns.tangents.values())).shape[0]
-    precision = np.concatenate([np.zeros(free), 1.0 / columns.priors**2])
+    precision = np.concatenate([np.zeros(columns.tangents.size), 1.0 / columns.priors**2])
     projected = project_out(normal_equations(columns.residual, rows, noise), precision.size, precision)
     findings = [_judge(candidate, projected) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
@@ -144,7 +156,9 @@ def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Places, 
     gain = float(s @ strengths)
     atoms = tuple(zip(strengths.tolist(), candidate.suspect.grid, strict=True))
     merit = gain - (rank + candidate.suspect.unknowns) * np.log(samples)
-    return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)))
+    deviations = np.zeros(s.size)
+    deviations[usable] = np.sqrt(np.maximum(np.diag(inverse), 0.0))
+    return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)), deviations)
 
 
 def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int) -> Finding | None:
@@ -161,7 +175,9 @@ def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Places,
         if best is not None and merit <= best.merit:
             break
         atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True) if b != 0.0)
-        best = Finding(candidate, atoms, gain, float(merit), strengths, chosen)
+        part = matrix[np.ix_(chosen, chosen)]
+        deviations = np.sqrt(np.maximum(np.diag(_inverse(part)[0]), 0.0))
+        best = Finding(candidate, atoms, gain, float(merit), strengths, chosen, deviations)
     return best
 
 
@@ -187,7 +203,7 @@ def _inverse(matrix: Array) -> tuple[Array, int]:
 
 
 def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[Limit, ...]:
-    sizes = np.sqrt(sum(np.sum(rows**2, axis=1) for rows in columns.bank.values()) / projected.samples)
+    sizes = np.sqrt(columns.bank.squares() / projected.samples)
     kept = np.diag(projected.spread)
     found: dict[type[Cause], Limit] = {}
     for candidate in columns.candidates:

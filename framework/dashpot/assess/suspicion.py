@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model
+from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
-from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_columns, rich_residual, screen
+from dashpot.assess.projection import SparseRows
+from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Cause
 from dashpot.data.sensor_errors import error_shapes
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
@@ -41,23 +43,25 @@ class Look:
 def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: NoiseModel | None, seed: int) -> Look:
     """Learn the noise, refit the model under it, screen all suspects."""
     noise = noise or first_noise(bench, model)
-    model = bench.fit(model.declared, model.fitted, noise)
+    model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
     candidates, unavailable = gather_candidates(causes, view, model)
-    nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors, residual)
-    columns = collect_columns(view, residual, tangents, candidates, nuisance, priors)
+    nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors)
+    bank = collect_bank(view, candidates)
+    columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates))
     for _ in range(NOISE_ROUNDS):
         noise = learn_noise(rich_residual(columns, noise), resolution(bench))
-    model = bench.fit(model.declared, model.fitted, noise)
+    model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
-    columns = Columns(residual, tangents, nuisance, columns.bank, priors, columns.candidates)
+    columns = replace(columns, residual=residual, tangents=SparseRows.dense(tangents))
     return Look(model, noise, view, columns, screen(columns, noise, seed), unavailable)
 
 
 def first_noise(bench: Bench, model: Model) -> NoiseModel:
     """White noise as large as the misfit of each run."""
     network = compile_network(model.fitted)
-    rmse = Objective(network, bench.runs, bench.jobs).rmse(network.start)[:, 0]
+    runs = [mended(run, model.mends) for run in bench.runs]
+    rmse = Objective(network, runs, bench.jobs).rmse(network.start)[:, 0]
     least = resolution(bench)
     return flat_noise({run.name: max(float(r), least[run.name]) for run, r in zip(bench.runs, rmse, strict=True)})
 
@@ -69,18 +73,15 @@ def resolution(bench: Bench) -> dict[str, float]:
 
 def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array], dict[str, Array]]:
     """The model as causes see it, its residual (n,) and its tangents (p, n) by run, warm-up cut off."""
-    network = compile_network(model.fitted)
-    objective = Objective(network, bench.runs, bench.jobs, whiten=lambda run, misfits: misfits)
-    misfit, jacobian = linearise(objective, model.coordinates, model.point)
-    forces = objective.forces(model.values)
-    names = [run.name for run in bench.runs]
-    view = ModelView(
-        dict(zip(names, bench.runs, strict=True)),
-        {name: force[0] for name, force in zip(names, forces, strict=True)},
-        bench.elements,
-    )
-    residual = {name: -misfit[piece] for name, piece in zip(names, objective.pieces, strict=True)}
-    return view, residual, {name: jacobian[:, piece] for name, piece in zip(names, objective.pieces, strict=True)}
+    residual, tangents = bench.linearise(model)
+    return view_of(model, bench.runs, bench.elements), residual, tangents
+
+
+def view_of(model: Model, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]]) -> ModelView:
+    """The model on runs as causes see it."""
+    forces = Objective(compile_network(model.fitted), runs).forces(model.values)
+    seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
+    return ModelView({run.name: run for run in runs}, seen, elements)
 
 
 def gather_candidates(
@@ -106,35 +107,31 @@ def gather_candidates(
 
 
 def sensor_nuisance(
-    runs: Sequence[ScoredRun],
-    view: ModelView,
-    sensors: Mapping[str, Mapping[str, float]],
-    residual: Mapping[str, Array],
-) -> tuple[dict[str, Array], Array]:
+    runs: Sequence[ScoredRun], view: ModelView, sensors: Mapping[str, Mapping[str, float]]
+) -> tuple[SparseRows, Array]:
     """The force channel's errors within its specification, one of each kind per run, and how large they may be."""
-    rows: list[tuple[str, Array, float]] = []
+    values, places, priors = {}, {}, []
     for run in runs:
-        force, first = view.force(run.name), run.first
-        shapes = error_shapes(force, run.drive.dt)
-        for key, size in sensors.get(run.name, {}).items():
-            if key in shapes and size > 0.0:
-                rows.append((run.name, shapes[key][first:], size))
-    nuisance = {}
-    for name, values in residual.items():
-        nuisance[name] = np.array([row if owner == name else np.zeros(values.size) for owner, row, _ in rows])
-        nuisance[name] = nuisance[name].reshape(len(rows), values.size)
-    return nuisance, np.array([size for *_, size in rows])
+        shapes = error_shapes(view.force(run.name), run.drive.dt)
+        known = {key: size for key, size in sensors.get(run.name, {}).items() if key in shapes and size > 0.0}
+        values[run.name] = np.array([shapes[key][run.first :] for key in known]).reshape(len(known), run.samples)
+        places[run.name] = len(priors) + np.arange(len(known))
+        priors += known.values()
+    return SparseRows(values, places, len(priors)), np.array(priors)
 
 
 def expected_gain(columns: Columns, finding: Finding, runs: Sequence[ScoredRun]) -> float:
     """The fall of the training error that the screen foresees, 1 - RMSE after / RMSE before, the rest readjusted."""
     where = np.arange(finding.candidate.columns.start, finding.candidate.columns.stop)[list(finding.chosen)]
-    added = {run: finding.strengths @ columns.bank[run][where] for run in columns.residual}
+    strengths = np.zeros(columns.bank.size)
+    strengths[where] = finding.strengths
+    added = {run: columns.bank.combined(strengths, run) for run in columns.residual}
     weight = {run: 1.0 / columns.residual[run].size for run in columns.residual}
     left = {run: columns.residual[run] - added[run] for run in columns.residual}
-    gram = sum(weight[run] * (t @ t.T) for run, t in columns.tangents.items())
-    right = sum(weight[run] * (t @ left[run]) for run, t in columns.tangents.items())
+    tangents = columns.tangents.values
+    gram = sum(weight[run] * (t @ t.T) for run, t in tangents.items())
+    right = sum(weight[run] * (t @ left[run]) for run, t in tangents.items())
     moves = np.linalg.lstsq(gram, right, rcond=1e-12)[0] if np.size(right) else np.zeros(0)
-    after = sum(weight[run] * float(np.sum((left[run] - moves @ columns.tangents[run]) ** 2)) for run in left)
+    after = sum(weight[run] * float(np.sum((left[run] - moves @ tangents[run]) ** 2)) for run in left)
     before = sum(weight[run] * float(np.sum(columns.residual[run] ** 2)) for run in left)
     return float(1.0 - np.sqrt(after / before)) if before > 0.0 else 0.0

@@ -68,6 +68,10 @@ class Suspect:
     columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts what the
     cure leaves to be found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with
     start values; at most ``most`` atoms of the grid act together.
+
+    With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
+    text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
+    ``local`` says that a column touches one run only.
     """
 
     form: str
@@ -78,19 +82,24 @@ class Suspect:
     sign: Literal[0, 1] = 1
     unknowns: int = 1
     most: int = 1
+    mends: bool = False
+    local: bool = False
+    tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
 
 
 class Cause(ABC):
     """A suspected cause of misfit.
 
     ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
-    other words to the measurement that tells the two apart. ``equation`` is the added force in words of the field.
+    other words to the measurement that tells the two apart. ``cure`` says what to do about the measurement, where it is
+    to blame.
     """
 
     word: ClassVar[str]
     kind: ClassVar[Literal["specimen", "measurement"]]
     about: ClassVar[str]
     shows: ClassVar[str]
+    cure: ClassVar[str] = ""
     confused_with: ClassVar[Mapping[str, str]] = {}
 
     @abstractmethod
@@ -119,6 +128,31 @@ def added_branch(
         return text
 
     return Suspect(element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns)
+
+
+def unchanged(text: str, atoms: Sequence[Atom]) -> str:
+    """The cure of a suspect that mends the measurement: the network stays as it is."""
+    return text
+
+
+def one_of_the_runs(
+    form: str, shape: Callable[[View, str], Array], quantity: str, unit: str, view: View, share: float = 0.34
+) -> Suspect:
+    """The suspect that the force of one run, or of a minority of them, carries ``shape(view, run)`` (n,) N."""
+    names = tuple(view.runs)
+
+    def columns(view: View, run: str) -> Array:
+        rows = np.zeros((len(names), view.force(run).size))
+        if run in names:
+            rows[names.index(run)] = shape(view, run)
+        return rows
+
+    def tell(strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
+        return {f"{quantity} of {run}": (b, unit) for run, b in zip(names, strengths, strict=True) if b != 0.0}
+
+    most = max(1, int(share * len(names)))
+    grid = tuple(float(number) for number in range(len(names)))
+    return Suspect(form, grid, columns, unchanged, sign=0, unknowns=0, most=most, mends=True, local=True, tell=tell)
 
 
 def branch_lines(name: str, element: str, values: Mapping[str, float], units: Mapping[str, str]) -> str:

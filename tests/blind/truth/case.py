@@ -10,7 +10,8 @@ import numpy as np
 
 from .base import Base, draw_base
 from .design import DESIGNS, Plan, drive
-from .effects import FORMS, KINDS_OF_BASE
+from .effects import FAULTS, FORMS, KINDS_OF_BASE
+from .fault import Fault
 from .folder import write_dataset
 from .form import Forces, Form, log_uniform
 from .label import Hidden, SealedLabel, Truth
@@ -52,9 +53,10 @@ def draw_case(
     _check(base, kind, form, design)
     rng = np.random.default_rng([seed, 0])
     specimen, noise = draw_base(base, rng), Noise.draw(rng)
-    forms = [_draw_form(word, form, rng) for word in _draw_kinds(base, kind, rng)]
+    plans = DESIGNS[design]
+    forms = [_draw_form(word, form, rng, len(plans)) for word in _draw_kinds(base, kind, rng)]
     strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in forms]
-    bench = _Bench(DESIGNS[design], specimen)
+    bench = _Bench(plans, specimen)
     effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
     measured, noise_rms = bench.measure(noise, np.random.default_rng([seed, 1]))
     target = write_dataset(folder or Path(tempfile.mkdtemp(prefix="blind-")), f"blind case {seed}", measured)
@@ -72,9 +74,34 @@ class _Bench:
         self.motions = [drive(path) for path in self.paths]
         self.dynamic = [amplitude > 0.0 for amplitude, _ in self.paths]
         self.forces: Forces = [specimen.force(motion) for motion in self.motions]
+        self.faults: Forces = [np.zeros(at_samples(motion.time).size) for motion in map(self._motion, plans)]
 
-    def hide(self, form: Form, strength: float, noise_rms: float) -> Hidden:
-        """Add an effect to the forces; returns what the label says of it."""
+    def hide(self, form: Form | Fault, strength: float, noise_rms: float) -> Hidden:
+        """Add an effect to the forces, or a fault to the channel; returns what the label says of it."""
+        if isinstance(form, Fault):
+            return self._spoil(form, strength, noise_rms)
+        return self._hide(form, strength, noise_rms)
+
+    def _spoil(self, form: Fault, strength: float, noise_rms: float) -> Hidden:
+        forces = [at_samples(self.forces[self.paths.index(plan.path)]) for plan in self.plans]
+        size, added = form.at_rms(forces, [plan.dynamic for plan in self.plans], strength * noise_rms)
+        self.faults = [fault + more for fault, more in zip(self.faults, added, strict=True)]
+        motions = [self._motion(plan) for plan in self.plans]
+        return Hidden(
+            kind=form.kind,
+            form=type(form).__name__,
+            size=size,
+            unit=form.unit,
+            parameters=asdict(form),
+            strength=strength,
+            strength_left=_rms_left(self.specimen, motions, added) / noise_rms,
+            rms={plan.name: _rms(more) for plan, more in zip(self.plans, added, strict=True)},
+        )
+
+    def _motion(self, plan: Plan) -> Motion:
+        return self.motions[self.paths.index(plan.path)]
+
+    def _hide(self, form: Form, strength: float, noise_rms: float) -> Hidden:
         size, added = form.at_rms(self.motions, self.forces, self.dynamic, strength * noise_rms)
         self.forces = [force + more for force, more in zip(self.forces, added, strict=True)]
         return Hidden(
@@ -84,19 +111,19 @@ class _Bench:
             unit=form.unit,
             parameters=asdict(form),
             strength=strength,
-            strength_left=_rms_left(self.specimen, self.motions, added) / noise_rms,
+            strength_left=_rms_left(self.specimen, self.motions, [at_samples(more) for more in added]) / noise_rms,
             rms=self._per_run([_rms(at_samples(more)) for more in added]),
         )
 
     def measure(self, noise: Noise, rng: np.random.Generator) -> tuple[dict, dict[str, float]]:
         """Displacement and force of every run with noise, and the realised noise per run."""
         measured, realised = {}, {}
-        for plan in self.plans:
+        for plan, fault in zip(self.plans, self.faults, strict=True):
             place = self.paths.index(plan.path)
             displacement = at_samples(self.motions[place].displacement)
             error = noise.sample(rng, displacement.size)
             jitter = DISPLACEMENT_NOISE * rng.standard_normal(displacement.size)
-            measured[plan] = displacement + jitter, at_samples(self.forces[place]) + error
+            measured[plan] = displacement + jitter, at_samples(self.forces[place]) + fault + error
             realised[plan.name] = _rms(error)
         return measured, realised
 
@@ -108,7 +135,7 @@ def _rms_left(specimen: Base, motions: list[Motion], added: Forces) -> float:
     """What the spring curve and the sizes of the base's branches cannot follow of the effect, as root mean square."""
     columns = np.concatenate([_tangents(specimen, motion) for motion in motions])
     columns /= np.sqrt((columns**2).mean(axis=0))
-    effect = np.concatenate([at_samples(more) for more in added])
+    effect = np.concatenate(added)
     coefficients, *_ = np.linalg.lstsq(columns[::4], effect[::4], rcond=None)
     return _rms(effect - columns @ coefficients)
 
@@ -132,10 +159,12 @@ def _draw_kinds(base: str, kind: str | None, rng: np.random.Generator) -> list[s
     return [] if asked == NULL else sorted(asked.split("+"), key=lambda word: word == "delay")
 
 
-def _draw_form(kind: str, form: str | None, rng: np.random.Generator) -> Form:
-    known = {candidate.__name__: candidate for candidate in FORMS[kind]}
+def _draw_form(kind: str, form: str | None, rng: np.random.Generator, runs: int) -> Form | Fault:
+    candidates = FAULTS[kind] if kind in FAULTS else FORMS[kind]
+    known = {candidate.__name__: candidate for candidate in candidates}
     drawn = str(rng.choice(list(known)))
-    return known.get(form, known[drawn]).draw(rng)
+    chosen = known.get(form, known[drawn])
+    return chosen.draw(rng, runs) if kind in FAULTS else chosen.draw(rng)
 
 
 def _check(base: str, kind: str | None, form: str | None, design: str) -> None:
@@ -143,9 +172,9 @@ def _check(base: str, kind: str | None, form: str | None, design: str) -> None:
     _expect("design", design, DESIGNS)
     kinds = [] if kind in (None, NULL) else kind.split("+")
     for word in kinds:
-        _expect("kind", word, FORMS)
+        _expect("kind", word, {**FORMS, **FAULTS})
     if form is not None:
-        _expect("form", form, [known.__name__ for word in kinds for known in FORMS[word]])
+        _expect("form", form, [known.__name__ for word in kinds for known in (FAULTS.get(word) or FORMS[word])])
 
 
 def _expect(what: str, got: str, known) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from . import channel, damping, friction, inertia, relaxation, stiffness
+from . import channel, damping, fault, friction, inertia, relaxation, stiffness
 from .form import Form
 
 FORMS: dict[str, tuple[type[Form], ...]] = {
@@ -15,6 +15,8 @@ FORMS: dict[str, tuple[type[Form], ...]] = {
     "moving_mass": inertia.FORMS,
     "delay": channel.FORMS,
 }
+
+FAULTS = fault.FORMS
 
 _EVERYWHERE = ("friction", "relaxation", "quadratic_damping", "moving_mass", "delay")
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from dashpot.assess.noise import flat_noise
+from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate, Columns, rich_residual, screen
 from dashpot.contract.cause import Cause, Suspect
 
@@ -36,7 +37,8 @@ def columns_of(rng, effect, joint=False, sign=1, most=1):
     single = Suspect("single", (0.0,), None, None, unknowns=0)
     candidates = (Candidate(Made, suspect, slice(0, 4)), Candidate(Other, single, slice(4, 5)))
     empty = {run: np.empty((0, SAMPLES)) for run in "ab"}
-    return Columns(residual, tangents, empty, bank, np.empty(0), candidates)
+    rows = (SparseRows.of(tangents), SparseRows.of(empty), SparseRows.of(bank))
+    return Columns(residual, *rows, np.empty(0), candidates)
 
 
 def fall_of_chi_square(columns, rows):
@@ -47,8 +49,8 @@ def fall_of_chi_square(columns, rows):
         target = np.concatenate([columns.residual[run][8:] for run in "ab"])
         return np.sum((target - design @ np.linalg.lstsq(design, target, rcond=None)[0]) ** 2)
 
-    tangents = [columns.tangents[run] for run in "ab"]
-    both = [np.concatenate([columns.tangents[run], columns.bank[run][rows]]) for run in "ab"]
+    tangents = [columns.tangents.values[run] for run in "ab"]
+    both = [np.concatenate([columns.tangents.values[run], columns.bank.values[run][rows]]) for run in "ab"]
     return left(tangents) - left(both)
 
 
@@ -93,7 +95,7 @@ def test_what_the_tangents_can_absorb_is_not_claimed():
     """A hidden column that is a tangent of the model belongs to a refit, not to a cause."""
     columns = columns_of(np.random.default_rng(), np.zeros(4))
     for run in "ab":
-        columns.residual[run][:] += 5.0 * columns.tangents[run][1]
+        columns.residual[run][:] += 5.0 * columns.tangents.values[run][1]
     assert screen(columns, WHITE).best is None
 
 
@@ -112,9 +114,10 @@ def test_admitted_sensor_errors_cost_nothing_and_larger_ones_are_found():
 
     def with_error(size):
         columns = columns_of(np.random.default_rng(), np.zeros(4))
-        shape = {run: columns.bank[run][4:5] for run in "ab"}
+        shape = {run: columns.bank.values[run][4:5] for run in "ab"}
         residual = {run: columns.residual[run] + size * shape[run][0] for run in "ab"}
-        return Columns(residual, columns.tangents, shape, columns.bank, np.array([0.2]), columns.candidates)
+        nuisance = SparseRows.of(shape)
+        return Columns(residual, columns.tangents, nuisance, columns.bank, np.array([0.2]), columns.candidates)
 
     assert screen(with_error(0.2), WHITE).best is None
     assert screen(with_error(3.0), WHITE).best.candidate.cause is Other

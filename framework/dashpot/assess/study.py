@@ -1,0 +1,104 @@
+"""What a study found, as it is written down and as a report shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from dashpot.assess.compare import Comparison
+from dashpot.fit.identifiability import Identifiability
+from dashpot.fit.study.preview import Preview
+from dashpot.fit.study.run import ModelResult, StudyResult
+from dashpot.fit.study.stage import StageResult
+
+
+def comparison_of(result: StudyResult) -> Comparison:
+    """The models of a study side by side."""
+    return Comparison(result.setting, tuple(model.fit for model in result.models), {}, result.study.seed)
+
+
+def study_content(result: StudyResult) -> dict[str, Any]:
+    """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
+    content = comparison_of(result).as_dict()
+    models = [{**row, **_model(model)} for row, model in zip(content["models"], result.models, strict=True)]
+    study = {
+        "name": result.study.name,
+        "about": result.study.about,
+        "budget": result.study.budget,
+        "amplitude": result.study.amplitude,
+    }
+    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models}
+
+
+def study_evidence(result: StudyResult) -> dict[str, Any]:
+    """Arrays and texts for the report: those of the comparison."""
+    return comparison_of(result).evidence()
+
+
+def preview_content(name: str, previews: Sequence[Preview]) -> dict[str, Any]:
+    """What ``--dry-run`` tells, in plain values."""
+    return {
+        "format": "dashpot-study-preview/1",
+        "study": name,
+        "models": [
+            {"name": each.model, "budget": each.budget, "noise": each.noise, "identifiability": _known(each.known)}
+            for each in previews
+        ],
+    }
+
+
+def preview_text(previews: Sequence[Preview]) -> str:
+    """What ``--dry-run`` tells on the terminal."""
+    blocks = []
+    for each in previews:
+        count, firm = len(each.known.deviations) + len(each.known.idle), len(each.known.firm)
+        head = f"{each.model}: {firm} of {count} numbers can be known to better than 10 %"
+        cost = f"at most {each.budget} parameter vectors" if each.budget else "nothing to search"
+        blocks.append("\n".join([f"{head}; {cost}", *(f"  {text}" for text in each.known.sentences)]))
+    noise = (
+        f"At the start values, with the {previews[0].noise:.3g} N of the noise floor taken as white."
+        if previews
+        else ""
+    )
+    return "\n".join([*blocks, noise])
+
+
+def _model(model: ModelResult) -> dict[str, Any]:
+    fit = model.fit
+    return {
+        "optimizer": fit.optimizer,
+        "evaluations": fit.evaluations,
+        "at_bound": list(fit.at_bound),
+        "without_influence": list(fit.idle),
+        "identifiability": _known(model.known),
+        "stages": [_stage(stage) for stage in model.stages],
+        "bootstrap": {path: list(pair) for path, pair in model.bootstrap.items()},
+        "profiles": [
+            {
+                "parameter": profile.path,
+                "value": list(profile.values),
+                "loss": list(profile.losses),
+                "interval": list(profile.interval),
+                "open": list(profile.open_ends),
+            }
+            for profile in model.profiles
+        ],
+    }
+
+
+def _known(known: Identifiability) -> dict[str, Any]:
+    return {"condition": known.condition, "deviations": known.deviations, "weak": known.sentences}
+
+
+def _stage(stage: StageResult) -> dict[str, Any]:
+    return {
+        "name": stage.name,
+        "optimizer": stage.optimizer,
+        "free": list(stage.free),
+        "loss": stage.loss,
+        "evaluations": stage.evaluations,
+        "failures": stage.failures,
+        "ending": stage.ending,
+        "remark": stage.remark,
+        "spread": list(stage.spread),
+    }

@@ -1,0 +1,84 @@
+"""Faults of single held-out runs: these runs judge the model, so they must be sound themselves.
+
+Looked for at the end, with the final model, whose numbers are known from the training runs as well as these tell them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.assess.contest import Bench, Model
+from dashpot.assess.mend import Mend, make_mend
+from dashpot.assess.noise import NoiseModel, learn_noise
+from dashpot.assess.projection import SparseRows, normal_equations, stack
+from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen
+from dashpot.assess.suspicion import first_noise, resolution, sensor_nuisance, view_of
+from dashpot.assess.view import ModelView
+from dashpot.contract.cause import Cause
+
+Array = NDArray[np.float64]
+
+NOISE_ROUNDS = 2
+SMALLEST_SHARE = 0.02  # of the whitened squares of the faulty runs, which is one percent of their error
+
+
+@dataclass(frozen=True, eq=False)
+class Jury:
+    """The held-out runs, and the directions in which the final model may still be wrong there."""
+
+    bench: Bench
+    directions: Array
+    causes: Sequence[type[Cause]]
+    seed: int
+
+    def faulty(self, model: Model) -> tuple[Finding, Mend] | None:
+        """The most significant fault of single runs that is also worth a word, or None."""
+        columns, view = self._columns(model)
+        if columns is None:
+            return None
+        noise = first_noise(self.bench, model)
+        for _ in range(NOISE_ROUNDS):
+            noise = learn_noise(rich_residual(columns, noise), resolution(self.bench))
+        finding = screen(columns, noise, self.seed).best
+        if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
+            return None
+        return finding, make_mend(view, finding)
+
+    def _columns(self, model: Model) -> tuple[Columns | None, ModelView]:
+        residual, tangents = self.bench.linearise(model)
+        view = view_of(model, self.bench.runs, self.bench.elements)
+        candidates = _local_candidates(self.causes, view, model)
+        if not candidates:
+            return None, view
+        sheet, priors = sensor_nuisance(self.bench.runs, view, self.bench.sensors)
+        turned = SparseRows.dense({run: self.directions @ rows for run, rows in tangents.items()})
+        nothing = SparseRows.dense({run: rows[:0] for run, rows in tangents.items()})
+        known = np.concatenate([np.ones(turned.size), priors])
+        bank = collect_bank(view, candidates)
+        return Columns(residual, nothing, stack(turned, sheet), bank, known, tuple(candidates)), view
+
+
+def known_directions(bench: Bench, model: Model, noise: NoiseModel) -> Array:
+    """Directions (p, p) of the model's numbers, scaled so that the training runs leave a deviation of one in each."""
+    residual, tangents = bench.linearise(model)
+    gram = normal_equations(residual, SparseRows.dense(tangents), noise).gram
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
+    kept = values > 1e-10 * max(float(values[-1]), 1e-300) if values.size else np.zeros(0, bool)
+    return (vectors[:, kept] / np.sqrt(values[kept])).T / scale
+
+
+def _local_candidates(causes: Sequence[type[Cause]], view: ModelView, model: Model) -> list[Candidate]:
+    found: list[Candidate] = []
+    for cause in causes:
+        if cause.kind != "measurement":
+            continue
+        for suspect in cause().suspects(view, model.fitted):
+            if suspect.local and not suspect.joint:
+                first = found[-1].columns.stop if found else 0
+                found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid))))
+    return found

@@ -1,0 +1,56 @@
+"""A force channel at the end of its range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Cause, Suspect, View, unchanged
+from dashpot.model.network import NetworkSpec
+
+Array = NDArray[np.float64]
+SHARES = (0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.27, 0.35)  # of the span of the forces, below its end
+
+
+class Clipping(Cause):
+    """Beyond a level the force channel shows less than there is. Flat tops are found in reading already."""
+
+    word = "clipping"
+    kind = "measurement"
+    about = "clipping of the force channel"
+    shows = "peaks are cut at one and the same force, at every amplitude, preload and frequency"
+    cure = "measure again with a larger range; leave out what lies beyond the level"
+    confused_with = {
+        "end_stop": "another frequency: clipping comes at one force, a stop at one deflection",
+        "stiffness_curve": "a hold above the level: clipping depends on the force with its damping, a curve does not",
+        "lift_off": "a higher preload: lift-off vanishes; or a known steel spring: clipping stays",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """A level near the largest or the smallest force, above or below which part of the force is missing."""
+        forces = [view.force(run) for run in view.runs]
+        low, high = min(force.min() for force in forces), max(force.max() for force in forces)
+        for side, end in ((1, high), (-1, low)):
+            levels = tuple(float(end - side * (share + 0.01) * (high - low)) for share in SHARES)
+            cut = _Cut(side, levels)
+            yield Suspect(
+                "upper level" if side > 0 else "lower level", levels, cut, unchanged, mends=True, tell=cut.tell
+            )
+
+
+@dataclass(frozen=True)
+class _Cut:
+    side: Literal[1, -1]
+    levels: tuple[float, ...]
+
+    def __call__(self, view: View, run: str) -> Array:
+        beyond = np.maximum(self.side * (view.force(run) - np.array(self.levels)[:, None]), 0.0)
+        return -self.side * beyond
+
+    def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
+        chosen = int(np.argmax(np.abs(strengths)))
+        return {"level": (self.levels[chosen], "N"), "share that is missing": (strengths[chosen], "1")}

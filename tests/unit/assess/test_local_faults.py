@@ -1,0 +1,94 @@
+"""Faults of single runs: found with their size, in fitted and in held-out runs; silence where there are none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dashpot.assess.diagnose import diagnose
+from dashpot.assess.gain import crossed
+from dashpot.contract.registry import load_registry
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.model.reading import parse_network
+
+NETWORK = """\
+format: dashpot-network/1
+name: straight
+branches:
+  stiffness: {element: spring, stiffness: {start: 150 N/mm}}
+  damping: {element: damper, damping: {start: 100 N*s/m}}
+"""
+TIME = np.arange(3000) * 1e-3
+NOISE = 5.0
+
+
+def dataset(rng, fault=lambda name, force: 0.0):
+    """Eight sweeps of a straight spring and dashpot; r1 and r5 are held out."""
+    runs = []
+    for number in range(8):
+        amplitude, preload = (1e-3, 3e-3)[number % 2], (5e-3, 10e-3)[number // 4]
+        phase = 2.0 * np.pi * (TIME + 2.0 * TIME**2)
+        x = preload + amplitude * np.sin(phase)
+        force = 2e5 * x + 400.0 * np.gradient(x, 1e-3)
+        force = force + fault(f"r{number}", force) + NOISE * rng.standard_normal(x.size)
+        channels = {"displacement": x, "force": force}
+        runs.append(Run(f"r{number}", "sweep", TIME, channels, group=f"r{number}", held_out=number in (1, 5)))
+    return Dataset("made", tuple(runs))
+
+
+def causes(data):
+    registry = load_registry()
+    return diagnose(parse_network(NETWORK, registry.elements), data, registry=registry).as_dict()["causes"]
+
+
+@pytest.fixture
+def rng():
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print(f"seed {seed}")
+    return np.random.default_rng(seed)
+
+
+@pytest.mark.parametrize("run", ["r2", "r5"], ids=["fitted", "held_out"])
+@pytest.mark.parametrize("word, shape, size", [
+    ("offset", lambda force: 10.0 + 0.0 * force, 10.0),
+    ("gain", lambda force: 0.02 * force, 0.02),
+    ("drift", lambda force: np.linspace(0.0, 20.0, force.size), 20.0),
+])  # fmt: skip
+def test_the_fault_of_a_run_is_named_with_its_size(rng, run, word, shape, size):
+    found = causes(dataset(rng, lambda name, force: shape(force) if name == run else 0.0))
+    assert [cause["cause"] for cause in found] == [word]
+    ((name, told),) = found[0]["parameters"].items()
+    assert name.endswith(f"of {run}")
+    low, high = told["interval"]
+    assert told["value"] == pytest.approx(size, rel=0.1)
+    assert low - 0.5 * (high - low) < size < high + 0.5 * (high - low)
+    assert 0.0 < found[0]["gain"] < 1.0
+
+
+def test_nothing_is_said_of_sound_runs(rng):
+    assert causes(dataset(rng)) == []
+
+
+def test_an_error_that_the_data_sheet_admits_is_no_finding(rng):
+    """2 N of offset under a zero error of 3 N; ten times as much is beyond it."""
+
+    def told(size):
+        data = dataset(rng, lambda name, force: size if name == "r2" else 0.0)
+        sheet = {"force": {"zero": 3.0}}
+        return causes(replace(data, runs=tuple(replace(run, sensors=sheet) for run in data.runs)))
+
+    assert told(2.0) == []
+    assert [cause["cause"] for cause in told(40.0)] == ["offset"]
+
+
+def test_crossed_strengths_gain_nothing_from_noise(rng):
+    """Twenty shapes fitted to noise lower its square by 20/n; judged on other pieces they raise it."""
+    noise, rows = rng.standard_normal(3000), rng.standard_normal((20, 3000))
+    assert np.mean(crossed(noise, rows, 1e-3) ** 2) > np.mean(noise**2)
+
+
+def test_crossed_strengths_take_out_what_is_there(rng):
+    noise, row = rng.standard_normal(3000), np.sin(TIME)[None]
+    left = crossed(noise + 7.0 * row[0], row, 1e-3)
+    assert np.mean(left**2) == pytest.approx(np.mean(noise**2), rel=0.01)
