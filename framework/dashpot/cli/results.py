@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from glob import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from dashpot.cli.output import OutputFolder
 
 if TYPE_CHECKING:
     from dashpot.assess.compare import Comparison
     from dashpot.assess.diagnosis import Diagnosis
+    from dashpot.model.network import NetworkSpec
+    from dashpot.report.evidence import Evidence
 
 COMPARISON_FILES = ("compare.json", "compare.csv", "report.html")
 
@@ -32,7 +35,8 @@ def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
     grid = comparison_grid(content)
     folder.write("compare.json", json_text(content))
     folder.write("compare.csv", to_csv(grid.rows, grid.columns))
-    return folder.write("report.html", render(comparison_page(content, comparison.evidence())))
+    evidence = with_schematics(comparison.evidence(), {fit.fitted.name: fit.fitted for fit in comparison.fits})
+    return folder.write("report.html", render(comparison_page(content, evidence)))
 
 
 def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
@@ -45,7 +49,16 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
     folder.write("diagnosis.json", json_text(content))
     if diagnosis.extended_text is not None:
         folder.write(diagnosis.extended_name, diagnosis.extended_text)
-    return folder.write("report.html", render(diagnosis_page(content, diagnosis.evidence())))
+    title = (diagnosis.extended_name or diagnosis.model.name).removesuffix(".yaml")
+    evidence = with_schematics(diagnosis.evidence(), {title: diagnosis.final})
+    return folder.write("report.html", render(diagnosis_page(content, evidence)))
+
+
+def with_schematics(evidence: Mapping[str, Any], networks: Mapping[str, NetworkSpec]) -> Evidence:
+    """The evidence with the schematics of networks, each under its title."""
+    from dashpot.report.schematic.svg import svg
+
+    return cast("Evidence", {**evidence, "schematic": {title: svg(network) for title, network in networks.items()}})
 
 
 def comparison_text(comparison: Comparison) -> str:

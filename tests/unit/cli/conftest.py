@@ -12,6 +12,7 @@ from dashpot.cli import main
 from dashpot.contract import registry as registry_module
 from dashpot.contract.origin import Origin, PluginFault
 from dashpot.contract.registry import Registry
+from dashpot.model.network import Group, NetworkSpec
 
 
 class Method:
@@ -66,6 +67,8 @@ class FakeResult:
     extended_name = "spring+more.yaml"
     extended_text = "name: extended\n"
     identified_text = "name: identified\n"
+    model = final = NetworkSpec("spring", Group("", "parallel", ()))
+    fits = ()
 
     def as_dict(self) -> dict:
         """The smallest content that satisfies both pages."""

@@ -29,7 +29,7 @@ def test_the_version_is_told(call):
     "arguments, hint",
     [
         (["diagnoze"], "No such verb 'diagnoze', did you mean 'diagnose'?"),
-        (["zzz"], "No such verb 'zzz', there are: demo, list, check, simulate, fit, compare, diagnose"),
+        (["zzz"], "No such verb 'zzz', there are: demo, list, check, draw, simulate, fit, compare, diagnose"),
         (["compare", "--ouput", "x"], "Did you mean '--output'?"),
         (["list", "elments"], "No list of 'elments', did you mean 'elements'?"),
         (["list", "zzz"], "No list of 'zzz', there are: elements, "),
