@@ -186,7 +186,7 @@ class NetworkSpec:
 
     def slots(self) -> tuple[Slot, ...]:
         """Every number of the network: branch by branch, node by node, then the measurement."""
-        found = [slot for branch in self.leaves() if not branch.shares for slot in _branch_slots(branch)]
+        found = [slot for branch in self.leaves() if not branch.shares for slot in branch_slots(branch)]
         found += [Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items()
                   if ends.offset and not ends.shares]  # fmt: skip
         found += [Slot(f"{joint.name}.{key}", value) for joint in self.joints.values() if not joint.shares
@@ -235,14 +235,15 @@ class NetworkSpec:
         return {path: curve for path, curve in self.curves().items() if curve.data}
 
 
-def _branch_slots(branch: Branch) -> Iterator[Slot]:
+def branch_slots(branch: Branch) -> Iterator[Slot]:
+    """The numbers of one branch, in the order of its declaration; those of a twin have the paths of its model."""
     for key in (*branch.element.declares.curves, *branch.element.declares.parameters):
         if key in branch.curves:
-            yield from _curve_slots(f"{branch.name}.{key}", branch.curves[key])
+            yield from _curve_slots(f"{branch.numbers}.{key}", branch.curves[key])
         elif key in branch.values:
-            yield Slot(f"{branch.name}.{key}", branch.values[key])
+            yield Slot(f"{branch.numbers}.{key}", branch.values[key])
     if branch.scale:
-        yield from _curve_slots(f"{branch.name}.scale", branch.scale)
+        yield from _curve_slots(f"{branch.numbers}.scale", branch.scale)
 
 
 def _curve_slots(path: str, curve: Characteristic) -> Iterator[Slot]:

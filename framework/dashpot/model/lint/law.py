@@ -1,0 +1,105 @@
+"""A branch on plain numbers, moved as one likes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.model.element import Motion
+from dashpot.model.network import Branch, Characteristic, Value, branch_slots
+
+Array = NDArray[np.float64]
+Numbers = Mapping[str, Any]  # by path, each a number or one for each lane
+
+FAR, PAUSE, PAUSES = 1e3, 1e4, 20  # m, s, and how many of them to get there and to wait
+LASTING, NOTHING = 1e-3, 1e-6
+LINE = (2e5, 2e6)  # stiffness and bend of what is still to come from data, N/m and N/m^2
+
+
+@dataclass(frozen=True)
+class Law:
+    """The law of a branch with all its numbers, by path; tables are read linearly between their knots."""
+
+    branch: Branch
+    numbers: Numbers
+
+    @classmethod
+    def of(cls, branch: Branch) -> Law:
+        """The law with the numbers of the file."""
+        own = stand_in(branch)
+        return cls(own, {slot.path: slot.value.number for slot in branch_slots(own)})
+
+    def with_numbers(self, numbers: Numbers) -> Law:
+        """The same law with other numbers."""
+        return Law(self.branch, {**self.numbers, **{path: numbers[path] for path in self.numbers if path in numbers}})
+
+    def force(self, path: Array, velocity: Array, acceleration: Array, dt: Any) -> Array:
+        """The force (steps, lanes) along a path (steps + 1, lanes) from the unloaded state, in steps of dt."""
+        law, given = self.branch.element(), self._given()
+        states: Mapping[str, Any] = dict.fromkeys(self.branch.element.declares.states, np.zeros(path.shape[1]))
+        scale = _curve(f"{self.branch.numbers}.scale", self.branch.scale, self.numbers)
+        forces = np.empty((len(path) - 1, path.shape[1]))
+        with np.errstate(all="ignore"):
+            for k in range(len(forces)):
+                x = Motion(path[k], path[k + 1], velocity[k], velocity[k + 1], acceleration[k + 1])
+                response = law.step(x, SimpleNamespace(**states), given, dt)
+                forces[k], states = response.force * scale(x.new), response.states
+        return forces
+
+    def holds(self) -> bool:
+        """Whether the force at a deflection that is held for long grows with the deflection, on either side."""
+        share = np.concatenate([np.linspace(0.0, 1.0, PAUSES + 1), np.ones(PAUSES)])[:, None]
+        path = FAR * np.array([1.0, 2.0, -1.0, -2.0]) * share
+        rate = np.where(share < 1.0, path[-1] / (PAUSE * PAUSES), 0.0)
+        force = np.abs(self.force(path, rate, 0.0 * rate, PAUSE))
+        one, two = force[-1, [0, 2]], force[-1, [1, 3]]
+        grown = two - one > np.maximum(LASTING * one, NOTHING * np.max(force))
+        # what cannot be told is not complained of
+        return bool((grown | np.isnan(two)).any())
+
+    def _given(self) -> SimpleNamespace:
+        name, declared = self.branch.numbers, self.branch.element.declares
+        values = {key: self.numbers.get(f"{name}.{key}", parameter.default)
+                  for key, parameter in declared.parameters.items()}  # fmt: skip
+        curves = {key: _curve(f"{name}.{key}", curve, self.numbers) for key, curve in self.branch.curves.items()}
+        return SimpleNamespace(**values, **curves)
+
+
+def stand_in(branch: Branch) -> Branch:
+    """The branch with a slightly bent line, to be found, in place of a curve that comes from data."""
+    curves = {key: _bent_line(curve) if curve.data else curve for key, curve in branch.curves.items()}
+    return replace(branch, curves=curves)
+
+
+def _bent_line(curve: Characteristic) -> Characteristic:
+    values = tuple(Value(number, curve.curve.coefficient_unit(power), "free", scale="linear", node=curve.node)
+                   for power, number in enumerate(LINE, 1))  # fmt: skip
+    return Characteristic(curve.curve, "polynomial", values, node=curve.node)
+
+
+def _curve(path: str, curve: Characteristic | None, numbers: Numbers) -> Callable[[Any], Any]:
+    if curve is None:
+        return lambda argument: 1.0
+    if curve.form == "constant":
+        return lambda argument: numbers[path] * argument
+    knots = [numbers[f"{path}[{number}]"] for number in range(len(curve.values))]
+    if curve.form == "polynomial":
+        return lambda argument: sum(factor * argument**power for power, factor in enumerate(knots, 1))
+    return lambda argument: _read_table(curve, knots, argument)
+
+
+def _read_table(curve: Characteristic, knots: Sequence[Any], argument: Any) -> Array:
+    # a factor stays as it is outside its knots
+    inside = np.clip(argument, curve.at[0], curve.at[-1]) if curve.curve.value[1] == "1" else np.asarray(argument)
+    last = len(knots) - 2
+    total = np.zeros(np.broadcast_shapes(*(np.shape(value) for value in (inside, *knots))))
+    for k, (low, high) in enumerate(pairwise(curve.at)):
+        here = ((inside >= low) | (k == 0)) & ((inside < high) | (k == last))
+        total = np.where(here, knots[k] + (inside - low) / (high - low) * (knots[k + 1] - knots[k]), total)
+    return total

@@ -1,0 +1,130 @@
+"""Numbers without influence, and numbers that cannot be told apart: the rank of what is measured over the numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from dashpot.model.lint.law import Array, Law, stand_in
+from dashpot.model.lint.outputs import Outputs
+from dashpot.model.lint.response import draw_trials
+from dashpot.model.network import Branch, NetworkSpec, Slot, Value, branch_slots
+from dashpot.model.topology import Topology
+from dashpot.text.problem import Place, Problem
+
+FEWEST_TRIALS, TRIALS_PER_NUMBER = 96, 4
+STEP = 1e-4  # relative, of a difference quotient
+NONE, DEPENDENT, INVOLVED = 1e-6, 1e-6, 1e-3
+SPREAD = 0.3  # of the numbers at which structure is judged
+
+
+def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Problem]:
+    """Branches and searched numbers on which nothing depends, and searched numbers that make up for each other."""
+    slots = searched_slots(spec)
+    outputs, table = _sensitivities(topology, spec, slots, 0)
+    idle = [edge.branch for k, edge in enumerate(topology.edges)
+            if np.any(outputs.answers[k].stiffness) and not _is_felt(outputs.share(k))]  # fmt: skip
+    for branch in idle:
+        yield Problem(branch.place, f"nothing that can be measured depends on the branch '{branch.name}'",
+                      "connect it to a node that moves, or remove it", "warning")  # fmt: skip
+    names = {branch.numbers for branch in idle}
+    for slot, column in zip(slots, table.T, strict=True):
+        if slot.path.rpartition(".")[0] not in names and not _is_felt(column):
+            yield Problem(_place(slot), f"nothing that can be measured depends on '{slot.path}', which is to be found",
+                          "write a plain number, or remove it", "warning")  # fmt: skip
+    groups = _dependencies(table)
+    if groups:
+        # what is so at other numbers as well is no accident
+        also = _dependencies(_sensitivities(topology, spec, slots, 1)[1])
+        yield from (_confusion([slots[k] for k in group]) for group in groups if group in also)
+
+
+def find_equal_starts(topology: Topology) -> Iterator[Problem]:
+    """Branches of one element in parallel whose numbers, which are to be found, are the same at the start."""
+    known: dict[tuple[object, ...], Branch] = {}
+    for edge in topology.edges:
+        branch = edge.branch
+        numbers = [(slot.path.removeprefix(branch.numbers), slot.value.number) for slot in branch_slots(branch)]
+        searched = any(slot.value.searched for slot in branch_slots(branch))
+        make = (branch.element, frozenset((edge.lower, edge.upper)), tuple(numbers), len(numbers) > 1 and searched)
+        if make[-1] and make in known and not branch.shares:
+            yield Problem(branch.place, f"'{known[make].name}' and '{branch.name}' are alike and in parallel: no "
+                          "search that follows slopes can part them", "start them at different numbers",
+                          "warning")  # fmt: skip
+        known.setdefault(make, branch)
+
+
+def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
+    """The numbers to be found; two for a curve that is to come from data."""
+    curves = set(spec.data_curves())
+    own = [slot for slot in spec.slots() if slot.path.partition("[")[0] not in curves]
+    bent = [slot for branch in spec.leaves() if not branch.shares for slot in branch_slots(stand_in(branch))
+            if slot.path.partition("[")[0] in curves]  # fmt: skip
+    return tuple(slot for slot in (*own, *bent) if slot.value.searched)
+
+
+def _numbers(spec: NetworkSpec) -> dict[str, float]:
+    known = {slot.path: slot.value.number for slot in spec.slots()}
+    for branch in spec.leaves():
+        known |= Law.of(branch).numbers
+    return known
+
+
+def _others(spec: NetworkSpec, seed: int) -> dict[str, float]:
+    rng = np.random.default_rng(seed + 1)
+    slots = searched_slots(spec)
+    factors = np.exp(rng.uniform(-SPREAD, SPREAD, len(slots)))
+    return {slot.path: _inside(slot.value, slot.value.number * factor)
+            for slot, factor in zip(slots, factors, strict=True)}  # fmt: skip
+
+
+def _inside(value: Value, number: float) -> float:
+    low, high = value.bounds or value.sensible
+    return float(np.clip(number, low, high))
+
+
+def _sensitivities(topology: Topology, spec: NetworkSpec, slots: tuple[Slot, ...], seed: int) -> tuple[Outputs, Array]:
+    trials = draw_trials(topology, max(FEWEST_TRIALS, TRIALS_PER_NUMBER * len(slots)))
+    outputs = Outputs(spec, topology, trials, _numbers(spec) | _others(spec, seed))
+    return outputs, outputs.changes({slot.path: STEP * _size(slot, outputs) for slot in slots}) / STEP
+
+
+def _size(slot: Slot, outputs: Outputs) -> float:
+    low, high = slot.value.bounds or slot.value.sensible
+    room = high - low if np.isfinite(high - low) and slot.value.scale == "linear" else 1.0
+    return abs(outputs.numbers[slot.path]) or room
+
+
+def _is_felt(change: Array) -> bool:
+    return bool(np.max(np.abs(change), initial=0.0) > NONE)
+
+
+def _dependencies(table: Array) -> list[frozenset[int]]:
+    """Each column that is a sum of multiples of others, with these others."""
+    from scipy.linalg import lstsq, qr
+
+    lengths = np.linalg.norm(table, axis=0)
+    felt = np.flatnonzero(np.max(np.abs(table), axis=0) > NONE)
+    if not felt.size:
+        return []
+    unit = table[:, felt] / lengths[felt]
+    triangle, order = qr(unit, mode="r", pivoting=True)
+    rank = int(np.sum(np.abs(np.diag(triangle)) > DEPENDENT))
+    kept, spare = order[:rank], order[rank:]
+    shares = [lstsq(unit[:, kept], unit[:, column])[0] for column in spare]
+    return [frozenset(int(felt[k]) for k in (column, *kept[np.abs(share) > INVOLVED]))
+            for column, share in zip(spare, shares, strict=True)]  # fmt: skip
+
+
+def _confusion(slots: list[Slot]) -> Problem:
+    last = max(slots, key=lambda slot: slot.value.place)
+    names = list(dict.fromkeys(f"'{slot.path.partition('[')[0]}'" for slot in sorted(slots, key=lambda s: s.path)))
+    listed = f"{', '.join(names[:-1])} and {names[-1]} cannot be told apart" if len(names) > 1 else (
+        f"the numbers of {names[0]} cannot be told apart")  # fmt: skip
+    return Problem(_place(last), f"{listed}: the others make up for any change of one of them",
+                   "fix one of them with a plain number, or remove a branch", "warning")  # fmt: skip
+
+
+def _place(slot: Slot) -> Place:
+    return slot.value.node.place if slot.value.node else Place()
