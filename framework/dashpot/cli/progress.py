@@ -55,7 +55,7 @@ class ProgressBar:
         if stage != self._stage or not self._bar.tasks:
             for task in self._bar.task_ids:
                 self._bar.remove_task(task)
-            self._bar.add_task(text)
+            self._bar.add_task(text, completed=done or 0.0)
         task = self._bar.task_ids[0]
         self._bar.update(task, description=text, completed=done or 0.0, total=None if done is None else 1.0)
 
@@ -73,9 +73,10 @@ def describe(stage: str, value: float | None, floor: float | None) -> str:
 def new_bar() -> Progress:
     """A bar on standard error that vanishes when done; rich itself honours NO_COLOR."""
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    times = (TimeElapsedColumn(), TextColumn("left"), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), *times)
     bar = Progress(*columns, console=Console(stderr=True), transient=True)
     bar.start()
     return bar

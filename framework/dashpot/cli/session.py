@@ -12,7 +12,6 @@ from dashpot.cli.output import OutputFolder
 from dashpot.cli.progress import ProgressBar
 from dashpot.cli.switches import Switches
 from dashpot.cli.talk import Talk
-from dashpot.text.problem import nearest
 
 if TYPE_CHECKING:
     from dashpot.contract.registry import Registry

@@ -13,6 +13,11 @@ replay       answers to asked blocks: from a record first, then by evaluation
 starts       the framework's own search: a screening block, then refinements of the best of it
 refine       damped Gauss-Newton, the framework's own polish
 uncertainty  how well the parameters are known
+identifiability  what the data can tell, from the Fisher information, in words
+profile      the profile likelihood of a number
+bootstrap    refits on runs drawn with replacement
+virtual_test a network on a test bench
+study        a staged identification that stands in a file
 algebra      linear algebra on one thread
 result       what an identification found
 """

@@ -54,6 +54,23 @@ class Coordinates:
         """Points in the unit cube of coordinates."""
         return (points - self.low) / (self.high - self.low)
 
+    def number(self, which: int, at: float) -> float:
+        """The number in SI of one coordinate."""
+        return float(np.exp(at) if self.log[which] else at)
+
+    def numbers(self, point: Array) -> list[float]:
+        """The numbers in SI of a point (p,)."""
+        return [self.number(which, at) for which, at in enumerate(point)]
+
+    def held(self, number: int, at: float) -> Coordinates:
+        """The coordinates of all other slots, with slot ``number`` held at the coordinate ``at``."""
+        rest = np.arange(len(self.paths)) != number
+        base = self.base.copy()
+        base[self.which[number]] = self.number(number, at)
+        paths = tuple(path for path, kept in zip(self.paths, rest, strict=True) if kept)
+        arrays = (self.which, self.log, self.low, self.high, self.unit)
+        return Coordinates(paths, *(array[rest] for array in arrays), base)
+
 
 def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambda slot: True) -> Coordinates:
     """The coordinates of the searched slots of a network that ``chosen`` accepts. ValueError for one without bounds."""

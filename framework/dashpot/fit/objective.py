@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 from functools import cached_property
 from typing import TypeVar
 
@@ -26,17 +27,31 @@ class Objective:
     """The misfit of a compiled network on runs.
 
     As it is, all runs weigh the same, whatever their length, and a loss is the root of the mean over runs of the mean
-    squared error, in N. With ``whiten(run, misfits)`` a loss is the root mean square of all whitened misfits.
+    squared error, in N. ``weights`` (runs,), of which only the proportions count, change that. With
+    ``whiten(run, misfits)`` a loss is the root mean square of all whitened misfits.
     """
 
     def __init__(
-        self, network: CompiledNetwork, runs: Sequence[ScoredRun], jobs: int = 1, whiten: Whiten | None = None
+        self,
+        network: CompiledNetwork,
+        runs: Sequence[ScoredRun],
+        jobs: int = 1,
+        whiten: Whiten | None = None,
+        weights: Sequence[float] | None = None,
     ) -> None:
         self.network, self.runs, self.jobs, self.whiten = network, tuple(runs), jobs, whiten
+        shares = np.ones(len(self.runs)) if weights is None else np.asarray(weights, dtype=float)
+        self.shares = shares / shares.mean()
         self.rows = [network.prepare(run.drive) for run in self.runs]
         ends = np.cumsum([0] + [run.samples for run in self.runs])
         self.pieces = [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
         self.total = int(ends[-1])
+
+    def weighing(self, weights: Sequence[float]) -> Objective:
+        """The same runs with other weights (runs,); what was prepared is shared."""
+        other = copy(self)
+        other.shares = np.asarray(weights, dtype=float) / np.mean(weights)
+        return other
 
     @cached_property
     def parts(self) -> tuple[Parts, list[list[Rows]]]:
@@ -91,7 +106,9 @@ class Objective:
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,); a lane that fails costs infinity."""
         if self.whiten is None:
-            return np.sqrt(np.mean(np.square(self.rmse(values)), axis=0))
+            squares = np.square(self.rmse(values))
+            counted = self.shares > 0.0
+            return np.sqrt(np.mean(self.shares[counted, None] * squares[counted], axis=0) * counted.mean())
         residuals = self.residuals(values)
         losses = np.sqrt(np.einsum("ij,ij->i", residuals, residuals) / self.total)
         return np.where(np.isfinite(losses), losses, np.inf)
@@ -113,7 +130,7 @@ class Objective:
     def _weigh(self, number: int, misfits: Array) -> None:
         run, piece = self.runs[number], self.pieces[number]
         if self.whiten is None:
-            misfits[:, piece] *= np.sqrt(self.total / (len(self.runs) * run.samples))
+            misfits[:, piece] *= np.sqrt(self.shares[number] * self.total / (len(self.runs) * run.samples))
         else:
             misfits[:, piece] = self.whiten(run.name, misfits[:, piece])
 

@@ -23,6 +23,7 @@ class Outcome(Enum):
 
     CONVERGED = "converged"
     STEPS_SPENT = "the largest number of steps was reached before the fit stood still; allow more steps"
+    BUDGET_SPENT = "the budget was spent before the fit stood still"
     FAILED = "the simulation is not finite at the start; check the start values"
 
 
@@ -43,10 +44,12 @@ def refine(
     steps: int = 40,
     tolerance: float = 1e-7,
     watch: Callable[[float], None] = lambda loss: None,
+    budget: int | None = None,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
-    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block.
+    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
+    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors.
     """
     point = np.clip(start, coordinates.low, coordinates.high)
     loss = float(objective.losses(coordinates.to_values(point))[0])
@@ -54,6 +57,8 @@ def refine(
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
+        if budget is not None and spent + 1 + point.size + len(DAMPINGS) > budget:
+            return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
         residual, jacobian = linearise(objective, coordinates, point)
         tries = _candidates(residual, jacobian, coordinates, point, slack)
         losses = objective.losses(coordinates.to_values(tries))

@@ -31,31 +31,39 @@ class Best:
 
 
 def refine_from_starts(
-    objective: Objective, coordinates: Coordinates, seed: int, watch: Callable[[float, float], None]
+    objective: Objective,
+    coordinates: Coordinates,
+    seed: int,
+    watch: Callable[[float, float], None],
+    budget: int | None = None,
 ) -> Best:
     """The file's start and the best of a block of random ones, a few steps each; the best of them to its end.
 
-    ``watch(done, loss)`` hears of the progress.
+    ``watch(done, loss)`` hears of the progress; ``budget`` is the largest number of parameter vectors.
     """
     start = coordinates.start
     if start.size == 0:
         loss = float(objective.losses(coordinates.to_values(start))[0])
         return Best(refine(objective, coordinates, start), (loss,), 1, ((1, loss),))
-    points = _scatter(coordinates, start, np.random.default_rng(seed))
+    points = _scatter(coordinates, start, np.random.default_rng(seed))[:budget]
     losses = objective.losses(coordinates.to_values(points))
     order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
     spent, history = len(points), [(len(points), float(losses.min()))]
     ends = []
     for number, k in enumerate(order):
-        ends.append(refine(objective, coordinates, points[k], FIRST_STEPS))
+        ends.append(refine(objective, coordinates, points[k], FIRST_STEPS, budget=_left(budget, spent)))
         spent += ends[-1].evaluations
         history.append((spent, min(end.loss for end in ends)))
         watch((number + 1) / (len(order) + 1), history[-1][1])
     ends.sort(key=lambda end: end.loss)
-    best = refine(objective, coordinates, ends[0].point, LAST_STEPS)
+    best = refine(objective, coordinates, ends[0].point, LAST_STEPS, budget=_left(budget, spent))
     spent += best.evaluations
     history.append((spent, best.loss))
     return Best(best, tuple(end.loss for end in ends), spent, tuple(history))
+
+
+def _left(budget: int | None, spent: int) -> int | None:
+    return None if budget is None else budget - spent
 
 
 def _scatter(coordinates: Coordinates, start: Array, rng: np.random.Generator) -> Array:

@@ -56,8 +56,8 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
     return Uncertainty(
         covariance,
         tuple(_interval(coordinates, k, point[k], width[k]) for k in range(point.size)),
-        tuple(np.array(coordinates.paths)[bound]),
-        tuple(np.array(coordinates.paths)[idle]),
+        tuple(np.array(coordinates.paths)[bound].tolist()),
+        tuple(np.array(coordinates.paths)[idle].tolist()),
     )
 
 

@@ -1,0 +1,112 @@
+"""``dashpot study``: a staged identification from a file."""
+
+from __future__ import annotations
+
+from glob import escape
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import click
+
+from dashpot.cli.progress import ProgressBar
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, output_option, switches
+
+if TYPE_CHECKING:
+    from dashpot.cli.output import OutputFolder
+    from dashpot.data.dataset import Dataset
+    from dashpot.fit.study.declaration import StudySpec
+    from dashpot.fit.study.run import StudyResult
+
+RECORDS = "checkpoint"
+
+
+@click.command("study")
+@click.argument("study")
+@click.option("--data", "dataset", metavar="DATASET", help="Other measured runs than those that the study names.")
+@click.option("--dry-run", is_flag=True, help="Only say what the data can and cannot identify.")
+@output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
+@switches("jobs", "json", "quiet", "force")
+def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
+    """Identify models in stages, as a study file says.
+
+    STUDY is a file or the name of a shipped study. After an interruption the same command goes on where it stopped,
+    and the results are the same to the last byte.
+
+    \b
+    Example:
+      dashpot study tire_ladder --dry-run
+      dashpot study tire_ladder -o ladder
+    """
+    from dashpot.fit.study.reading import find_study, read_study
+
+    session = Session(switches)
+    planned = read_study(find_study(study), session.registry)
+    if dry_run:
+        with TemporaryDirectory() as scratch:
+            return preview(planned, data_of(planned, dataset, Path(scratch), session), session)
+    names = (f"{escape(plan.name)}.yaml" for plan in planned.models)
+    folder = session.claim(output or Path(planned.name), "study.json", "report.html", "models.csv", *names)
+    conduct(planned, data_of(planned, dataset, folder.path, session), folder, session)
+
+
+def data_of(planned: StudySpec, dataset: str | None, folder: Path, session: Session) -> Dataset:
+    """The dataset named on the command line, else the one of the study; a specimen is measured into the folder."""
+    if dataset is not None:
+        return session.dataset(dataset)
+    source = planned.data
+    if source.path is not None:
+        return session.dataset(source.path)
+    specimen = session.registry.specimens[source.specimen]()
+    return session.dataset(specimen.measure(folder / "data" / f"{source.specimen}-{source.seed}", source.seed))
+
+
+def preview(planned: StudySpec, measured: Dataset, session: Session) -> None:
+    """Say what the data can and cannot identify."""
+    from dashpot.assess.study import preview_content, preview_text
+    from dashpot.fit.study.preview import preview_study
+
+    previews = preview_study(planned, measured, session.switches.jobs)
+    session.talk.result(preview_text(previews), preview_content(planned.name, previews))
+
+
+def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session: Session) -> None:
+    """Run the study and write its results; the checkpoint goes when they are complete."""
+    from dashpot.fit.study.checkpoint import Checkpoint
+    from dashpot.fit.study.run import run_study
+
+    records = folder.path / RECORDS
+    if session.switches.force:
+        Checkpoint(records).discard()
+    with ProgressBar(session.switches.quiet) as progress:
+        result = run_study(
+            planned,
+            measured,
+            registry=session.registry,
+            jobs=session.switches.jobs,
+            checkpoint=records,
+            progress=progress,
+        )
+    write_study(result, folder, session)
+    Checkpoint(records).discard()
+
+
+def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> None:
+    """Write the networks, the result file, the table and the report."""
+    from dashpot.assess.study import study_content, study_evidence
+    from dashpot.report.grids import comparison_grid
+    from dashpot.report.json_text import json_text
+    from dashpot.report.page import render
+    from dashpot.report.study import study_page
+    from dashpot.report.tables import plain_table, to_csv
+
+    content = study_content(result)
+    grid = comparison_grid(content)
+    for model in result.models:
+        folder.write(f"{model.fit.declared.name}.yaml", model.fit.identified_text)
+    folder.write("study.json", json_text(content))
+    folder.write("models.csv", to_csv(grid.rows, grid.columns))
+    report = folder.write("report.html", render(study_page(content, study_evidence(result))))
+    session.talk.result(plain_table(grid), content)
+    session.talk.say(f"report: {report}")

@@ -1,0 +1,97 @@
+"""The profile likelihood of a number: how good the best fit can be while it is held somewhere else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import linearise, refine
+from dashpot.fit.uncertainty import NORMAL_95, assess_uncertainty
+
+Array = NDArray[np.float64]
+
+MOST, STEPS, TOLERANCE = 12, 12, 1e-6
+PACE = 0.7  # of the interval that the curvature promises
+
+
+@dataclass(frozen=True)
+class Profile:
+    """``values`` (k,) in SI and the ``losses`` (k,) in N of the best fits there; the 95 % ``interval``.
+
+    ``open_ends`` says which ends of the interval are only the end of the range: the data do not rule out more.
+    """
+
+    path: str
+    values: tuple[float, ...]
+    losses: tuple[float, ...]
+    interval: tuple[float, float]
+    open_ends: tuple[bool, bool]
+
+
+def profile_likelihood(objective: Objective, coordinates: Coordinates, point: Array, number: int) -> Profile:
+    """Walk from the fitted point (p,) along coordinate ``number``, refitting all others, until the fit is worse.
+
+    Worse is where twice the log likelihood has fallen by the 95 % quantile of chi square with one degree of freedom,
+    scaled by how much coloured noise widens the interval (the ratio of sandwich and naive variance).
+
+    Source: Raue et al., Bioinformatics 25 (2009) 1923.
+    """
+    climb = _Climb(objective, coordinates, point, number)
+    sides = [climb.walk(direction) for direction in (-1.0, 1.0)]
+    visited = sorted([*sides[0].visited, (point[number], climb.loss), *sides[1].visited])
+    ends = [side.end for side in sides]
+    return Profile(
+        coordinates.paths[number],
+        tuple(coordinates.number(number, at) for at, _ in visited),
+        tuple(loss for _, loss in visited),
+        (coordinates.number(number, ends[0]), coordinates.number(number, ends[1])),
+        (sides[0].open, sides[1].open),
+    )
+
+
+@dataclass(frozen=True)
+class _Side:
+    visited: list[tuple[float, float]]
+    end: float
+    open: bool
+
+
+class _Climb:
+    def __init__(self, objective: Objective, coordinates: Coordinates, point: Array, number: int) -> None:
+        self.objective, self.coordinates, self.point, self.number = objective, coordinates, point, number
+        self.loss = float(objective.losses(coordinates.to_values(point))[0])
+        _, jacobian = linearise(objective, coordinates, point)
+        naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
+        robust = float(assess_uncertainty(objective, coordinates, point).covariance[number, number])
+        self.limit = NORMAL_95 * np.sqrt(robust / naive)
+        self.pace = PACE * NORMAL_95 * np.sqrt(robust) * coordinates.unit[number]
+
+    def walk(self, direction: float) -> _Side:
+        wall = self.coordinates.high[self.number] if direction > 0.0 else self.coordinates.low[self.number]
+        visited: list[tuple[float, float]] = []
+        at, rest, before = self.point[self.number], np.delete(self.point, self.number), (0.0, self.point[self.number])
+        pace = self.pace
+        for _ in range(MOST):
+            at = float(
+                np.clip(at + direction * pace, self.coordinates.low[self.number], self.coordinates.high[self.number])
+            )
+            held = self.coordinates.held(self.number, at)
+            refined = refine(self.objective, held, rest, STEPS, TOLERANCE)
+            rest, depth = refined.point, self.depth(refined.loss)
+            visited.append((at, refined.loss))
+            if depth >= self.limit:
+                share = (self.limit - before[0]) / (depth - before[0])
+                return _Side(visited, before[1] + share * (at - before[1]), False)
+            if at == wall:
+                return _Side(visited, at, True)
+            pace *= 2.0 if depth - before[0] < 0.3 * self.limit else 1.0
+            before = (depth, at)
+        return _Side(visited, float(wall), True)
+
+    def depth(self, loss: float) -> float:
+        """The signed root of the fall of twice the log likelihood, nearly linear in the coordinate."""
+        return float(np.sqrt(max(self.objective.total * (loss**2 / self.loss**2 - 1.0), 0.0)))

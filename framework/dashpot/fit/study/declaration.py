@@ -1,0 +1,98 @@
+"""What a study file says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from dashpot.fit.study.patterns import chosen
+from dashpot.model.network import NetworkSpec, Slot
+
+
+@dataclass(frozen=True)
+class TakeStage:
+    """Numbers are read from the data: the ``curves`` from the slow loop, or the correction of their ``ends``."""
+
+    name: str
+    take: Literal["curves", "ends"]
+
+
+@dataclass(frozen=True)
+class SearchStage:
+    """Numbers are searched: those that ``free`` names and ``fixed`` does not, on the ``dynamic`` or on ``all`` runs.
+
+    budget: parameter vectors to be evaluated at most, by all ``starts`` together.
+    """
+
+    name: str
+    free: tuple[str, ...]
+    fixed: tuple[str, ...]
+    runs: Literal["dynamic", "all"]
+    optimizer: str
+    options: Mapping[str, Any]
+    budget: int
+    starts: int = 1
+
+    def frees(self, slot: Slot) -> bool:
+        """Whether the stage may move a number."""
+        return slot.value.searched and chosen(slot.path, self.free) and not chosen(slot.path, self.fixed)
+
+
+Stage = TakeStage | SearchStage
+
+
+@dataclass(frozen=True)
+class ModelPlan:
+    """A network with its stages; ``start_from`` names the model of the study whose numbers it takes over."""
+
+    network: NetworkSpec
+    stages: tuple[Stage, ...]
+    start_from: str | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the network."""
+        return self.network.name
+
+    @property
+    def budget(self) -> int:
+        """The parameter vectors of all its stages."""
+        return sum(stage.budget for stage in self.stages if isinstance(stage, SearchStage))
+
+
+@dataclass(frozen=True)
+class DataSource:
+    """A dataset by path, or a virtual specimen by word and seed."""
+
+    path: Path | None = None
+    specimen: str = ""
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class StudySpec:
+    """A study: models in order, each with its stages.
+
+    hold_out: patterns of the runs that only judge, None where the seed chooses; weights: pattern -> weight of the runs
+    that it names; amplitude: the one at which the report compares dynamic stiffness (m); bootstrap: how many
+    resamplings of the runs, profiles: patterns of the numbers whose profile likelihood is computed.
+    """
+
+    name: str
+    about: str
+    data: DataSource
+    models: tuple[ModelPlan, ...]
+    seed: int = 0
+    hold_out: tuple[str, ...] | None = None
+    weights: Mapping[str, float] = field(default_factory=dict)
+    amplitude: float | None = None
+    bootstrap: int = 0
+    profiles: tuple[str, ...] = ()
+    text: str = field(default="", repr=False)
+
+    @property
+    def budget(self) -> int:
+        """The parameter vectors of all models."""
+        return sum(model.budget for model in self.models)

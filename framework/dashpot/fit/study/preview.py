@@ -1,0 +1,43 @@
+"""What the planned data can and cannot identify, before anything is searched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dashpot.data.dataset import Dataset
+from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.identifiability import Identifiability, identifiability, unweighted
+from dashpot.fit.objective import Objective
+from dashpot.fit.ranges import natural_sizes, with_ranges
+from dashpot.fit.study.declaration import StudySpec, TakeStage
+from dashpot.fit.study.run import study_setting, take_numbers
+from dashpot.kernel.network import compile_network
+
+
+@dataclass(frozen=True)
+class Preview:
+    """What the training runs tell about the numbers of a model at its start values; ``noise`` in N, taken as white."""
+
+    model: str
+    budget: int
+    noise: float
+    known: Identifiability
+
+
+@single_threaded_algebra
+def preview_study(study: StudySpec, dataset: Dataset, jobs: int = 1) -> list[Preview]:
+    """One preview for each model. Raises InputError as `run_study` does."""
+    setting = study_setting(study, dataset)
+    previews = []
+    for plan in study.models:
+        spec = plan.network
+        if any(isinstance(stage, TakeStage) for stage in plan.stages) or spec.data_curves():
+            spec = take_numbers(spec, "curves", setting.train)
+        spec = with_ranges(spec, natural_sizes(setting.train))
+        coordinates = search_coordinates(spec)
+        objective = Objective(compile_network(spec), setting.train, jobs, unweighted)
+        noise = setting.floor.value or 1.0
+        found = identifiability(objective, coordinates, coordinates.start, noise)
+        previews.append(Preview(plan.name, plan.budget, noise, found))
+    return previews

@@ -1,0 +1,200 @@
+"""From the text of a study to its declaration; all mistakes are told at once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from dashpot.contract.bench import option_text
+from dashpot.contract.chain import make_optimizer, read_optimizer_options
+from dashpot.contract.registry import Registry
+from dashpot.fit.api import OWN_METHOD
+from dashpot.fit.study.declaration import DataSource, ModelPlan, SearchStage, Stage, StudySpec, TakeStage
+from dashpot.model.network import NetworkSpec
+from dashpot.model.reading import read_network
+from dashpot.model.shipped import SUFFIXES, spec_folder
+from dashpot.text.document import Document
+from dashpot.text.form import Form, read_items, read_number, read_text
+from dashpot.text.node import Node, Scalar
+from dashpot.text.problem import InputError, Place, Problem, nearest
+
+FORMAT = "dashpot-study/1"
+BUDGET = 20_000
+
+
+def shipped_studies() -> dict[str, Path]:
+    """The shipped studies by name."""
+    return {path.stem: path for path in sorted((spec_folder() / "studies").glob("*.yaml"))}
+
+
+def find_study(word: str) -> Path:
+    """The file of a study given by path or by shipped name. InputError when there is none."""
+    path, shipped = Path(word), shipped_studies()
+    if path.suffix in SUFFIXES or path.is_file():
+        return path
+    if word in shipped:
+        return shipped[word]
+    hint = nearest(word, shipped) or f"shipped studies: {', '.join(shipped) or 'none'}"
+    raise InputError.at(Place(word), "there is no such file and no shipped study of that name", hint)
+
+
+def read_study(path: Path, registry: Registry) -> StudySpec:
+    """The study in a file. InputError with all its mistakes and those of its networks."""
+    return parse_study(Document.read(path), path.parent, registry)
+
+
+def parse_study(document: Document, folder: Path, registry: Registry) -> StudySpec:
+    """The study that a text declares; paths in it are relative to ``folder``."""
+    problems: list[Problem] = []
+    form = Form(document.root, problems, "the study")
+    form.choice("format", (FORMAT,))
+    reader = _Reader(form, folder, registry, problems)
+    name = form.text("name")
+    study = StudySpec(
+        name=name or "",
+        about=form.text("about", ""),
+        data=reader.data(),
+        models=reader.models(),
+        seed=form.integer("seed", 0),
+        hold_out=_patterns(form, "hold_out", None),
+        weights=form.take("weights", _read_weights, {}),
+        amplitude=form.quantity("amplitude", "m", None),
+        bootstrap=form.integer("bootstrap", 0),
+        profiles=_patterns(form, "profiles", ()),
+        text=document.text,
+    )
+    form.close()
+    if problems:
+        raise InputError(problems)
+    return study
+
+
+class _Reader:
+    """Reads what a study's models share: where files are, which plugins there are, default stages and budget."""
+
+    def __init__(self, form: Form, folder: Path, registry: Registry, problems: list[Problem]) -> None:
+        self._form, self._folder, self._registry, self._problems = form, folder, registry, problems
+        self._budget = form.integer("budget", BUDGET) or BUDGET
+        self._stages = self._read_stages(form, ())
+
+    def data(self) -> DataSource:
+        """A path, or a specimen with its seed."""
+        node = self._form.node("data")
+        if node is None or isinstance(node, Scalar):
+            text = self._form.text("data")
+            return DataSource(self._folder / text if text else None)
+        form = self._form.form("data")
+        specimen = form.choice("specimen", tuple(self._registry.specimens)) if form else None
+        seed = form.integer("seed", 0) if form else 0
+        if form:
+            form.close()
+        return DataSource(specimen=specimen or "", seed=seed)
+
+    def models(self) -> tuple[ModelPlan, ...]:
+        """The models in the order of the file, each after the one it starts from."""
+        plans: list[ModelPlan] = []
+        for node in self._form.take("models", read_items) or ():
+            plan = self._model(node, [plan.name for plan in plans])
+            if plan:
+                plans.append(plan)
+        return tuple(plans)
+
+    def _model(self, node: Node, before: list[str]) -> ModelPlan | None:
+        if isinstance(node, Scalar):
+            network = self._network(read_text(node))
+            return network and self._new(ModelPlan(network, self._stages), before, node.place)
+        form = Form(node, self._problems, "the model")
+        word = form.text("network")
+        start_from = form.choice("start_from", before, None)
+        stages = self._read_stages(form, self._stages)
+        form.close()
+        network = self._network(word) if word else None
+        return network and self._new(ModelPlan(network, stages, start_from), before, node.place)
+
+    def _new(self, plan: ModelPlan, before: list[str], place: Place) -> ModelPlan:
+        if plan.name in before:
+            self._problems.append(Problem(place, f"two models are called '{plan.name}'", "give one another name"))
+        if not plan.stages:
+            self._problems.append(Problem(place, f"the model '{plan.name}' has no stages", "list some under 'stages'"))
+        return plan
+
+    def _network(self, word: str) -> NetworkSpec | None:
+        beside = self._folder / word
+        try:
+            return read_network(beside if Path(word).suffix in SUFFIXES else word, self._registry.elements)
+        except InputError as error:
+            self._problems.extend(error.problems)
+            return None
+
+    def _read_stages(self, form: Form, default: tuple[Stage, ...]) -> tuple[Stage, ...]:
+        if "stages" not in form:
+            return default
+        return tuple(stage for below in form.forms("stages") or () if (stage := self._stage(below)))
+
+    def _stage(self, form: Form) -> Stage | None:
+        name = form.text("name")
+        if "take" in form:
+            take = form.choice("take", ("curves", "ends"))
+            form.close()
+            return TakeStage(name, take) if name and take else None
+        optimizer = form.text("optimizer", OWN_METHOD)
+        stage = SearchStage(
+            name=name or "",
+            free=_patterns(form, "free", ("*",)),
+            fixed=_patterns(form, "fixed", ()),
+            runs=form.choice("runs", ("dynamic", "all"), "all"),
+            optimizer=optimizer,
+            options=self._options(form, optimizer),
+            budget=_at_least_one(form, "budget", self._budget),
+            starts=_at_least_one(form, "starts", 1),
+        )
+        form.close()
+        return stage if name else None
+
+    def _options(self, form: Form, optimizer: str) -> Mapping[str, Any]:
+        texts = form.take("options", _read_option_texts, {})
+        if optimizer == OWN_METHOD:
+            if texts:
+                form.complain("options", f"{OWN_METHOD} has no options")
+            return {}
+        try:
+            options = read_optimizer_options(optimizer, self._registry.optimizers, texts or {})
+            make_optimizer(optimizer, self._registry.optimizers, options)
+        except ValueError as error:
+            form.complain("optimizer", f"{form.what}: {error}")
+            return {}
+        return options
+
+
+def _at_least_one(form: Form, key: str, default: int) -> int:
+    number = form.integer(key, default)
+    if number is not None and number < 1:
+        form.complain(key, f"{form.what}, '{key}': expected at least 1, got {number}")
+    return number or default
+
+
+def _patterns(form: Form, key: str, default: Any) -> Any:
+    def read(node: Node) -> tuple[str, ...]:
+        return tuple(map(read_text, [node] if isinstance(node, Scalar) else read_items(node)))
+
+    return form.take(key, read, default)
+
+
+def _read_weights(node: Node) -> dict[str, float]:
+    weights = {name: read_number(value) for name, value in _entries(node, "run: weight").items()}
+    if any(weight <= 0.0 for weight in weights.values()):
+        raise ValueError("expected weights above 0; runs that should not count are held out")
+    return weights
+
+
+def _read_option_texts(node: Node) -> dict[str, str]:
+    return {name: option_text(value) for name, value in _entries(node, "option: value").items()}
+
+
+def _entries(node: Node, expected: str) -> Mapping[str, Node]:
+    from dashpot.text.node import Mapping as MappingNode
+
+    if not isinstance(node, MappingNode):
+        raise ValueError(f"expected lines '{expected}', got {node.describe()}")
+    return node.entries

@@ -1,0 +1,228 @@
+"""All stages of all models, in the order of the study."""
+
+from __future__ import annotations
+
+import hashlib
+import zlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import dashpot
+from dashpot.contract.registry import Registry
+from dashpot.data.dataset import Dataset
+from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.api import Progress, Setting, measure_errors, prepare, silent
+from dashpot.fit.bootstrap import bootstrap_intervals
+from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.grounding import correct_ends, ground_curves
+from dashpot.fit.holdout import Split
+from dashpot.fit.identifiability import Identifiability, identifiability, unweighted
+from dashpot.fit.objective import Objective
+from dashpot.fit.profile import Profile, profile_likelihood
+from dashpot.fit.ranges import natural_sizes, with_ranges
+from dashpot.fit.refine import Outcome
+from dashpot.fit.result import FitResult, with_intervals
+from dashpot.fit.scored import ScoredRun
+from dashpot.fit.study.carry import carry_over
+from dashpot.fit.study.checkpoint import Checkpoint
+from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
+from dashpot.fit.study.patterns import chosen
+from dashpot.fit.study.stage import StageResult, Task, search
+from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.kernel.network import compile_network
+from dashpot.model.network import NetworkSpec
+from dashpot.text.problem import InputError, Place
+
+SLOW = ("quasi_static", "hold")
+
+
+@dataclass(frozen=True, eq=False)
+class ModelResult:
+    """An identified model: the fit, how its stages went, and what the data tell about its numbers.
+
+    ``bootstrap`` holds the intervals in SI by path where the study asks for them.
+    """
+
+    fit: FitResult
+    stages: tuple[StageResult, ...]
+    known: Identifiability
+    bootstrap: Mapping[str, tuple[float, float]]
+    profiles: tuple[Profile, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class StudyResult:
+    """What a study found, model by model in its order."""
+
+    study: StudySpec
+    setting: Setting
+    models: tuple[ModelResult, ...]
+
+
+@single_threaded_algebra
+def run_study(
+    study: StudySpec,
+    dataset: Dataset,
+    *,
+    registry: Registry,
+    jobs: int = 1,
+    checkpoint: Path | None = None,
+    progress: Progress | None = None,
+) -> StudyResult:
+    """Identify every model of a study; what an earlier call left in the folder ``checkpoint`` is not done again.
+
+    The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
+    number of interruptions. Raises InputError for patterns that name nothing and for networks that do not compile.
+    """
+    setting = study_setting(study, dataset)
+    records = Checkpoint(checkpoint)
+    records.open(fingerprint(study, dataset))
+    conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
+    return StudyResult(study, setting, tuple(conduct.models()))
+
+
+def study_setting(study: StudySpec, dataset: Dataset) -> Setting:
+    """The dataset made ready, split as the study wants it. InputError for a pattern that names no run."""
+    names = [run.name for run in dataset.runs]
+    for pattern in (*(study.hold_out or ()), *study.weights):
+        if not any(chosen(name, [pattern]) for name in names):
+            raise InputError.at(
+                Place(study.name), f"no run is called '{pattern}'", f"runs are: {', '.join(names[:12])}"
+            )
+    setting = prepare(dataset, study.seed)
+    if study.hold_out is None:
+        return setting
+    groups = {run.group for run in dataset.runs if chosen(run.name, study.hold_out)}
+    train = tuple(run.name for run in dataset.runs if run.group not in groups)
+    if not train:
+        raise InputError.at(Place(study.name), "'hold_out' leaves no run to train on", "name fewer runs")
+    held_out = tuple(run.name for run in dataset.runs if run.group in groups)
+    return replace(setting, split=Split(train, held_out, "" if held_out else "the study holds none out"))
+
+
+def fingerprint(study: StudySpec, dataset: Dataset) -> str:
+    """What the numbers of a study depend on."""
+    networks = [plan.network.text for plan in study.models]
+    parts = [dashpot.__version__, str(study.seed), dataset.digest, study.text, *networks]
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()
+
+
+def run_weights(study: StudySpec, runs: list[ScoredRun]) -> list[float]:
+    """The weight of each run: that of the first pattern that names it, else 1."""
+    return [next((w for pattern, w in study.weights.items() if chosen(run.name, [pattern])), 1.0) for run in runs]
+
+
+def take_numbers(spec: NetworkSpec, what: str, runs: list[ScoredRun]) -> NetworkSpec:
+    """The network after a stage that reads numbers from the data."""
+    return ground_curves(spec, runs) if what == "curves" else correct_ends(spec, runs)
+
+
+@dataclass
+class _Conduct:
+    study: StudySpec
+    setting: Setting
+    registry: Registry
+    jobs: int
+    records: Checkpoint
+    progress: Progress
+    spent: int = 0
+
+    def models(self) -> Iterator[ModelResult]:
+        """Every model; those identified before may be starting points."""
+        done: dict[str, NetworkSpec] = {}
+        for plan in self.study.models:
+            result = self._model(plan, done)
+            done[plan.name] = result.fit.fitted
+            yield result
+
+    def _model(self, plan: ModelPlan, done: Mapping[str, NetworkSpec]) -> ModelResult:
+        train = self.setting.train
+        spec = carry_over(plan.network, done[plan.start_from]) if plan.start_from else plan.network
+        results = []
+        for number, stage in enumerate(plan.stages):
+            if isinstance(stage, SearchStage):
+                spec = with_ranges(spec, natural_sizes(train))
+                spec, result = self._search(plan, number, stage, spec)
+                results.append(result)
+            else:
+                spec = take_numbers(spec, stage.take, train)
+        return self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results))
+
+    def _search(
+        self, plan: ModelPlan, number: int, stage: SearchStage, spec: NetworkSpec
+    ) -> tuple[NetworkSpec, StageResult]:
+        train = self.setting.train
+        dynamic = [run for run in train if run.kind not in SLOW]
+        runs = dynamic if stage.runs == "dynamic" and dynamic else train
+        label = f"{plan.name}-{number + 1}-{stage.name}"
+        seed = zlib.crc32(label.encode()) ^ self.study.seed
+        task = Task(runs, run_weights(self.study, runs), seed, self.jobs, self.registry.optimizers)
+
+        def watch(evaluations: int, loss: float) -> None:
+            done = (self.spent + min(evaluations, stage.budget)) / max(self.study.budget, 1)
+            self.progress(f"{plan.name}: {stage.name}", done, loss, self.setting.floor.value)
+
+        self._tell(plan, stage.name)
+        found = search(spec, stage, task, lambda start: self.records.stage(f"{label}-{start + 1}"), watch)
+        self.spent += stage.budget
+        return found
+
+    def _judge(self, plan: ModelPlan, spec: NetworkSpec, stages: tuple[StageResult, ...]) -> ModelResult:
+        train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
+        objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
+        known = assess_uncertainty(objective, coordinates, coordinates.start)
+        errors = measure_errors(spec, self.setting, self.jobs)
+        plain = Objective(network, train, self.jobs, unweighted)
+        noise = self.setting.floor.value or errors.train or 1.0
+        fit = FitResult(
+            declared=plan.network,
+            fitted=with_intervals(spec, dict(zip(coordinates.paths, known.intervals, strict=True))),
+            errors=errors,
+            noise_floor=self.setting.floor,
+            split=self.setting.split,
+            dataset=self.setting.dataset,
+            optimizer=" then ".join(dict.fromkeys(stage.optimizer for stage in stages if stage.free)),
+            seed=self.study.seed,
+            ending=next((s.ending for s in stages if not s.converged), Outcome.CONVERGED.value),
+            evaluations=sum(stage.evaluations for stage in stages),
+            at_bound=known.at_bound,
+            idle=known.idle,
+            spread=next((stage.spread for stage in stages if len(stage.spread) > 1), ()),
+            history=_joined(stages),
+        )
+        told = identifiability(plain, coordinates, coordinates.start, noise)
+        return ModelResult(fit, stages, told, self._resampled(plan, objective, coordinates),
+                           self._profiles(plan, objective, coordinates))  # fmt: skip
+
+    def _resampled(
+        self, plan: ModelPlan, objective: Objective, coordinates: Coordinates
+    ) -> dict[str, tuple[float, float]]:
+        if not (self.study.bootstrap and coordinates.paths):
+            return {}
+        group_of = {run.name: (run.kind, run.group) for run in self.setting.dataset.runs}
+        groups = [group_of[run.name] for run in objective.runs]
+        self._tell(plan, "bootstrap")
+        found = bootstrap_intervals(
+            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed
+        )
+        return dict(zip(coordinates.paths, found, strict=True))
+
+    def _profiles(self, plan: ModelPlan, objective: Objective, coordinates: Coordinates) -> tuple[Profile, ...]:
+        wanted = [number for number, path in enumerate(coordinates.paths) if chosen(path, self.study.profiles)]
+        found = []
+        for number in wanted:
+            self._tell(plan, f"profile of {coordinates.paths[number]}")
+            found.append(profile_likelihood(objective, coordinates, coordinates.start, number))
+        return tuple(found)
+
+    def _tell(self, plan: ModelPlan, what: str) -> None:
+        self.progress(f"{plan.name}: {what}", self.spent / max(self.study.budget, 1), None, self.setting.floor.value)
+
+
+def _joined(stages: tuple[StageResult, ...]) -> tuple[tuple[int, float], ...]:
+    entries, before = [], 0
+    for stage in stages:
+        entries += [(before + count, loss) for count, loss in stage.history]
+        before += stage.evaluations
+    return tuple(entries)

@@ -1,0 +1,178 @@
+"""One search of one model: from records as far as they go, then freshly evaluated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.chain import make_optimizer
+from dashpot.contract.optimizer import Optimizer, Space
+from dashpot.fit.api import OWN_METHOD
+from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import Outcome, refine
+from dashpot.fit.scored import ScoredRun
+from dashpot.fit.search import Ending, run_search
+from dashpot.fit.starts import refine_from_starts
+from dashpot.fit.study.checkpoint import Record
+from dashpot.fit.study.declaration import SearchStage
+from dashpot.kernel.network import compile_network
+from dashpot.model.network import NetworkSpec
+
+Array = NDArray[np.float64]
+Watch = Callable[[int, float], None]
+
+
+@dataclass(frozen=True)
+class StageResult:
+    """How a search went. ``free`` are the numbers it moved, ``spread`` the losses of its starts, the best first."""
+
+    name: str
+    optimizer: str
+    free: tuple[str, ...]
+    loss: float
+    evaluations: int
+    failures: int
+    ending: str
+    remark: str
+    spread: tuple[float, ...]
+    history: tuple[tuple[int, float], ...]
+    converged: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """What a search works on: the runs with their weights, the seed, the workers, the optimizers."""
+
+    runs: Sequence[ScoredRun]
+    weights: Sequence[float]
+    seed: int
+    jobs: int
+    known: Mapping[str, type[Optimizer]]
+
+
+def search(
+    spec: NetworkSpec, stage: SearchStage, task: Task, record: Callable[[int], Record], watch: Watch
+) -> tuple[NetworkSpec, StageResult]:
+    """The network with the numbers that the stage found; ``record(start)`` holds what is known of each start.
+
+    KeyboardInterrupt leaves the records as far as they came.
+    """
+    coordinates = search_coordinates(spec, stage.frees)
+    objective = Objective(compile_network(spec), task.runs, task.jobs, weights=task.weights)
+    if not coordinates.paths:
+        return spec, _nothing(stage, objective, coordinates)
+    if stage.optimizer == OWN_METHOD:
+        found = [_recorded(record(0), lambda keep: _refine(objective, coordinates, stage, task.seed, watch))]
+    else:
+        found = [_start(number, stage, task, objective, coordinates, record, watch) for number in range(stage.starts)]
+    found = sorted(found, key=lambda each: each["loss"])
+    fitted = with_point(spec, coordinates, np.array(found[0]["point"]))
+    return fitted, _summed(stage, coordinates, found)
+
+
+def _start(
+    number: int,
+    stage: SearchStage,
+    task: Task,
+    objective: Objective,
+    coordinates: Coordinates,
+    record: Callable[[int], Record],
+    watch: Watch,
+) -> dict[str, Any]:
+    rng = np.random.default_rng([task.seed, number])
+    begin = coordinates.to_cube(coordinates.start) if number == 0 else rng.random(len(coordinates.paths))
+    budget = stage.budget // stage.starts
+    method = make_optimizer(stage.optimizer, task.known, stage.options)
+    before = number * budget
+    seed = int(rng.integers(2**32))
+
+    def work(kept: Record) -> dict[str, Any]:
+        found = run_search(
+            method,
+            lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
+            lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
+            Space(coordinates.paths, np.clip(begin, 0.0, 1.0)),
+            seed,
+            budget=max(budget, 1),
+            progress=lambda standing: watch(before + standing.evaluations, standing.loss),
+            recorded=kept.blocks(),
+            keep=kept.keep,
+        )
+        if found.ending is Ending.INTERRUPTED:
+            kept.close()
+            raise KeyboardInterrupt
+        return {
+            "point": coordinates.from_cube(found.best).tolist(),
+            "loss": found.loss,
+            "evaluations": found.evaluations,
+            "failures": found.failures,
+            "ending": found.ending.value,
+            "remark": found.remark,
+            "converged": found.ending is Ending.CONVERGED,
+            "history": [[standing.evaluations, standing.loss] for standing in found.history],
+            "spread": [found.loss],
+        }
+
+    return _recorded(record(number), work)
+
+
+def _refine(
+    objective: Objective, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
+) -> dict[str, Any]:
+    """The framework's own method: a refinement, or several starts with one."""
+    if stage.starts > 1:
+        best = refine_from_starts(
+            objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget
+        )
+        refined, spread, evaluations, history = best.refined, best.spread, best.evaluations, best.history
+    else:
+        refined = refine(objective, coordinates, coordinates.start, budget=stage.budget)
+        spread, evaluations = (refined.loss,), refined.evaluations
+        history = ((evaluations, refined.loss),)
+    return {
+        "point": refined.point.tolist(),
+        "loss": refined.loss,
+        "evaluations": evaluations,
+        "failures": 0,
+        "ending": refined.outcome.value,
+        "remark": "",
+        "converged": refined.outcome is Outcome.CONVERGED,
+        "history": [list(entry) for entry in history],
+        "spread": list(spread),
+    }
+
+
+def _recorded(record: Record, work: Callable[[Record], dict[str, Any]]) -> dict[str, Any]:
+    known = record.result()
+    if known is None:
+        known = work(record)
+        record.finish(known)
+    return known
+
+
+def _summed(stage: SearchStage, coordinates: Coordinates, found: list[dict[str, Any]]) -> StageResult:
+    best = found[0]
+    spread = sorted(loss for each in found for loss in each["spread"])
+    return StageResult(
+        stage.name,
+        stage.optimizer,
+        coordinates.paths,
+        best["loss"],
+        sum(each["evaluations"] for each in found),
+        sum(each["failures"] for each in found),
+        best["ending"],
+        best["remark"],
+        tuple(spread),
+        tuple((int(count), float(loss)) for count, loss in best["history"]),
+        best["converged"],
+    )
+
+
+def _nothing(stage: SearchStage, objective: Objective, coordinates: Coordinates) -> StageResult:
+    loss = float(objective.losses(coordinates.to_values(coordinates.start))[0])
+    return StageResult(stage.name, "", (), loss, 0, 0, "nothing to search in this model", "", (loss,), (), True)

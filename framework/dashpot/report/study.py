@@ -1,0 +1,135 @@
+"""The report of a study: the comparison of its models, how each was identified, and how well its numbers are known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from dashpot.report import figures
+from dashpot.report.comparison import best_model, comparison_page
+from dashpot.report.evidence import Evidence
+from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
+from dashpot.report.readable import number, rig_unit, set_value
+
+Json = Mapping[str, Any]
+
+ALIKE = 0.02  # amplitudes that differ by less are the same test
+
+
+def study_page(study: Json, evidence: Evidence) -> Page:
+    """The report of a `dashpot-study-result/1`; `evidence` is that of a comparison."""
+    page = comparison_page(study, evidence)
+    first, *others = page.sections
+    added = [_at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    sections = [first, *(section for section in added if section.parts), *others]
+    about = study["study"]["about"]
+    return replace(
+        page, title=f"Study {study['study']['name']}", lead=f"{about} {page.lead}".strip(), sections=sections
+    )
+
+
+def stages_grid(study: Json) -> Grid:
+    """Every stage of every model: what it searched, with what, how far it came."""
+    columns = [
+        Column("model", "model"),
+        Column("stage", "stage"),
+        Column("optimizer", "optimizer"),
+        Column("free", "free numbers", "", 3),
+        Column("loss", "best RMSE", "N", 4),
+        Column("evaluations", "parameter vectors", "", 6),
+        Column("starts", "starts within 1 %"),
+        Column("ending", "ended because"),
+    ]
+    rows = [_stage_row(model["name"], stage) for model in study["models"] for stage in model["stages"]]
+    return Grid("Stages", columns, rows, csv_name="stages.csv")
+
+
+def intervals_grid(model: Json) -> Grid:
+    """The searched numbers of a model with their 95 % intervals, of every kind that the study asked for."""
+    profiles = {profile["parameter"]: profile for profile in model["profiles"]}
+    columns = [
+        Column("parameter", "parameter"),
+        Column("unit", "unit"),
+        Column("value", "value", "", 4),
+        Column("interval", "95 % interval"),
+        Column("bootstrap", "bootstrap of the runs"),
+        Column("profile", "profile likelihood"),
+    ]
+    rows = [
+        _interval_row(path, entry, model["bootstrap"].get(path), profiles.get(path))
+        for path, entry in model["parameters"].items()
+        if entry["role"] != "fixed" and entry["interval"] is not None
+    ]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
+
+
+def _at_amplitude(study: Json, evidence: Evidence) -> Section:
+    amplitude = study["study"]["amplitude"]
+    if amplitude is None:
+        return Section("", parts=[])
+    curves = [
+        curve
+        for curve in evidence.get("dynamic_stiffness", ())
+        if curve.get("amplitude") and math.isclose(curve["amplitude"], amplitude, rel_tol=ALIKE)
+    ]
+    best = best_model(study)
+    parts = figures.stiffness_figures(curves, [best["name"]] if best else []) if curves else []
+    return Section(f"Dynamic stiffness at {set_value(amplitude, 'm')}", parts=list(parts))
+
+
+def _conduct(study: Json) -> Section:
+    return Section("How the models were identified", parts=[stages_grid(study)])
+
+
+def _knowledge(study: Json) -> Section:
+    text = (
+        "Intervals are 95 % and take coloured noise into account. The condition number is that of the Fisher "
+        "information in relative changes of the numbers: the larger, the more some of them can make up for others."
+    )
+    return Section("How well the numbers are known", text, [part for m in study["models"] for part in _known(m)])
+
+
+def _known(model: Json) -> Iterator[Part]:
+    grid = intervals_grid(model)
+    condition = number(model["identifiability"]["condition"], 2)
+    if grid.rows:
+        yield replace(grid, caption=f"Condition number {condition}.")
+    told = [f"{path} is at the end of its range" for path in model["at_bound"]]
+    told += model["identifiability"]["weak"]
+    if told:
+        yield Notice("warning", f"{model['name']}: {'; '.join(told)}.")
+
+
+def _stage_row(model: str, stage: Json) -> dict[str, Any]:
+    spread = stage["spread"]
+    alike = sum(loss <= 1.01 * min(spread) for loss in spread)
+    return {
+        "model": model,
+        "stage": stage["name"],
+        "optimizer": stage["optimizer"] or None,
+        "free": len(stage["free"]),
+        "loss": stage["loss"],
+        "evaluations": stage["evaluations"],
+        "starts": f"{alike} of {len(spread)}" if len(spread) > 1 else None,
+        "ending": stage["remark"] or stage["ending"],
+    }
+
+
+def _interval_row(path: str, entry: Json, bootstrap: Any, profile: Json | None) -> dict[str, Any]:
+    factor, unit = rig_unit(entry["unit"], abs(entry["value"]))
+    return {
+        "parameter": path,
+        "unit": unit or None,
+        "value": entry["value"] * factor,
+        "interval": _pair(entry["interval"], factor),
+        "bootstrap": _pair(bootstrap, factor) if bootstrap else None,
+        "profile": _pair(profile["interval"], factor, profile["open"]) if profile else None,
+    }
+
+
+def _pair(pair: Any, factor: float, open_ends: Any = (False, False)) -> str:
+    low, high = (number(factor * side, 4) for side in pair)
+    return f"{'below ' * bool(open_ends[0])}{low} to {'above ' * bool(open_ends[1])}{high}"

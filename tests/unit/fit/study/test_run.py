@@ -1,0 +1,191 @@
+"""Studies on runs of known truth: stages, what is carried over, weights, hold-out, resumption."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dashpot import load_registry
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.fit.study import run as conduct
+from dashpot.fit.study.preview import preview_study
+from dashpot.fit.study.reading import parse_study
+from dashpot.fit.study.run import run_study
+from dashpot.text.document import Document
+from dashpot.text.problem import InputError
+
+TIME = 1e-3 * np.arange(1200)
+NETWORKS = {
+    "one": "rubber: {element: spring, stiffness: {start: 150 N/mm}}\n",
+    "two": "rubber: {element: spring, stiffness: {start: 100 N/mm}}\n"
+    "  oil: {element: damper, damping: {start: 900 N*s/m}}\n",
+}
+SPRING, DAMPING = 2e5, 300.0
+
+
+def sine(name: str, frequency: float, noise: float = 2.0, spring: float = SPRING, seed: int = 3) -> Run:
+    omega, rng = 2.0 * np.pi * frequency, np.random.default_rng([seed, round(10 * frequency)])
+    x, v = 1e-3 * np.sin(omega * TIME), 1e-3 * omega * np.cos(omega * TIME)
+    force = spring * x + DAMPING * v + noise * rng.standard_normal(TIME.size)
+    return Run(name, "harmonic", TIME, {"displacement": x, "force": force}, group=name)
+
+
+DATA = Dataset("bench", tuple(sine(f"f{f}", float(f)) for f in (2, 5, 9, 14)))
+
+
+@pytest.fixture
+def study(tmp_path):
+    for name, branches in NETWORKS.items():
+        (tmp_path / f"{name}.yaml").write_text(f"format: dashpot-network/1\nname: {name}\nbranches:\n  {branches}")
+
+    def parsed(text: str):
+        document = Document.parse(f"format: dashpot-study/1\nname: s\ndata: d\n{text}", "s.yaml")
+        return parse_study(document, tmp_path, load_registry())
+
+    return parsed
+
+
+def numbers(result, model=0):
+    return {slot.path: slot.value.number for slot in result.models[model].fit.fitted.slots()}
+
+
+def run(made, data=DATA, **more):
+    return run_study(made, data, registry=load_registry(), **more)
+
+
+def test_a_stage_moves_only_what_it_frees(study):
+    made = study("stages: [{name: a, free: 'oil.*'}]\nmodels: [two.yaml]\n")
+    found = run(made)
+    assert numbers(found)["rubber.stiffness"] == 1e5
+    assert found.models[0].stages[0].free == ("oil.damping",)
+    made = study("stages: [{name: a, fixed: 'oil.*'}]\nmodels: [two.yaml]\n")
+    assert numbers(run(made))["oil.damping"] == 900.0
+
+
+@pytest.mark.parametrize("optimizer", ["gauss_newton", "least_squares", "pso+least_squares"])
+def test_the_truth_is_found_within_its_intervals(study, optimizer):
+    made = study(f"stages: [{{name: a, optimizer: {optimizer}, budget: 3000}}]\nmodels: [two.yaml]\n")
+    fit = run(made).models[0].fit
+    for slot in fit.fitted.slots():
+        truth = SPRING if slot.path.startswith("rubber") else DAMPING
+        # the interval is 95 %: three of its half widths are a matter of one in a hundred million
+        assert abs(slot.value.number - truth) < 1.5 * np.ptp(slot.value.interval)
+    assert fit.evaluations <= 3000
+
+
+def test_numbers_are_carried_over_by_path(study):
+    made = study("stages: [{name: a}]\nmodels: [one.yaml, {network: two.yaml, start_from: one, "
+                 "stages: [{name: b, free: 'oil.*'}]}]\n")  # fmt: skip
+    found = run(made)
+    assert numbers(found, 1)["rubber.stiffness"] == numbers(found, 0)["rubber.stiffness"] != 1e5
+
+
+def test_runs_of_greater_weight_pull_harder(study):
+    # two runs of different stiffness: the least squares estimate is their mean, weighted
+    data = Dataset("bench", (sine("soft", 5.0, 0.0, 1e5), sine("hard", 5.0, 0.0, 3e5)))
+    text = "stages: [{name: a, budget: 500}]\nmodels: [two.yaml]\n"
+    assert numbers(run(study(text), data))["rubber.stiffness"] == pytest.approx(2e5, rel=1e-3)
+    weighted = run(study("weights: {hard: 3}\n" + text), data)
+    assert numbers(weighted)["rubber.stiffness"] == pytest.approx(2.5e5, rel=1e-3)
+
+
+def test_held_out_runs_do_not_train(study):
+    found = run(study("hold_out: ['f9', 'f1*']\nstages: [{name: a}]\nmodels: [two.yaml]\n"))
+    assert found.setting.split.held_out == ("f9", "f14") and found.setting.split.train == ("f2", "f5")
+
+
+@pytest.mark.parametrize("text", ["hold_out: 'g*'\n", "weights: {g1: 2}\n"])
+def test_a_pattern_that_names_no_run_is_told(study, text):
+    with pytest.raises(InputError, match="no run is called 'g"):
+        run(study(text + "stages: [{name: a}]\nmodels: [one.yaml]\n"))
+
+
+def test_the_budget_holds_for_every_method(study):
+    for optimizer, starts in (("pso", 1), ("pso+least_squares", 2), ("least_squares", 1), ("gauss_newton", 3)):
+        made = study(
+            f"stages: [{{name: a, optimizer: {optimizer}, budget: 150, starts: {starts}}}]\nmodels: [two.yaml]\n"
+        )
+        assert 0 < run(made).models[0].stages[0].evaluations <= 150
+
+
+def test_several_starts_tell_how_well_they_agree(study):
+    stage = run(study("stages: [{name: a, optimizer: least_squares, starts: 3, budget: 900}]\nmodels: [two.yaml]\n"))
+    spread = stage.models[0].stages[0].spread
+    assert len(spread) == 3 and spread[-1] == pytest.approx(spread[0], rel=1e-6)
+
+
+class Cut(Exception):
+    """The power is gone."""
+
+
+def test_an_interrupted_study_goes_on_to_the_same_bits(study, tmp_path, monkeypatch):
+    made = study(
+        "stages: [{name: a, optimizer: pso+least_squares, budget: 1500, options: {pso.particles: 12}}, {name: b}]\n"
+        "models: [one.yaml, {network: two.yaml, start_from: one}]\n"
+    )
+    whole, folder = run(made), tmp_path / "records"
+    original = conduct.search.__globals__["Objective"].losses
+
+    for lifetime in (9, 40, 25):
+        left = [lifetime]
+
+        def losses(self, values, left=left):
+            left[0] -= 1
+            if left[0] < 0:
+                raise Cut
+            return original(self, values)
+
+        monkeypatch.setattr(conduct.search.__globals__["Objective"], "losses", losses)
+        with pytest.raises(Cut):
+            run(made, checkpoint=folder)
+        for torn in folder.glob("*.blocks"):
+            torn.write_bytes(torn.read_bytes() + b"\x93NUMPY half a block")
+    monkeypatch.undo()
+    resumed = run(made, checkpoint=folder, jobs=2)
+    for model, other in zip(whole.models, resumed.models, strict=True):
+        assert model.fit.as_dict() == other.fit.as_dict()
+        assert model.stages == other.stages
+
+
+def test_what_is_recorded_is_not_evaluated_again(study, tmp_path, monkeypatch):
+    made = study("stages: [{name: a, optimizer: pso, budget: 600}]\nmodels: [two.yaml]\n")
+    first = run(made, checkpoint=tmp_path / "records")
+    monkeypatch.setattr("dashpot.fit.study.stage.run_search", None)
+    assert run(made, checkpoint=tmp_path / "records").models[0].stages == first.models[0].stages
+
+
+def test_the_records_of_another_study_are_refused(study, tmp_path):
+    made = study("stages: [{name: a}]\nmodels: [one.yaml]\n")
+    run(made, checkpoint=tmp_path / "records")
+    with pytest.raises(InputError, match="of another study"):
+        run(replace(made, seed=1), checkpoint=tmp_path / "records")
+
+
+def test_bootstrap_and_profile_agree_with_the_intervals_where_the_model_is_true(study):
+    data = Dataset("bench", tuple(sine(f"r{n}", 3.0 + 0.5 * n, 20.0, seed=n) for n in range(12)))
+    made = study("bootstrap: 60\nprofiles: '*'\nhold_out: r0\nstages: [{name: a}]\nmodels: [two.yaml]\n")
+    model = run(made, data).models[0]
+    for slot in model.fit.fitted.slots():
+        width = np.ptp(slot.value.interval)
+        # eleven runs tell their scatter to a fifth, sixty draws their quantiles to a tenth
+        assert np.ptp(model.bootstrap[slot.path]) == pytest.approx(width, rel=0.6)
+        [profile] = [p for p in model.profiles if p.path == slot.path]
+        assert profile.interval == pytest.approx(slot.value.interval, abs=0.03 * width)
+        assert profile.open_ends == (False, False) and min(profile.losses) == pytest.approx(model.stages[0].loss)
+
+
+def test_a_preview_names_what_these_data_cannot_tell(study, tmp_path):
+    (tmp_path / "twins.yaml").write_text(
+        "format: dashpot-network/1\nname: twins\nbranches:\n  a: {element: damper, damping: {start: 100 N*s/m}}\n"
+        "  b: {element: damper, damping: {start: 200 N*s/m}}\n"
+        "  rubber: {element: spring, stiffness: {start: 100 N/mm}}\n"
+    )
+    firm, twins = preview_study(study("stages: [{name: a}]\nmodels: [two.yaml, twins.yaml]\n"), DATA)
+    assert firm.known.firm == ["rubber.stiffness", "oil.damping"] and not firm.known.sentences
+    assert twins.known.firm == ["rubber.stiffness"]
+    [sentence] = twins.known.sentences
+    # d F = 100 da + 200 db: a falls by twice the share by which b rises
+    assert "damping of a and damping of b trade off: +10 %, -5 %" in sentence
