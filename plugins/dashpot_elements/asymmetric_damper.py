@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Symbol
 
 
 class AsymmetricDamper(Element):
@@ -15,6 +16,8 @@ class AsymmetricDamper(Element):
     With a digression of 0 both branches are straight lines. Otherwise 1/digression is the knee velocity, at which the
     force is half of that of the straight line, and damping/digression the force that it approaches.
     """
+
+    picture = Symbol.DASHPOT
 
     compression = Parameter("N*s/m", "damping in compression", bounds=(1e-2, 1e7), symbol="d_c")
     rebound = Parameter("N*s/m", "damping in rebound", bounds=(1e-2, 1e7), symbol="d_r")

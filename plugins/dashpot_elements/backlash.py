@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Series, Symbol
 
 
 class Backlash(Element):
@@ -16,6 +17,7 @@ class Backlash(Element):
     levers. As the spring follows late, the force gives work back.
     """
 
+    picture = Series(Symbol.PLAY, Symbol.SPRING)
     source = "Brokate and Sprekels, Hysteresis and Phase Transitions (1996), for the play operator"
     passive = False
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
 
 
 class BeddingIn(Element):
@@ -16,6 +17,7 @@ class BeddingIn(Element):
     fresh specimen. Beside a spring it is the part of the stiffness that gets lost.
     """
 
+    picture = Symbol.SPRING
     source = "Mullins, Rubber Chemistry and Technology 42 (1969) 339, for the effect"
 
     stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")

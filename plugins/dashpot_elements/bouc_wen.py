@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
 
 PIECES = 2
-FAR = 30.0
+FAR, TINY = 30.0, 1e-30
 
 
 class BoucWen(Element):
@@ -23,6 +24,7 @@ class BoucWen(Element):
     the limit, in which the rate is smooth and bounded, so that long steps do no harm.
     """
 
+    picture = Symbol.SLIDER
     source = "Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249"
     exact = False
 
@@ -46,7 +48,7 @@ class BoucWen(Element):
 def _plain(level: Any, way: Any, bulge: Any) -> Any:
     """The level after a way with exponent 1: against the motion it goes to zero, with it from there to one."""
     against = np.maximum(-level, 0.0)
-    bent = np.maximum(bulge, 1e-6)  # a shape so near to 1/2 is a straight line to twelve digits
+    bent = np.maximum(bulge, TINY)  # a shape of 1/2 is a straight line
     back = np.log1p(bent * against) / bent
     behind = np.maximum(back - way, 0.0)
     ahead = np.maximum(way - back, 0.0)
@@ -70,5 +72,5 @@ def _rate(s: Any, bulge: Any, exponent: Any) -> Any:
     """ds/dway = (1 - level^n)/(1 - level) with the motion, (1 + bulge |level|^n)/(1 + |level|) against it."""
     left = np.exp(-np.minimum(s, FAR))
     level = 1.0 - left
-    power = np.maximum(np.abs(level), 1e-300) ** exponent
+    power = np.abs(level) ** exponent
     return np.where(level > 0.0, 1.0 - power, 1.0 + bulge * power) / left

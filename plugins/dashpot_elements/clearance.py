@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Series, Symbol
 
 
 class Clearance(Element):
@@ -15,6 +16,8 @@ class Clearance(Element):
     The spring brings itself back to the middle of its play, so there is no memory. For a part that stays where it was
     pushed see ``backlash``.
     """
+
+    picture = Series(Symbol.PLAY, Symbol.SPRING)
 
     stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e9), symbol="k")
     gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")

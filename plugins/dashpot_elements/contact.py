@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Curve, Element, Motion, Response
+from dashpot.model.picture import Series, Symbol
 
 
 class Contact(Element):
@@ -14,6 +15,8 @@ class Contact(Element):
 
     In series with a specimen, stiff against it, it lets the specimen lift off.
     """
+
+    picture = Series(Symbol.GAP, Symbol.SPRING)
 
     stiffness = Curve(
         ("force", "N"), ("deflection", "m"), "force over deflection, or its constant slope",

@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.path import fading_travel
+from dashpot.model.picture import Series, Symbol
 
 COUNT = 7
 
@@ -20,6 +21,8 @@ class Creep(Element):
     specimen, so the deflection with which a record begins counts as a step at its first sample. For a specimen that has
     rested under its preload take ``maxwell`` or ``springpot``.
     """
+
+    picture = Series(Symbol.SPRING, Symbol.DASHPOT)
 
     stiffness = Parameter("N/m", "force lost per decade of time and deflection", bounds=(1e-2, 1e9), symbol="B")
     shortest = Parameter("s", "when the fall begins", bounds=(1e-3, 1e5), symbol="T_1", default=1.0)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Series, Symbol
 
 OUT_OF_REACH = 1e3
 
@@ -17,6 +18,8 @@ class EndStop(Element):
     The depth is how far the deflection lies above ``compression`` or below ``rebound``. The rebound stop is out of
     reach unless it is given. With exponent 1 the reference depth does not matter.
     """
+
+    picture = Series(Symbol.GAP, Symbol.SPRING)
 
     stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e9), symbol="k")
     compression = Parameter("m", "deflection at which the compression stop is touched",

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import factorial
 from typing import Any
 
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Parallel, Series, Symbol
 
-DOUBLINGS = 26
+DOUBLINGS = 18
 
 
 class Hydro(Element):
@@ -24,6 +26,7 @@ class Hydro(Element):
     before and after the step (Strang splitting, second order).
     """
 
+    picture = Series(Symbol.SPRING, Parallel(Symbol.TRACK, Symbol.DASHPOT))
     source = "Strang, SIAM J. Numer. Anal. 5 (1968) 506, for the splitting"
     exact = False
 
@@ -78,8 +81,10 @@ class _Matrix:
         It needs no difference of near numbers, whether the fluid swings, creeps, or stands between both.
         """
         part = 0.5**DOUBLINGS
-        found = [(1.0 / (j + 1) - self.stiff * part * part / (2 * j + 6),
-                  part / (j + 2) - self.damped * part * part / (2 * j + 6)) for j in range(3)]  # fmt: skip
+        square = -part * part * self.stiff, -part * part * self.damped
+        powers = (1.0, 0.0), (0.0, part), square, self.product((0.0, part), square)
+        found = [_sum(*(_sum(power, times=1.0 / (factorial(n) * (n + j + 1))) for n, power in enumerate(powers)))
+                 for j in range(3)]  # fmt: skip
         for number in range(DOUBLINGS):
             found = self._doubled(found, 2.0**number * part)
         return found

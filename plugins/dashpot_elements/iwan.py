@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Parallel, Series, Symbol
 
 COUNT = 8
 
@@ -20,6 +21,7 @@ class Iwan(Element):
     independent; minor loops close.
     """
 
+    picture = Parallel(Series(Symbol.SPRING, Symbol.SLIDER), Series(Symbol.SPRING, Symbol.SLIDER))
     source = "Iwan, J. Applied Mechanics 33 (1966) 893"
 
     stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Symbol
 
 REST = 1e-3
 
@@ -15,6 +16,8 @@ class PowerLawDamper(Element):
     Below a thousandth of the reference velocity it goes over into a straight line through zero, r (r^2 +
     1e-6)^((exponent - 1)/2), so that its slope is finite at rest.
     """
+
+    picture = Symbol.DASHPOT
 
     force = Parameter("N", "force at the reference velocity", bounds=(1e-3, 1e6), symbol="F_r")
     exponent = Parameter("1", "power of the velocity", bounds=(0.05, 4.0), scale="linear", symbol="n")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
 
 
 class Softening(Element):
@@ -17,6 +18,7 @@ class Softening(Element):
     as a spring that cools under load takes up energy as heat.
     """
 
+    picture = Symbol.SPRING
     exact = False
     passive = False
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.path import fading_travel
+from dashpot.model.picture import Symbol
 
 INSIDE = 11
 MARGIN = 2  # branches beyond either end of the range
@@ -25,6 +26,7 @@ class Springpot(Element):
     half a decade inside.
     """
 
+    picture = Symbol.FRACTIONAL
     source = "Schmidt and Gaul, Nonlinear Dynamics 29 (2002) 37, for the law"
 
     stiffness = Parameter("N/m", "dynamic stiffness at the reference frequency", bounds=(1.0, 1e9), symbol="k_a")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
 
 
 class Stribeck(Element):
@@ -16,6 +17,7 @@ class Stribeck(Element):
     both pieces have their own. Second order in the step.
     """
 
+    picture = Symbol.SLIDER
     source = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, for the limit"
     exact = False
 

@@ -20,7 +20,16 @@ from dashpot.text.quantity import force_dimension
 
 SEEDS = st.integers(0, 2**32 - 1)
 KINDS = st.sampled_from(sorted(MOTIONS))
-ODD = ["coulomb", "dahl", "damper", "inerter", "maxwell", "prandtl", "quadratic_damper", "spring"]
+ODD = ["backlash", "bedding_in", "bouc_wen", "clearance", "coulomb", "dahl", "damper", "inerter", "iwan", "maxwell",
+       "power_law_damper", "prandtl", "quadratic_damper", "softening", "spring", "stribeck"]  # fmt: skip
+RATE_INDEPENDENT = {
+    "dahl": {"stiffness": 6e4, "limit": 15.0},
+    "prandtl": {"stiffness": 6e4, "limit": 15.0},
+    "bouc_wen": {"stiffness": 6e4, "limit": 15.0, "shape": 0.8, "exponent": 2.0},
+    "iwan": {"stiffness": 6e4, "shortest": 1e-4, "longest": 5e-3},
+    "bedding_in": {"stiffness": 6e4, "depth": 2e-3},
+    "backlash": {"stiffness": 6e4, "gap": 5e-4},
+}
 SCALED = {
     "damper": "damping: 200 N*s/m",
     "maxwell": "stiffness: 12 N/mm, relaxation_time: 20 ms",
@@ -119,8 +128,8 @@ def test_friction_does_not_know_how_fast_it_is_moved(seed, speed):
     drive = motion(seed)
     faster = replace(drive, dt=drive.dt / speed, velocity=drive.velocity * speed,
                      acceleration=drive.acceleration * speed**2)  # fmt: skip
-    for element in ("dahl", "prandtl"):
-        network = network_of(element, stiffness=6e4, limit=15.0)
+    for element, numbers in RATE_INDEPENDENT.items():
+        network = network_of(element, **numbers)
         assert np.array_equal(simulate(network, faster), simulate(network, drive))
 
 
