@@ -86,8 +86,10 @@ def _maker(spec: NetworkSpec, sizes: Sizes, large: Sequence[Twins]) -> MakeBlock
 
     def make(bundle: Bundle, apart: bool, upright: bool, flipped: bool) -> Block:
         planner = Planner(sizes, upright)
-        blocks = [planner.outermost(member, _offset(spec, member), member.name in boxed, flipped)
-                  for member in bundle.members]  # fmt: skip
+        blocks = []
+        for member in bundle.members:
+            turned = flipped != (member.name in bundle.backward)
+            blocks.append(planner.outermost(member, _offset(spec, member), member.name in boxed, turned))
         return _joined(blocks, planner, apart)
 
     return make

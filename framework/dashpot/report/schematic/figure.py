@@ -51,6 +51,7 @@ class Style:
         self.name, self.lines = self.sizes.label(name, node.lines)
         width, height = self.sizes.extent(self.name, self.lines)
         self.label = (height, width) if sizes.upright else (width, height)  # along, across
+        self.lifted = not self.side and not self.body and arrangement.left_of(node.key)
 
     @property
     def mark_length(self) -> float:
@@ -87,7 +88,8 @@ class Style:
         inner = max(self.half, self.label[0] / 2, self.sizes.half if self.node.mark else 0.0)
         if self.sizes.whole:
             inner = float(-(-inner // 1))
-        return (outer if self.side < 0 else inner, outer if self.side > 0 else inner)
+        above = self.label[0] + self.sizes.space if self.lifted else inner
+        return (outer if self.side < 0 else inner, outer if self.side > 0 else above)
 
     def shapes(self, frame: Frame, along: float, left: float, right: float) -> Iterator[Shape]:
         """The line or box of the node, its mark, its name."""
@@ -121,6 +123,8 @@ class Style:
         else:
             first = left - self.sizes.space - self.label[1]
         start = along - (self.label[0] // 2 if self.sizes.whole else self.label[0] / 2)
+        if self.lifted:
+            start = along + self.sizes.space / 2
         yield self._words(Box.around(frame.at(start, first), frame.at(start + self.label[0], first + self.label[1])))
 
     def _words(self, box: Box) -> Words:

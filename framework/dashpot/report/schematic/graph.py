@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from dashpot.model.network import END, GROUND, Branch, Ends, Group, Joint, NetworkSpec
@@ -24,11 +24,12 @@ class Node:
 
 @dataclass(frozen=True, eq=False)
 class Bundle:
-    """The branches between two nodes."""
+    """The branches between two nodes; those named ``backward`` lead from the upper to the lower one."""
 
     lower: str
     upper: str
     members: tuple[Branch | Group, ...]
+    backward: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -46,13 +47,10 @@ def graph_of(spec: NetworkSpec) -> Graph:
     standing = {end.lower for end in ends.values() if joints[end.lower].hold == "ground"}
     standing &= {end.upper for end in ends.values()}
     nodes = {name: _node(joint, bool(spec.joints)) for name, joint in joints.items()}
-    for name in standing:
-        nodes[_foot(name)] = Node(_foot(name), name, "ground")
-    pairs: dict[tuple[str, str], list[Branch | Group]] = {}
-    for member in spec.root.members:
-        lower, upper = ends[member.name].lower, ends[member.name].upper
-        pairs.setdefault((_foot(lower) if lower in standing else lower, upper), []).append(member)
-    return Graph(nodes, tuple(Bundle(*pair, tuple(members)) for pair, members in _one_way(pairs).items()))
+    nodes |= {_foot(name): Node(_foot(name), name, "ground") for name in sorted(standing)}
+    feet = {name: _foot(name) if name in standing else name for name in joints}
+    pairs = {name: (feet[end.lower], end.upper) for name, end in ends.items()}
+    return Graph(nodes, tuple(_bundles(spec.root.members, pairs)))
 
 
 def _node(joint: Joint, joined: bool) -> Node:
@@ -65,11 +63,11 @@ def _foot(name: str) -> str:
     return f"{name}:below"
 
 
-def _one_way(
-    pairs: dict[tuple[str, str], list[Branch | Group]],
-) -> dict[tuple[str, str], list[Branch | Group]]:
-    # branches that run against others between the same nodes are drawn with them
+def _bundles(members: Iterable[Branch | Group], pairs: Mapping[str, tuple[str, str]]) -> Iterator[Bundle]:
     found: dict[tuple[str, str], list[Branch | Group]] = {}
-    for (lower, upper), members in pairs.items():
-        found.setdefault((upper, lower) if (upper, lower) in found else (lower, upper), []).extend(members)
-    return found
+    for member in members:
+        lower, upper = pairs[member.name]
+        found.setdefault((upper, lower) if (upper, lower) in found else (lower, upper), []).append(member)
+    for pair, together in found.items():
+        backward = frozenset(member.name for member in together if pairs[member.name] != pair)
+        yield Bundle(*pair, tuple(together), backward)

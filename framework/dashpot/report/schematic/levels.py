@@ -41,7 +41,9 @@ def _climb(graph: Graph, bundles: Iterable[Bundle]) -> dict[str, int]:
         _lift(key, above, levels, set(bases), ())
     tops = [key for key in graph.nodes if _is_top(graph, key)]
     highest = max([levels[key] for key in graph.nodes if key not in tops], default=0) + 1
-    return {key: max(level, highest) if key in tops else level for key, level in levels.items()}
+    levels = {key: max(level, highest) if key in tops else level for key, level in levels.items()}
+    ranks = {level: rank for rank, level in enumerate(sorted(set(levels.values())))}
+    return {key: ranks[level] for key, level in levels.items()}
 
 
 def _lift(key: str, above: Mapping[str, list[str]], levels: dict[str, int], bases: set[str],

@@ -63,6 +63,17 @@ class Arrangement:
         runs = self.runs(level)
         yield from (key for key in dict.fromkeys(runs) if isinstance(key, str) and runs.count(key) > 1)
 
+    def left_of(self, key: str) -> bool:
+        """Whether a sideways bundle comes to a node from its left."""
+        runs = self.runs(self.levels[key])
+        return any(self.sideways(bundle) and runs.index(bundle) < runs.index(key)
+                   for bundle in self.bundles if key in (bundle.lower, bundle.upper))  # fmt: skip
+
+    def marked_inside(self, key: str) -> bool:
+        """Whether a node has its mark beside it, as it can have it neither below nor above."""
+        mark = self.graph.nodes[key].mark
+        return mark == "loaded" or (mark is not None and self.levels[key] not in (0, self.top))
+
     def apart(self, bundle: Bundle) -> bool:
         """Whether something stands between a sideways bundle and one of its nodes."""
         runs = self.runs(self.levels[bundle.lower])
@@ -86,11 +97,16 @@ def _in_the_way(arrangement: Arrangement, sideways: bool) -> str | None:
         torn = set(arrangement.torn(level))
         nodes = [key for key in arrangement.graph.nodes if arrangement.levels[key] == level]
         for bundle in arrangement.bundles:
-            if arrangement.span(bundle) == (level, level) and (not sideways or arrangement.apart(bundle)):
+            if arrangement.span(bundle) == (level, level) and not (sideways and _may_lie(bundle, arrangement)):
                 return bundle.upper
         if torn and len(nodes) > 1 and (clashing := _clashing(arrangement.runs(level))):
             return clashing
     return None
+
+
+def _may_lie(bundle: Bundle, arrangement: Arrangement) -> bool:
+    marked = any(arrangement.marked_inside(key) for key in (bundle.lower, bundle.upper))
+    return not (marked or arrangement.apart(bundle))
 
 
 def _clashing(runs: Sequence[str | Bundle]) -> str | None:

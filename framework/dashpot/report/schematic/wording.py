@@ -38,7 +38,7 @@ def joint_lines(joint: Joint) -> tuple[str, ...]:
 
 def measurement_lines(spec: NetworkSpec) -> tuple[str, ...]:
     """What the load cell does to the force."""
-    return tuple(equation(key, value) for key, value in spec.measurement.items())
+    return tuple(equation(key.rpartition(".")[2], value) for key, value in spec.measurement.items())
 
 
 def equation(sign: str, value: Value) -> str:
