@@ -1,6 +1,8 @@
-"""``dashpot check``: all mistakes of network files at once."""
+"""``dashpot check``: all mistakes and weaknesses of network files, and what two of them differ in."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -8,32 +10,87 @@ from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Problem
 
+if TYPE_CHECKING:
+    from dashpot.model.network import NetworkSpec
+
 
 @click.command("check")
 @click.argument("specs", nargs=-1, required=True, metavar="SPEC...")
+@click.option(
+    "--against", "other", metavar="SPEC", help="Tell what each SPEC has more, less or different than this one."
+)
 @switches("json", "quiet")
-def verb(specs: tuple[str, ...], switches: Switches) -> None:
-    """Say every mistake of network files, each as file:line:column with what to do.
+def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
+    """Say every mistake and every weakness of network files, each as file:line:column with what to do.
+
+    With --against the networks are compared by their structure, whatever names their parts have; where the structure is
+    the same, by their numbers.
 
     \b
-    Example:
+    Examples:
       dashpot check kelvin_voigt my_network.yaml
+      dashpot check my_network.yaml --against axle_model_3
     """
     session = Session(switches)
     found = {spec: problems_of(spec, session) for spec in specs}
-    good = "\n".join(f"{spec}: good" for spec, problems in found.items() if not problems)
-    entries = [{"spec": spec, "problems": problems} for spec, problems in found.items()]
-    session.talk.result(good, {"format": "dashpot-check/1", "specs": entries})
-    if any(found.values()):
-        raise InputError(problem for problems in found.values() for problem in problems)
+    failed = [problem for problems in found.values() for problem in problems if problem.severity == "error"]
+    content: dict[str, Any] = {
+        "format": "dashpot-check/1",
+        "specs": [{"spec": spec, "problems": problems} for spec, problems in found.items()],
+    }
+    lines = [line for spec, problems in found.items() if (line := praise(spec, problems))]
+    if other and not failed:
+        content["against"] = compared = differences(specs, other, session)
+        lines += [line for entry in compared for line in tell(entry, other)]
+    session.talk.result("\n".join(lines), content)
+    for problems in found.values():
+        for problem in problems:
+            if problem.severity == "warning":
+                click.echo(str(problem), err=True)
+    if failed:
+        raise InputError(failed)
+
+
+def praise(spec: str, problems: tuple[Problem, ...]) -> str:
+    """What is said of a network that can be used."""
+    if any(problem.severity == "error" for problem in problems):
+        return ""
+    count = len(problems)
+    return f"{spec}: good" + (f", with {count} warning{'s' * (count > 1)}" if count else "")
 
 
 def problems_of(spec: str, session: Session) -> tuple[Problem, ...]:
-    """What is wrong with one network: with its text, or with solving it."""
-    from dashpot.kernel.trace import trace_network
+    """What is wrong or weak with one network: with its text, its laws, or its structure."""
+    from dashpot.kernel.trace import trace_branch
+    from dashpot.model.lint import find_weaknesses
 
     try:
-        trace_network(session.network(spec))
+        network: NetworkSpec = session.network(spec)
+        for branch in network.leaves():
+            trace_branch(branch)
     except InputError as error:
         return error.problems
-    return ()
+    return find_weaknesses(network)
+
+
+def differences(specs: tuple[str, ...], other: str, session: Session) -> list[dict[str, Any]]:
+    """What each network differs in from another one."""
+    from dashpot.model.likeness import compare_structures
+
+    model = session.network(other)
+    found = [(spec, compare_structures(session.network(spec), model)) for spec in specs]
+    return [{"spec": spec, "other": other, "same_structure": likeness.same_structure, "structure": likeness.structure,
+             "numbers": likeness.numbers} for spec, likeness in found]  # fmt: skip
+
+
+def tell(entry: dict[str, Any], other: str) -> list[str]:
+    """The differences in words, a line each."""
+    if not entry["same_structure"]:
+        return [
+            f"{entry['spec']} against {other}: the structures differ",
+            *(f"  {line}" for line in entry["structure"]),
+        ]
+    if not entry["numbers"]:
+        return [f"{entry['spec']} against {other}: the same structure and the same numbers"]
+    return [f"{entry['spec']} against {other}: the same structure, other numbers",
+            *(f"  {line}" for line in entry["numbers"])]  # fmt: skip
