@@ -77,7 +77,8 @@ def test_two_ends_are_the_same_whether_they_are_named_or_not():
     ("{x: {<s>}}", "{x: {element: spring, stiffness: {start: 5}}}", "between the driven end and ground: spring "
      "(nothing to be found) in 'one', spring (stiffness to be found) in 'two'"),
     ("{x: {<s>}}", "{x: {element: spring, stiffness: {polynomial: [5, 6]}}}", "between the driven end and ground: "
-     "spring (nothing to be found) in 'one', spring (stiffness as a polynomial of degree 2; nothing to be found) in 'two'"),
+     "spring (nothing to be found) in 'one', spring (stiffness as a polynomial of degree 2; nothing to be found) in "
+     "'two'"),
     ("{x: {<d>}}", "{x: {<d>, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}}", "between the driven end and "
      "ground: damper (nothing to be found) in 'one', damper (scale as a table of 2; nothing to be found) in 'two'"),
 ])  # fmt: skip

@@ -146,8 +146,8 @@ def confused(found: list[Problem]) -> list[list[str]]:
      "[0 mm, 5 mm], factor: [{start: 1.1}, {start: 0.9}]}}}", ["a.damping", "a.scale"]),
     ("{m: {element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: 1 s}}, s: {element: spring, "
      "stiffness: 0}, a: {series: {b: {element: spring, stiffness: {start: 8 N/mm}}, c: {element: damper, damping: "
-     "{start: 9 N*s/mm}}}}, d: {series: {e: {element: spring, stiffness: {start: 9 N/mm}}, f: {element: spring, stiffness: 7 "
-     "N/mm}, g: {element: spring, stiffness: {start: 9 N/mm}}}}}", ["d.e.stiffness", "d.g.stiffness"]),
+     "{start: 9 N*s/mm}}}}, d: {series: {e: {element: spring, stiffness: {start: 9 N/mm}}, f: {element: spring, "
+     "stiffness: 7 N/mm}, g: {element: spring, stiffness: {start: 9 N/mm}}}}}", ["d.e.stiffness", "d.g.stiffness"]),
 ])  # fmt: skip
 def test_numbers_that_cannot_be_told_apart(branches, paths):
     assert confused(weak(branches)) == [paths]
