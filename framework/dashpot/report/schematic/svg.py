@@ -10,6 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 from dashpot.model.network import NetworkSpec
 from dashpot.model.picture import Symbol
 from dashpot.report.schematic.drawing import drawing_of
+from dashpot.report.schematic.joints import dots, merged
 from dashpot.report.schematic.shapes import Box, Point, Rail, Scaling, Shape, Sign, Support, Wire, Words
 from dashpot.report.schematic.sizes import PAPER
 from dashpot.report.schematic.strokes import CURVED, STROKES, Stroke
@@ -46,17 +47,14 @@ def svg(spec: NetworkSpec) -> str:
     width, height = (round(size + 2 * MARGIN, 1) for size in (drawing.box.right, drawing.box.bottom))
     title = f"<title>{escape(drawing.name)}</title>"
     title += f"<desc>{escape(drawing.about)}</desc>" if drawing.about else ""
-    body = "\n".join(line for shape in _in_layers(drawing.shapes) for line in draw(shape.moved(MARGIN, MARGIN)))
+    shapes = [shape.moved(MARGIN, MARGIN) for shape in merged(drawing.shapes)]
+    marks = [f'<circle class="joint" cx="{x:.1f}" cy="{y:.1f}" r="2.6"/>' for x, y in dots(shapes)]
+    body = "\n".join([*(line for shape in shapes for line in draw(shape)), *marks])
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}" '
         f'role="img">\n{title}\n<style>{STYLE}</style>\n'
         f'<rect class="paper" width="{width}" height="{height}"/>\n{body}\n</svg>\n'
     )
-
-
-def _in_layers(shapes: Iterable[Shape]) -> list[Shape]:
-    # wires below masses, so that one that has to pass lies behind
-    return sorted(shapes, key=lambda shape: not isinstance(shape, Wire))
 
 
 @singledispatch
