@@ -23,7 +23,8 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason=f"no Chromium found (lo
 SWITCHES = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking"]
 BOXES = """() => [...document.querySelectorAll('text, .sign, .support, .scaling, rect.body')].map(found => {
     const box = found.getBoundingClientRect();
-    return [found.closest('g').getAttribute('class'), found.textContent.trim(), box.left, box.top, box.right, box.bottom];
+    const place = [box.left, box.top, box.right, box.bottom];
+    return [found.closest('g').getAttribute('class'), found.textContent.trim(), ...place];
 })"""
 
 

@@ -1,4 +1,4 @@
-"""Wires where they meet: pieces of one line become one; on a node that others only cross, joined ones get dots."""
+"""Wires where they meet: pieces of one line become one, and where some only cross a node, the joined ones get dots."""
 
 from __future__ import annotations
 
@@ -25,16 +25,18 @@ def merged(shapes: Iterable[Shape]) -> list[Shape]:
 
 
 def dots(shapes: Iterable[Shape]) -> list[Point]:
-    """Where wires end on a node that others cross without being joined to it."""
+    """Where wires end on nodes, if in this drawing any wire crosses a node without being joined to it."""
     shapes = list(shapes)
     wires = [shape for shape in shapes if isinstance(shape, Wire)]
-    found: list[Point] = []
-    for rail in shapes:
-        if isinstance(rail, Rail) and not rail.body:
-            ends = [end for wire in wires for end in (wire.start, wire.end) if _lies_on(end, rail.box)]
-            if any(_cross(wire.box, rail.box) and not {wire.start, wire.end} & set(ends) for wire in wires):
-                found += ends
-    return list(dict.fromkeys(found))
+    rails = [shape.box for shape in shapes if isinstance(shape, Rail) and not shape.body]
+    if not any(_passes(wire, rail) for wire in wires for rail in rails):
+        return []
+    ends = [end for wire in wires for end in (wire.start, wire.end)]
+    return list(dict.fromkeys(end for end in ends if any(_lies_on(end, rail) for rail in rails)))
+
+
+def _passes(wire: Wire, rail: Box) -> bool:
+    return _cross(wire.box, rail) and not (_lies_on(wire.start, rail) or _lies_on(wire.end, rail))
 
 
 def _follower(wire: Wire, wires: list[Wire], lines: list[Box]) -> Wire | None:

@@ -120,6 +120,20 @@ branches:
     judge(parse_network(text, elements))
 
 
+def test_joints_get_dots_where_a_wire_has_to_cross_a_node(elements):
+    # five nodes, each connected with each other: this graph cannot be drawn without a crossing
+    nodes = ["driven", "free", "free", "free", "ground"]
+    pairs = [(low, high) for high in range(5) for low in range(high)]
+    text = "format: dashpot-network/1\nname: five\nnodes: {" + ", ".join(f"n{k}: {h}" for k, h in enumerate(nodes))
+    text += "}\nbranches:\n" + "".join(
+        f"  b{low}{high}: {{between: [n{low}, n{high}], element: spring, stiffness: 1 N/mm}}\n" for low, high in pairs
+    )
+    crossing = judge(parse_network(text, elements))
+    assert [mark for mark in crossing.root if mark.attrib.get("class") == "joint"]
+    plain = judge(network("quarter_car", elements))
+    assert not [mark for mark in plain.root if mark.attrib.get("class") == "joint"]
+
+
 def test_names_cannot_break_out_of_the_picture():
     hostile = "</text><script>alert(1)</script>&\"'"
     branch = Branch(hostile, KINDS[0], {}, {})
