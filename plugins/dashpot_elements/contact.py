@@ -20,7 +20,7 @@ class Contact(Element):
 
     stiffness = Curve(
         ("force", "N"), ("deflection", "m"), "force over deflection, or its constant slope",
-        bounds=(1.0, 1e9), symbol="f",
+        bounds=(1.0, 1e9), symbol="k",
     )  # fmt: skip
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
