@@ -66,6 +66,8 @@ def test_the_mass_of_a_held_node():
     "{element: dahl, stiffness: 60 N/mm, limit: 15}", "{element: prandtl, stiffness: 60 N/mm, limit: 15}",
     "{element: coulomb, limit: 15, creep_velocity: 1e-3}",
     "{element: maxwell, stiffness: 60 N/mm, relaxation_time: 1}", "{element: spring, stiffness: 0}",
+    "{element: stribeck, stiffness: 60 N/mm, limit: 9, breakaway: 15, stribeck_velocity: 1 mm/s}",
+    "{element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600}",
 ])  # fmt: skip
 def test_a_node_that_can_only_slide(branch):
     found = weak(f"""
@@ -80,7 +82,9 @@ def test_a_node_that_can_only_slide(branch):
 
 
 @pytest.mark.parametrize("branch", [
-    SPRING, "element: spring, stiffness: {polynomial: [0, 1 N/mm^2]}",
+    SPRING, "element: spring, stiffness: {polynomial: [0, 1 N/mm^2]}", "element: contact, stiffness: 200 N/mm",
+    "element: bedding_in, stiffness: 60 N/mm, depth: 5 mm",
+    "element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600, compensation_stiffness: 20 N/mm",
     "element: spring, stiffness: {deflection: [0 mm, 5 mm, 10 mm], force: [0 N, 0 N, 900 N]}",
     "parallel: {x: {element: damper, damping: 5}, y: {element: spring, stiffness: 5}}",
 ])  # fmt: skip

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 Numbers = Mapping[str, Any]  # by path, each a number or one for each lane
 
 FAR, PAUSE, PAUSES = 1e3, 1e4, 20  # m, s, and how many of them to get there and to wait
-LASTING, NOTHING = 1e-3, 1e-6
+NOTHING = 1e-6  # of the largest force on the way: what is less has faded
 LINE = (2e5, 2e6)  # stiffness and bend of what is still to come from data, N/m and N/m^2
 
 
@@ -53,15 +53,23 @@ class Law:
         return forces
 
     def holds(self) -> bool:
-        """Whether the force at a deflection that is held for long grows with the deflection, on either side."""
-        share = np.concatenate([np.linspace(0.0, 1.0, PAUSES + 1), np.ones(PAUSES)])[:, None]
-        path = FAR * np.array([1.0, 2.0, -1.0, -2.0]) * share
-        rate = np.where(share < 1.0, path[-1] / (PAUSE * PAUSES), 0.0)
-        force = np.abs(self.force(path, rate, 0.0 * rate, PAUSE))
-        one, two = force[-1, [0, 2]], force[-1, [1, 3]]
-        grown = two - one > np.maximum(LASTING * one, NOTHING * np.max(force))
+        """Whether the force still presses back at a deflection that is held for long, coming from a larger one.
+
+        A spring does, to at least one side; friction presses the other way then, and what relaxes does no more.
+        """
+        there, back, rest = (
+            np.linspace(0.0, 1.0, PAUSES + 1),
+            np.linspace(1.0, 0.5, PAUSES + 1)[1:],
+            np.full(PAUSES, 0.5),
+        )
+        share = np.concatenate([there, back, rest])[:, None]
+        path = np.array([FAR, -FAR]) * share
+        rate = np.gradient(path, PAUSE, axis=0)
+        rate[-PAUSES:] = 0.0
+        force = self.force(path, rate, 0.0 * rate, PAUSE)
+        pressing = force[-1] * np.sign(path[-1])
         # what cannot be told is not complained of
-        return bool((grown | np.isnan(two)).any())
+        return bool(((pressing > NOTHING * np.max(np.abs(force))) | np.isnan(pressing)).any())
 
     def _given(self) -> SimpleNamespace:
         name, declared = self.branch.numbers, self.branch.element.declares

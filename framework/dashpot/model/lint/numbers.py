@@ -13,7 +13,7 @@ from dashpot.model.network import Branch, NetworkSpec, Slot, Value, branch_slots
 from dashpot.model.topology import Topology
 from dashpot.text.problem import Place, Problem
 
-FEWEST_TRIALS, TRIALS_PER_NUMBER = 96, 4
+FEWEST_TRIALS, TRIALS_PER_NUMBER = 48, 2
 STEP = 1e-4  # relative, of a difference quotient
 NONE, DEPENDENT, INVOLVED = 1e-6, 1e-6, 1e-3
 SPREAD = 0.3  # of the numbers at which structure is judged
