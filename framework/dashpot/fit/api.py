@@ -18,6 +18,7 @@ from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
+from dashpot.data.ends import one_force_each
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
@@ -65,7 +66,8 @@ class Setting:
 
 
 def prepare(dataset: Dataset, seed: int = 0) -> Setting:
-    """Score the runs, split them, find the noise floor."""
+    """Score the runs, each force by itself, split them, find the noise floor."""
+    dataset = one_force_each(dataset)
     return Setting(
         dataset, {run.name: score_run(run) for run in dataset.runs}, split_runs(dataset, seed), noise_floor(dataset)
     )

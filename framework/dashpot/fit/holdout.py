@@ -33,8 +33,8 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
     every run goes beyond the others in some way a single one is held out nevertheless.
     """
     if any(run.held_out is not None for run in dataset.runs):
-        return _split(dataset, {run.group for run in dataset.runs if run.held_out})
-    groups = list(dict.fromkeys(run.group for run in dataset.runs if run.kind not in ALWAYS_TRAIN))
+        return _split(dataset, {run.cluster for run in dataset.runs if run.held_out})
+    groups = list(dict.fromkeys(run.cluster for run in dataset.runs if run.kind not in ALWAYS_TRAIN))
     if len(groups) < FEWEST_GROUPS:
         return Split(
             tuple(run.name for run in dataset.runs),
@@ -63,13 +63,15 @@ def _demands(share: int) -> tuple[tuple[int, Allowed], ...]:
 
 
 def _split(dataset: Dataset, held_out: set[str]) -> Split:
-    names = {flag: tuple(run.name for run in dataset.runs if (run.group in held_out) is flag) for flag in (True, False)}
+    names = {
+        flag: tuple(run.name for run in dataset.runs if (run.cluster in held_out) is flag) for flag in (True, False)
+    }
     return Split(names[False], names[True])
 
 
 def _can_go(dataset: Dataset, held_out: set[str], allowed: Allowed) -> bool:
-    kept = [run for run in dataset.runs if run.group not in held_out]
-    gone = [run for run in dataset.runs if run.group in held_out]
+    kept = [run for run in dataset.runs if run.cluster not in held_out]
+    gone = [run for run in dataset.runs if run.cluster in held_out]
     return any(run.kind not in ALWAYS_TRAIN for run in kept) and allowed(kept, gone)
 
 

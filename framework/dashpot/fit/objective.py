@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from functools import cached_property
@@ -15,12 +15,16 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork
 from dashpot.kernel.parts import Parts, take_apart
+from dashpot.kernel.system import CompiledSystem
 
 Array = NDArray[np.float64]
 
 
 Whiten = Callable[[str, Array], Array]
+Item = TypeVar("Item")
 Result = TypeVar("Result")
+# the numbers of runs whose forces were measured together
+Team = tuple[int, ...]
 
 
 class Objective:
@@ -33,7 +37,7 @@ class Objective:
 
     def __init__(
         self,
-        network: CompiledNetwork,
+        network: CompiledNetwork | CompiledSystem,
         runs: Sequence[ScoredRun],
         jobs: int = 1,
         whiten: Whiten | None = None,
@@ -42,7 +46,9 @@ class Objective:
         self.network, self.runs, self.jobs, self.whiten = network, tuple(runs), jobs, whiten
         shares = np.ones(len(self.runs)) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
-        self.rows = [network.prepare(run.drive) for run in self.runs]
+        self.teams = _teams(self.runs)
+        prepared = {team: network.prepare(self.runs[team[0]].excitation) for team in self.teams}
+        self.rows = [prepared[team] for number in range(len(self.runs)) for team in self.teams if number in team]
         ends = np.cumsum([0] + [run.samples for run in self.runs])
         self.pieces = [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
         self.total = int(ends[-1])
@@ -61,6 +67,8 @@ class Objective:
 
     def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
         """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots move."""
+        if isinstance(self.network, CompiledSystem) or any(slot.value.setting for slot in self.network.spec.slots()):
+            return self._linearise_as_a_whole(values, which, shifts)
         block = np.empty((1 + len(which), self.total))
         parts, rows = self.parts
 
@@ -78,29 +86,44 @@ class Objective:
                 block[1 + k, piece] = (other - seen[0])[run.first :]
             self._weigh(number, block)
 
-        self._map(fill)
+        self._map(fill, range(len(self.runs)))
         return block[0], block[1:]
+
+    def _linearise_as_a_whole(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
+        lanes = np.repeat(values[None], 1 + len(which), axis=0)
+        lanes[np.arange(1, 1 + len(which)), which] += shifts
+        block = self.residuals(lanes)
+        return block[0], block[1:] - block[0]
 
     def forces(self, values: Array) -> list[Array]:
         """What the load cell would show: for every run (lanes, samples), the warm-up included."""
-        return self._map(lambda number: self._force(number, np.atleast_2d(values)))
+        values = np.atleast_2d(values)
+        found: list[Array] = [np.empty(0)] * len(self.runs)
+
+        def fill(team: Team) -> None:
+            for number, force in self._forces(team, values):
+                found[number] = force
+
+        self._map(fill, self.teams)
+        return found
 
     def misfits(self, values: Array) -> Array:
         """Simulated minus measured force (lanes, all counted samples), run after run, in N."""
         values = np.atleast_2d(values)
         out = np.empty((values.shape[0], self.total))
 
-        def fill(number: int) -> None:
-            run = self.runs[number]
-            out[:, self.pieces[number]] = self._force(number, values)[:, run.first :] - run.force[run.first :]
+        def fill(team: Team) -> None:
+            for number, force in self._forces(team, values):
+                run = self.runs[number]
+                out[:, self.pieces[number]] = force[:, run.first :] - run.force[run.first :]
 
-        self._map(fill)
+        self._map(fill, self.teams)
         return out
 
     def residuals(self, values: Array) -> Array:
         """Misfits (lanes, all counted samples) weighted or whitened so that their root mean square is the loss."""
         misfits = self.misfits(values)
-        self._map(lambda number: self._weigh(number, misfits))
+        self._map(lambda number: self._weigh(number, misfits), range(len(self.runs)))
         return misfits
 
     def losses(self, values: Array) -> Array:
@@ -125,7 +148,22 @@ class Objective:
 
     def _scores(self, values: Array) -> Array:
         weights = [np.where(np.arange(run.force.size) < run.first, 0.0, 1.0 / run.samples) for run in self.runs]
-        return self.network.score(self.rows, [run.force for run in self.runs], weights, values, self.jobs)
+        if isinstance(self.network, CompiledNetwork):
+            return self.network.score(self.rows, [run.force for run in self.runs], weights, values, self.jobs)
+        ends, targets, weighs = len(self.network.outputs), [], []
+        for team in self.teams:
+            shape = (ends, self.runs[team[0]].force.size)
+            target, weigh = np.zeros(shape), np.zeros(shape)
+            for number in team:
+                place = self.network.number_of(self.runs[number].end)
+                target[place], weigh[place] = self.runs[number].force, weights[number]
+            targets.append(target)
+            weighs.append(weigh)
+        scores = self.network.score([self.rows[team[0]] for team in self.teams], targets, weighs, values, self.jobs)
+        found = np.empty((len(self.runs), values.shape[0]))
+        for team, score in zip(self.teams, scores, strict=True):
+            found[list(team)] = score[[self.network.number_of(self.runs[number].end) for number in team]]
+        return found
 
     def _weigh(self, number: int, misfits: Array) -> None:
         run, piece = self.runs[number], self.pieces[number]
@@ -134,13 +172,26 @@ class Objective:
         else:
             misfits[:, piece] = self.whiten(run.name, misfits[:, piece])
 
-    def _force(self, number: int, values: Array) -> Array:
-        force = np.atleast_2d(self.network.simulate(self.rows[number], values))
-        return self.network.observation(values).see(force, self.runs[number].drive.dt)
+    def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
+        # what the load cells show in runs that were measured together
+        rows, see = self.rows[team[0]], self.network.observation(values).see
+        if isinstance(self.network, CompiledNetwork):
+            for number in team:
+                yield number, see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
+            return
+        found = self.network.forces(rows, values)
+        for number in team:
+            yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
 
-    def _map(self, work: Callable[[int], Result]) -> list[Result]:
-        numbers = range(len(self.runs))
+    def _map(self, work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
         if self.jobs == 1:
-            return [work(number) for number in numbers]
+            return list(map(work, items))
         with ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(work, numbers))
+            return list(pool.map(work, items))
+
+
+def _teams(runs: Sequence[ScoredRun]) -> list[Team]:
+    found: dict[str, list[int]] = {}
+    for number, run in enumerate(runs):
+        found.setdefault(run.record or run.name, []).append(number)
+    return [tuple(team) for team in found.values()]

@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise, refine
-from dashpot.fit.uncertainty import NORMAL_95, assess_uncertainty
+from dashpot.fit.uncertainty import assess_uncertainty
 
 Array = NDArray[np.float64]
 
 MOST, STEPS, TOLERANCE = 12, 12, 1e-6
+WIDEST = 30.0  # standard deviations under white noise
 PACE = 0.7  # of the interval that the curvature promises
 
 
@@ -35,8 +36,8 @@ class Profile:
 def profile_likelihood(objective: Objective, coordinates: Coordinates, point: Array, number: int) -> Profile:
     """Walk from the fitted point (p,) along coordinate ``number``, refitting all others, until the fit is worse.
 
-    Worse is where twice the log likelihood has fallen by the 95 % quantile of chi square with one degree of freedom,
-    scaled by how much coloured noise widens the interval (the ratio of sandwich and naive variance).
+    Worse is where the root of twice the fall of the log likelihood is as large as the half width of the interval of
+    `assess_uncertainty` in standard deviations under white noise: 1.96 for white noise, more for coloured noise.
 
     Source: Raue et al., Bioinformatics 25 (2009) 1923.
     """
@@ -66,9 +67,9 @@ class _Climb:
         self.loss = float(objective.losses(coordinates.to_values(point))[0])
         _, jacobian = linearise(objective, coordinates, point)
         naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
-        robust = float(assess_uncertainty(objective, coordinates, point).covariance[number, number])
-        self.limit = NORMAL_95 * np.sqrt(robust / naive)
-        self.pace = PACE * NORMAL_95 * np.sqrt(robust) * coordinates.unit[number]
+        width = float(assess_uncertainty(objective, coordinates, point).widths[number])
+        self.limit = min(width / np.sqrt(naive), WIDEST)
+        self.pace = PACE * self.limit * np.sqrt(naive) * coordinates.unit[number]
 
     def walk(self, direction: float) -> _Side:
         wall = self.coordinates.high[self.number] if direction > 0.0 else self.coordinates.low[self.number]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.drive import Drive, drive_from_samples
+from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
 from dashpot.data.reversals import noise_threshold, turning_points
 from dashpot.data.run import Run
 
@@ -18,13 +19,30 @@ LARGEST_WARM_UP = 0.15
 
 @dataclass(frozen=True, eq=False)
 class ScoredRun:
-    """``force`` (n,) in N is measured; samples before ``first`` are the warm-up, in which friction finds its state."""
+    """``force`` (n,) in N is measured; samples before ``first`` are the warm-up, in which friction finds its state.
+
+    It is measured at the node ``end``, which moves by ``drive``; ``whole`` holds the motions of all nodes, and runs of
+    one ``record`` were measured together.
+    """
 
     name: str
     kind: str
     drive: Drive
     force: Array
     first: int
+    end: str = ""
+    record: str = ""
+    whole: Excitation | None = None
+
+    @property
+    def excitation(self) -> Excitation:
+        """What drives the specimen."""
+        return Excitation.of_drive(self.drive) if self.whole is None else replace(self.whole, motions=self.motions)
+
+    @property
+    def motions(self) -> dict[str, Drive]:
+        """The motions of all nodes."""
+        return {**(self.whole.motions if self.whole else {}), self.end: self.drive}
 
     @property
     def samples(self) -> int:
@@ -34,8 +52,9 @@ class ScoredRun:
 
 def score_run(run: Run) -> ScoredRun:
     """The run with its path; the first whole cycle warms up, but never more than 15 % of the record."""
-    drive = drive_from_samples(run.sample_time, np.array(run.displacement))
-    return ScoredRun(run.name, run.kind, drive, np.array(run.force), warm_up(run))
+    whole = Excitation.of_run(run)
+    return ScoredRun(run.name, run.kind, whole.motions[run.end], np.array(run.force), warm_up(run), run.end, run.record,
+                     whole)  # fmt: skip
 
 
 def warm_up(run: Run) -> int:

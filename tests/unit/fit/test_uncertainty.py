@@ -10,7 +10,7 @@ from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import refine
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.fit.uncertainty import _quantiles, _sandwich, assess_uncertainty
 from dashpot.kernel.network import compile_network
 
 NOISE = 20.0
@@ -95,3 +95,26 @@ def test_two_parameters_that_make_up_for_each_other_are_not_known():
     assert known.intervals[2] == pytest.approx((1.0, 2000.0))
     low, high = known.intervals[0]
     assert high - low < 0.03 * STIFFNESS
+
+
+def test_the_variance_of_a_mean_is_that_of_the_block_means():
+    rng = np.random.default_rng()
+    blocks = [slice(k, k + 30) for k in range(0, 240, 30)]
+    residual = rng.standard_normal(240)
+    residual -= residual.mean()
+    column = np.ones((1, 240))
+    root = np.array([[240.0**-0.5]])
+    covariance, freedom = _sandwich(residual, column, blocks, root)
+    means = [residual[block].mean() for block in blocks]
+    assert covariance[0, 0] == pytest.approx(np.var(means, ddof=1) / 8)
+    assert freedom[0] == pytest.approx(8.0)
+
+
+def test_a_number_that_shows_in_few_blocks_has_few_degrees_of_freedom():
+    column = np.zeros((1, 240))
+    column[0, 30:90] = 1.0
+    blocks = [slice(k, k + 30) for k in range(0, 240, 30)]
+    _, freedom = _sandwich(np.zeros(240), column, blocks, np.array([[60.0**-0.5]]))
+    assert freedom[0] == pytest.approx(2.0)
+    # Student's t: 4.303 for two degrees of freedom, 1.960 for very many
+    assert _quantiles(np.array([2.0, 1e9])) == pytest.approx([4.302653, 1.959964], rel=1e-5)

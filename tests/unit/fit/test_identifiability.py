@@ -1,0 +1,65 @@
+"""What the data can tell about numbers, against what is known in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.fit.bench import KELVIN_VOIGT, ready, run, runs
+
+from dashpot.fit.identifiability import Direction, identifiability, number_in_words, unweighted
+
+
+def told(branches, scored, noise=20.0):
+    _, objective, coordinates = ready(branches, scored, whiten=unweighted)
+    return identifiability(objective, coordinates, coordinates.start, noise)
+
+
+def test_the_deviations_are_those_of_linear_regression():
+    known = told(KELVIN_VOIGT, runs(), noise=20.0)
+    x, v = (np.concatenate([getattr(each.drive, what)[each.first :] for each in runs()])
+            for what in ("displacement", "velocity"))  # fmt: skip
+    columns = np.column_stack([1e5 * x, 1000.0 * v])  # changes of the force with the logarithms of the start values
+    expected = 20.0 * np.sqrt(np.diag(np.linalg.inv(columns.T @ columns)))
+    assert list(known.deviations.values()) == pytest.approx(expected, rel=1e-4)
+    values = np.linalg.eigvalsh(columns.T @ columns)
+    assert known.condition == pytest.approx(values[1] / values[0], rel=1e-4)
+    assert known.firm == ["rubber.stiffness", "oil.damping"] and known.sentences == []
+
+
+def test_a_relaxation_far_above_the_band_trades_stiffness_against_time():
+    # for w T << 1 the branch is a dashpot of k T: only the product shows
+    branches = "slow: {element: maxwell, stiffness: {start: 1e5}, relaxation_time: {start: 0.1 ms}}"
+    scored = [run("low", 2e-3, 3.0, lambda x, v, a: 10.0 * v)]
+    known = told(branches, scored, noise=0.1)
+    [sentence] = known.sentences
+    assert "stiffness of slow and relaxation time of slow trade off" in sentence or (
+        "relaxation time of slow and stiffness of slow trade off" in sentence)  # fmt: skip
+    assert "+10 %" in sentence and "-10 %" in sentence
+    [direction] = known.loose
+    assert direction.lost
+
+
+def test_what_is_not_felt_is_named():
+    far = KELVIN_VOIGT + (
+        "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm, 92 mm], "
+        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}")  # fmt: skip
+    known = told(far, runs())
+    assert known.idle == ("far.stiffness[2]",)
+    assert known.sentences == ["stiffness[2] of far has no influence on these data"]
+
+
+def test_twice_the_noise_is_twice_the_deviation():
+    one, two = (told(KELVIN_VOIGT, runs(), noise=noise) for noise in (10.0, 20.0))
+    assert np.array(list(two.deviations.values())) == pytest.approx(2.0 * np.array(list(one.deviations.values())))
+
+
+@pytest.mark.parametrize(
+    "deviation, said", [(0.2, "weakly determined, known to +-20 %"), (1.5, "not determined"), (0.8, "a factor of 2.2")]
+)
+def test_a_direction_of_one_number_says_how_well_it_is_known(deviation, said):
+    assert said in Direction(deviation, (("oil.damping", 1.0), ("rubber.stiffness", 0.01))).words
+
+
+def test_paths_are_read_out_as_words():
+    assert number_in_words("maxwell_1.relaxation_time") == "relaxation time of maxwell_1"
+    assert number_in_words("contact.dry.limit") == "limit of contact.dry"
