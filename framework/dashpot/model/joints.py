@@ -46,7 +46,7 @@ def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Join
     if isinstance(node, Scalar):
         word = node.written
         if word in HOLDS:
-            return Joint(name, word, place=node.place)  # type: ignore[arg-type]
+            return Joint(name, word, place=node.place)
         Reading(what, outer.problems).complain(
             node.place, f"expected {', '.join(HOLDS)} or '{{mass: ...}}', got '{word}'", nearest(word, HOLDS)
         )
@@ -84,7 +84,7 @@ def read_ends(name: str, form: Form, joints: MappingType[str, Joint]) -> Ends | 
     pair = form.take("between", lambda node: _read_pair(node, joints))
     offset = form.node("offset")
     value = read_value(offset, OFFSET, Reading(f"{name}.offset", form.problems)) if offset else None
-    return Ends(*pair, value) if pair else None
+    return Ends(pair[0], pair[1], value) if pair else None
 
 
 def _read_pair(node: Node, joints: MappingType[str, Joint]) -> tuple[str, str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from textwrap import dedent
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from dashpot import load_registry
 from dashpot.model.element import Element, Parameter, Response
@@ -155,6 +157,16 @@ def confused(found: list[Problem]) -> list[list[str]]:
 ])  # fmt: skip
 def test_numbers_that_cannot_be_told_apart(branches, paths):
     assert confused(weak(branches)) == [paths]
+
+
+@given(sizes=st.tuples(*(st.floats(0.0, 3.0) for _ in range(3))), series=st.booleans())
+@settings(max_examples=10, deadline=None)
+def test_parts_of_one_kind_cannot_be_told_apart_whatever_their_numbers(sizes, series):
+    first, second, third = (10.0**size for size in sizes)
+    law = "element: damper, damping: {start: %r N*s/mm}"
+    parts = f"{{b: {{{law % first}}}, c: {{{law % second}}}, d: {{element: spring, stiffness: {third!r} N/mm}}}}"
+    assert confused(weak(f"{{a: {{{'series' if series else 'parallel'}: {parts}}}}}")) == [
+        ["a.b.damping", "a.c.damping"]]  # fmt: skip
 
 
 def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():

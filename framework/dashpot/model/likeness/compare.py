@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
 from dashpot.model.likeness.matching import pair_nodes, role
-from dashpot.model.likeness.reduced import Part, Reduced, reduce_network
+from dashpot.model.likeness.reduced import Label, Part, Reduced, reduce_network
 from dashpot.model.network import END, Joint, NetworkSpec, Value, branch_slots
 from dashpot.text.quantity import pretty
 
@@ -79,8 +80,8 @@ class _Pair:
     def _between(self, lower: str, upper: str) -> Iterator[str]:
         there = self.pairing[lower], self.pairing[upper]
         mine, yours = self.first.labels[lower, upper], self.second.labels[there]
-        more = _chosen(self.first.between(lower, upper), dict(mine - yours))
-        less = _chosen(self.second.between(*there), dict(yours - mine))
+        more = _chosen(self.first.between(lower, upper), mine - yours)
+        less = _chosen(self.second.between(*there), yours - mine)
         for part in list(more):
             other = next((p for p in less if _words(p) == _words(part)), None)
             if other:
@@ -123,10 +124,10 @@ class _Pair:
                 yield f"{path or other}: {_shown(one)} in {self.names[0]}, {_shown(two)} in {self.names[1]}{called}"
 
 
-def _chosen(parts: tuple[Part, ...], wanted: dict[object, int]) -> list[Part]:
+def _chosen(parts: tuple[Part, ...], wanted: Counter[Label]) -> list[Part]:
     found = []
     for part in parts:
-        if wanted.get(part.label, 0) > 0:
+        if wanted[part.label] > 0:
             wanted[part.label] -= 1
             found.append(part)
     return found

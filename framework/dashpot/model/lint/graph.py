@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import Literal
 
 from dashpot.model.lint.law import Law
 from dashpot.model.network import Joint, NetworkSpec
@@ -18,7 +19,7 @@ def find_loose_nodes(topology: Topology, spec: NetworkSpec) -> Iterator[Problem]
     standing = reached(topology.held("driven", "ground"), topology.edges)
     for name, joint in topology.joints.items():
         if not topology.edges_at(name):
-            severity = "warning" if joint.hold in ("driven", "ground") else "error"
+            severity: Literal["error", "warning"] = "warning" if joint.hold in ("driven", "ground") else "error"
             yield Problem(joint.place, f"nothing connects the node '{name}'", "connect it by a branch, or remove it",
                           severity)  # fmt: skip
         elif name not in standing:

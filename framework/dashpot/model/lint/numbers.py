@@ -15,7 +15,7 @@ from dashpot.text.problem import Place, Problem
 
 FEWEST_TRIALS, TRIALS_PER_NUMBER = 48, 2
 STEP = 1e-4  # relative, of a difference quotient
-NONE, DEPENDENT, INVOLVED = 1e-6, 1e-6, 1e-3
+NONE, DEPENDENT, INVOLVED = 1e-6, 1e-5, 1e-3
 SPREAD = 0.3  # of the numbers at which structure is judged
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +19,8 @@ from dashpot.model.lint.response import Answer, Trials, answer_of
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import Topology
 
-Complex = NDArray[np.complex128]
-FLOOR = 1e-6  # of the sizes that forces and motions have in a trial: what is less is rounding
+Complex = NDArray[np.complexfloating[Any, Any]]
+FLOOR = 1e-3  # of the sizes that forces and motions have in a trial: what is less is rounding
 SIDES = (0.5, -0.5)
 
 
