@@ -10,7 +10,7 @@ from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
 UNITS = {"limit": "N", "stiffness": "N/m", "creep_velocity": "m/s"}
-PLACES = 18
+PLACES = 15
 SPEEDS = 8
 MOST = 3
 

@@ -12,7 +12,7 @@ from dashpot.contract.cause import Cause, Suspect, View, unchanged
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
-MAINS = (50.0, 60.0, 100.0, 120.0, 150.0)
+MAINS = (50.0, 60.0, 100.0, 120.0)
 HIGHEST = 0.4  # of the sampling rate
 
 

@@ -8,6 +8,16 @@ from dataclasses import dataclass
 from typing import Any
 
 NULL = "null"
+BINS = (0.05, 0.1, 0.3, 1.0, 3.0, 30.0)  # of the strength that a refit of the base leaves, over the noise
+
+# causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic
+FAMILIES = (
+    {"friction", "amplitude_softening", "load_dependent_friction", "velocity_dependent_friction"},
+    {"quadratic_damping", "power_law_damping", "viscous_damping"},
+    {"stiffness_curve", "end_stop"},
+    {"softening", "bedding_in", "creep"},
+    {"offset", "drift", "gain"},
+)
 NOTHING = "nothing_missing"
 
 
@@ -47,6 +57,36 @@ class Outcome:
         return self.first == NOTHING if not self.kinds else self.first in self.kinds
 
     @property
+    def in_family(self) -> bool:
+        """Whether the first name is a hidden effect or one of its family."""
+        return self.right or any(self.first in family and set(self.kinds) & family for family in FAMILIES)
+
+    @property
+    def in_first_three(self) -> bool:
+        """Whether a hidden effect is among the first three names and the rivals of the first."""
+        rivals = self.verdict["causes"][0]["indistinguishable_from"] if self.verdict["causes"] else []
+        return bool(set(self.kinds) & {*self.named[:3], *rivals})
+
+    @property
+    def confidently_wrong(self) -> bool:
+        """Whether it says that all is explained, by causes of which none is hidden nor of the family."""
+        return self.verdict["verdict"] == "explained" and not self.in_family
+
+    @property
+    def over_noise(self) -> float | None:
+        """The held-out error after the extension over the noise that is really in these runs: as an oracle has it."""
+        after, runs = self.verdict["rmse"]["after"]["held_out"], self.verdict["held_out"]
+        if after is None or not runs:
+            return None
+        return after / (sum(self.truth.noise_rms[run] ** 2 for run in runs) / len(runs)) ** 0.5
+
+    @property
+    def gains(self) -> list[tuple[float, float]]:
+        """Expected and realised gain of every named cause."""
+        pairs = [(cause["expected_gain"], cause["gain"]) for cause in self.verdict["causes"]]
+        return [pair for pair in pairs if None not in pair]
+
+    @property
     def exact(self) -> bool:
         """Whether exactly the hidden effects were named."""
         return set(self.named) == set(self.kinds)
@@ -78,6 +118,12 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "false_alarms": [sum(bool(o.named) for o in null), len(null)],
         "first_right": [sum(o.right for o in found), len(found)],
         "exact": [sum(o.exact for o in found), len(found)],
+        "family_right": [sum(o.in_family for o in found), len(found)],
+        "in_first_three": [sum(o.in_first_three for o in found), len(found)],
+        "confidently_wrong": [sum(o.confidently_wrong for o in found), len(found)],
+        "by_strength": _by_strength(hidden),
+        "over_noise": _quantiles([o.over_noise for o in found if o.over_noise is not None]),
+        "gain_calibration": _rank_correlation([pair for o in outcomes for pair in o.gains]),
         "named_or_rival": [sum(o.open_set for o in found), len(found)],
         "confusion": _confusion(outcomes),
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
@@ -100,6 +146,14 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
     print(f"first name right (effects above 0.05 of the noise after a refit): {_of(rates['first_right'])}")
     print(f"exactly the hidden effects: {_of(rates['exact'])}; truth named or a declared rival: "
           f"{_of(rates['named_or_rival'])}")  # fmt: skip
+    print(f"first name of the right family: {_of(rates['family_right'])}; truth in the first three: "
+          f"{_of(rates['in_first_three'])}; confidently wrong: {_of(rates['confidently_wrong'])}")  # fmt: skip
+    print(
+        "first right by strength left: "
+        + ", ".join(f"{band} {_of(pair)}" for band, pair in rates["by_strength"].items())
+    )
+    print(f"held-out error after over the noise in it (median, 95 %): {rates['over_noise']}; rank correlation of "
+          f"expected and realised gain: {rates['gain_calibration']}")  # fmt: skip
     print(f"median time of a diagnosis: {rates['seconds']:.1f} s")
 
 
@@ -108,6 +162,28 @@ def _confusion(outcomes: Sequence[Outcome]) -> dict[str, Counter]:
     for outcome in outcomes:
         table.setdefault("+".join(outcome.kinds) or NULL, Counter())[outcome.first] += 1
     return table
+
+
+def _by_strength(outcomes: Sequence[Outcome]) -> dict[str, list[int]]:
+    found = {}
+    for low, high in zip((0.0, *BINS), BINS, strict=False):
+        inside = [o for o in outcomes if low <= o.strength < high]
+        if inside:
+            found[f"{low:g} to {high:g}"] = [sum(o.right for o in inside), len(inside)]
+    return found
+
+
+def _quantiles(values: Sequence[float]) -> list[float] | None:
+    if not values:
+        return None
+    ordered = sorted(values)
+    return [round(ordered[int(share * (len(ordered) - 1))], 4) for share in (0.5, 0.95)]
+
+
+def _rank_correlation(pairs: Sequence[tuple[float, float]]) -> float | None:
+    from scipy.stats import spearmanr
+
+    return round(float(spearmanr(*zip(*pairs, strict=True)).statistic), 3) if len(pairs) > 2 else None
 
 
 def _of(pair: Sequence[int]) -> str:

@@ -15,6 +15,7 @@ pursuit    causes accepted one after the other, and pruned
 gain       what an extension gains on runs it never saw
 leftover   is there structure that no suspect explains
 named      the accepted causes as they are told
+tracking   the oscillation of a run, followed once
 conditions amplitude, preload and frequency that a run was made at
 bands      bands of frequency with round edges
 misfit     what the model gets wrong, in words

@@ -22,6 +22,7 @@ from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network
+from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
@@ -130,10 +131,13 @@ class Trial:
 def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int, view: ModelView) -> Trial:
     """Extend the base by a finding, or mend the measurement, and refit; ``view`` shows the base on all runs."""
     suspect = finding.candidate.suspect
-    if suspect.mends:
-        model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(view, finding)))
-    else:
-        model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
+    try:
+        if suspect.mends:
+            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(view, finding)))
+        else:
+            model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
+    except InputError as error:
+        return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     gain = base.chi_square - model.chi_square
     price = (model.numbers - base.numbers) * np.log(samples)
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""

@@ -13,6 +13,7 @@ from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
 from dashpot.assess.pursuit import Pursuer, Pursuit, residuals_of
 from dashpot.assess.suspicion import linear_view
+from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict
 from dashpot.contract.chain import make_optimizer
@@ -30,6 +31,7 @@ from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 ATTEMPTS = 3
+WEAK = 30.0  # merit below which a cause had better be measured once more
 
 
 @single_threaded_algebra
@@ -76,6 +78,7 @@ def diagnose(
         after=measure_errors(final, mended_setting(setting, pursuit), jobs),
         misfit=tuple(misfit),
         leftover=leftover,
+        next_runs=next_runs(bench, pursuit),
         verdict=give_verdict(triage.faults, pursuit, leftover),
         causes=causes,
         seed=seed,
@@ -95,6 +98,21 @@ def fit_to_rest(fit: Callable[[int], FitResult]) -> tuple[FitResult, list[str]]:
         f"The fit of {best.declared.name} did not come to rest ({attempts[0].ending}); of {len(attempts)} starts the "
         f"best counts, the last one {ending}."
     ]
+
+
+def next_runs(bench: Bench, pursuit: Pursuit) -> dict[tuple[str, str], Telling]:
+    """The run to make next for every cause and rival that fit alike, and for every weak cause (its rival is empty)."""
+    found = {}
+    for entry in pursuit.accepted:
+        word = entry.finding.candidate.cause.word
+        pairs = {other.finding.candidate.cause.word: other.model for other in entry.others}
+        if not pairs and entry.base is not None and entry.trial.merit < WEAK:
+            pairs = {"": entry.base}
+        for rival, model in pairs.items():
+            run = telling_run(bench, entry.trial.model, model, pursuit.last.noise)
+            if run is not None:
+                found[word, rival] = run
+    return found
 
 
 def model_of(fit: FitResult) -> Model:

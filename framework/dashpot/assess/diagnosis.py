@@ -15,6 +15,7 @@ from dashpot.assess.leftover import Leftover
 from dashpot.assess.misfit import Misfit
 from dashpot.assess.named import NamedCause, name_causes
 from dashpot.assess.pursuit import Pursuit
+from dashpot.assess.telling import Telling
 from dashpot.assess.triage.examine import Triage
 from dashpot.assess.triage.fault import Fault
 from dashpot.contract.cause import Cause
@@ -38,6 +39,7 @@ class Diagnosis:
     after: Errors
     misfit: tuple[Misfit, ...]
     leftover: Leftover
+    next_runs: Mapping[tuple[str, str], Telling]
     verdict: str
     causes: Mapping[str, type[Cause]]
     seed: int
@@ -101,7 +103,10 @@ class Diagnosis:
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report."""
         triage = [*(fault.sentence for fault in self.triage.faults), *self.triage.remarks]
-        return gather_evidence(self.setting, self.fit, self.pursuit, self.named, self.causes, self.patch(), triage)
+        return {
+            **gather_evidence(self.setting, self.fit, self.pursuit, self.causes, self.patch(), triage),
+            "next_measurement": self._next_measurements(),
+        }
 
     def patch(self) -> dict[str, str]:
         """Texts and names of the network before and after; empty without an accepted cause."""
@@ -115,6 +120,27 @@ class Diagnosis:
             "after_name": after,
         }
 
+    def _telling(self, named: NamedCause) -> list[str]:
+        """What to measure next about a cause: a run that was simulated, else what its plugin knows, else its cure."""
+        word = named.cause.word
+        if (word, "") in self.next_runs:
+            return [f"to be sure of it, {self.next_runs[word, ''].words}"]
+        found = []
+        for rival in named.rivals:
+            known = telling_measurement(named.cause, self.causes[rival])
+            run = self.next_runs.get((word, rival))
+            found.append("; or ".join(text for text in (run.words if run else "", known) if text))
+        return [text for text in found if text] or ([named.cause.cure] if named.cause.cure else [])
+
+    def _next_measurements(self) -> list[str]:
+        """The same for the report, each with the names it is about."""
+        found = []
+        for named in self.named:
+            rivals = " or ".join(self.causes[word].about for word in named.rivals)
+            about = f"{named.cause.about} or {rivals}" if rivals else named.cause.about
+            found += [f"{about}: {text}" for text in self._telling(named)]
+        return found
+
     def _all_causes(self) -> list[dict[str, Any]]:
         """Faults of the measurement first, then what was pursued."""
         words = dict.fromkeys(fault.cause for fault in self.triage.faults if fault.cause)
@@ -123,8 +149,7 @@ class Diagnosis:
         return found + [self._cause(rank, named) for rank, named in enumerate(self.named, len(found) + 1)]
 
     def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
-        rivals = [self.causes[word] for word in named.rivals]
-        telling = [text for rival in rivals if (text := telling_measurement(named.cause, rival))]
+        telling = self._telling(named)
         return {
             "cause": named.cause.word,
             "class": named.cause.kind,

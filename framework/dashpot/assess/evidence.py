@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import dashpot
-from dashpot.assess.named import NamedCause
 from dashpot.assess.pursuit import Pursuit, Rejection, residuals_of
 from dashpot.assess.screen import Screen
 from dashpot.assess.signals import signal_evidence
@@ -20,7 +19,6 @@ def gather_evidence(
     setting: Setting,
     fit: FitResult,
     pursuit: Pursuit,
-    named: Sequence[NamedCause],
     causes: Mapping[str, type[Cause]],
     patch: Mapping[str, str],
     triage: Sequence[str],
@@ -35,7 +33,6 @@ def gather_evidence(
         "rejected": [_rejected(causes, rejection) for rejection in pursuit.rejected],
         "tried": pursuit.tried,
         "limits": detection_limits(pursuit.last.screen),
-        "next_measurement": next_measurements(named, causes),
         "warnings": [*triage, *warnings_of(setting, [fit])]
         + [f"The cause '{word}' could not be tried: {reason}" for word, reason in pursuit.last.unavailable],
         "history": {fit.declared.name: history_of(fit)},
@@ -69,16 +66,6 @@ def detection_limits(screen: Screen) -> list[dict[str, Any]]:
             "unit": "N",
         }
         for limit in screen.limits
-    ]
-
-
-def next_measurements(named: Sequence[NamedCause], causes: Mapping[str, type[Cause]]) -> list[str]:
-    """For every pair of causes that fit alike the measurement that tells them apart."""
-    return [
-        f"{entry.cause.about} or {causes[rival].about}: {text}"
-        for entry in named
-        for rival in entry.rivals
-        if (text := telling_measurement(entry.cause, causes[rival]))
     ]
 
 

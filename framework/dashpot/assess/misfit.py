@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from dashpot.assess.bands import frequency_bands
 from dashpot.assess.conditions import STEADY, Conditions, conditions_of
-from dashpot.data.order_tracking import follow, harmonics_of
-from dashpot.data.phase import NotOscillatingError
+from dashpot.assess.tracking import track
+from dashpot.data.order_tracking import harmonics_of
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 
@@ -68,11 +68,8 @@ def describe_misfit(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list
 
 
 def _split(run: Run, residual: Array) -> _Parts | None:
-    if run.kind not in ("sweep", "harmonic"):
-        return None
-    try:
-        oscillation = follow(run.displacement, run.sample_time)
-    except NotOscillatingError:
+    oscillation = track(run)
+    if oscillation is None:
         return None
     orders = harmonics_of(residual, oscillation)
     half = 0.5 * (orders.sine**2 + orders.cosine**2)

@@ -23,6 +23,8 @@ class NoiseModel:
         """Signals (..., n) of a run in units of their noise; the first samples miss their past and are set to zero."""
         from scipy.signal import lfilter
 
+        if signals.size == 0:
+            return signals.copy()
         white = lfilter(self.filters[run], [1.0], signals, axis=-1)
         white[..., :ORDER] = 0.0
         return white

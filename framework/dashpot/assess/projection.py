@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +62,14 @@ class SparseRows:
         """The sum (n,) of the rows of a run, each times its strength (size,)."""
         return strengths[self.places[run]] @ self.values[run]
 
+    def thinned(self, kept: Places) -> SparseRows:
+        """The rows at ``kept`` (in rising order) only."""
+        new = np.full(self.size, -1)
+        new[kept] = np.arange(kept.size)
+        stays = {run: new[places] >= 0 for run, places in self.places.items()}
+        values = {run: rows[stays[run]] for run, rows in self.values.items()}
+        return SparseRows(values, {run: new[places[stays[run]]] for run, places in self.places.items()}, kept.size)
+
     def squares(self) -> Array:
         """The sum of squares (size,) of every row over all runs."""
         total = np.zeros(self.size)
@@ -70,11 +78,17 @@ class SparseRows:
         return total
 
 
-def normal_equations(residual: Rows, rows: SparseRows, noise: NoiseModel) -> Normal:
-    """Sum over runs of residual (n,) and rows (c, n), each whitened by the noise of its run."""
-    gram, right = np.zeros((rows.size, rows.size)), np.zeros(rows.size)
+def normal_equations(residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel) -> Normal:
+    """Sum over runs of residual (n,) and rows (c, n), each whitened by the noise of its run.
+
+    Rows of several kinds stand behind one another.
+    """
+    kinds = [rows] if isinstance(rows, SparseRows) else list(rows)
+    first = np.cumsum([0] + [kind.size for kind in kinds])
+    gram, right = np.zeros((first[-1], first[-1])), np.zeros(first[-1])
     for run, values in residual.items():
-        white, at = noise.whiten(run, rows.values[run]), rows.places[run]
+        white = np.concatenate([noise.whiten(run, kind.values[run]) for kind in kinds])
+        at = np.concatenate([kind.places[run] + shift for kind, shift in zip(kinds, first[:-1], strict=True)])
         gram[np.ix_(at, at)] += white @ white.T
         right[at] += white @ noise.whiten(run, values)
     return Normal(gram, right, sum(values.size for values in residual.values()))

@@ -38,13 +38,18 @@ SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its o
 
 @dataclass(frozen=True, eq=False)
 class Accepted:
-    """A cause with its proof: the model after it, the gain on held-out runs, what could not be told from it."""
+    """A cause with its proof: the model after it, the gain on held-out runs, what could not be told from it.
+
+    ``others`` are the trials of its rivals, ``base`` the model before it.
+    """
 
     finding: Finding
     trial: Trial
     expected_gain: float
     gain: Gain | None
     rivals: tuple[str, ...]
+    others: tuple[Trial, ...] = ()
+    base: Model | None = None
 
 
 @dataclass(frozen=True)
@@ -159,12 +164,14 @@ class Pursuer:
             if reason:
                 self.reject(trial, reason, foreseen, gain)
                 continue
-            chosen, rivals = settle_ties(trial, ranked)
+            chosen, others = settle_ties(trial, ranked)
             for other in ranked:
                 if other is not chosen and other.merit < trial.merit - tie_width(trial):
                     self.reject(other, "explains less than the accepted cause", None, None)
             chosen = self.simplify(chosen, look)
-            return Accepted(chosen.finding, chosen, foreseen, self.gain_of(look.model, chosen.model), rivals)
+            rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
+            gain = self.gain_of(look.model, chosen.model)
+            return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model)
         return None
 
     def try_out(self, finding: Finding, look: Look) -> Trial:
@@ -258,13 +265,15 @@ def choose_finalists(look: Look) -> list[Finding]:
     return chosen[:FINALISTS]
 
 
-def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[str, ...]]:
-    """Among trials that fit alike the one with fewest parameters; the other causes among them are its rivals."""
+def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
+    """Among trials that fit alike the one with fewest numbers; the best trial of every other cause is its rival."""
     near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
-    chosen = min(near, key=lambda other: (other.model.point.size, -other.merit))
-    word = chosen.finding.candidate.cause.word
-    rivals = dict.fromkeys(other.finding.candidate.cause.word for other in near)
-    return chosen, tuple(rival for rival in rivals if rival != word)
+    chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
+    best: dict[str, Trial] = {}
+    for other in near:
+        best.setdefault(other.finding.candidate.cause.word, other)
+    best.pop(chosen.finding.candidate.cause.word)
+    return chosen, tuple(best.values())
 
 
 def tie_width(trial: Trial) -> float:

@@ -26,6 +26,7 @@ DRAWS = 400
 POWER_95 = 1.6448536269514722
 KEPT = 1e-7  # share of a column that must be left after projection
 RIDGE = 1e-9
+COARSE = 8  # places of a grid
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,8 +120,11 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows
 
 
 def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
-    """What is left of each run after tangents, nuisance and the whole bank: the noise, whatever is hidden."""
-    rows = stack(columns.tangents, columns.nuisance, columns.bank)
+    """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden.
+
+    Neighbours on a grid are nearly alike, so every second place of a fine one will do.
+    """
+    rows = stack(columns.tangents, columns.nuisance, columns.bank.thinned(_every_second(columns.candidates)))
     normal = normal_equations(columns.residual, rows, noise)
     scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
     matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
@@ -128,9 +132,19 @@ def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
 
 
+def _every_second(candidates: Sequence[Candidate]) -> Places:
+    # columns that act together, those of single runs and coarse grids have no neighbours that are alike
+    chosen = [np.arange(one.columns.start, one.columns.stop, 2 if _is_fine(one.suspect) else 1) for one in candidates]
+    return np.concatenate(chosen) if chosen else np.empty(0, dtype=np.intp)
+
+
+def _is_fine(suspect: Suspect) -> bool:
+    return not suspect.joint and not suspect.local and len(suspect.grid) > COARSE
+
+
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
-    rows = stack(columns.tangents, columns.nuisance, columns.bank)
+    rows = (columns.tangents, columns.nuisance, columns.bank)
     precision = np.concatenate([np.zeros(columns.tangents.size), 1.0 / columns.priors**2])
     projected = project_out(normal_equations(columns.residual, rows, noise), precision.size, precision)
     findings = [_judge(candidate, projected) for candidate in columns.candidates]

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from dashpot.assess.bands import Band, frequency_bands
 from dashpot.assess.conditions import Conditions, conditions_of
+from dashpot.assess.tracking import track as followed
 from dashpot.data.average import average_bands
-from dashpot.data.order_tracking import DynamicStiffness, Oscillation, follow, harmonics_of
-from dashpot.data.phase import NotOscillatingError
+from dashpot.data.order_tracking import DynamicStiffness, Oscillation, harmonics_of
 from dashpot.data.run import Run
 from dashpot.fit.scored import warm_up
 from dashpot.text.quantity import pretty
@@ -28,7 +28,7 @@ WHOLE_RUN = "whole run"
 
 def signal_evidence(runs: tuple[Run, ...], residuals: Residuals) -> dict[str, Any]:
     """Loops, residuals, dynamic stiffness, harmonics and misfit map of labelled residuals (measured - simulated)."""
-    tracked = {run.name: track for run in runs if (track := _track(run)) is not None}
+    tracked = {run.name: track for run in runs if (track := followed(run)) is not None}
     conditions = {run.name: conditions_of(run, tracked[run.name]) for run in runs if run.name in tracked}
     return {
         "loops": {
@@ -48,15 +48,6 @@ def signal_evidence(runs: tuple[Run, ...], residuals: Residuals) -> dict[str, An
         else {},
         "misfit_map": _misfit_map(runs, _sweeps(tracked, conditions), residuals),
     }
-
-
-def _track(run: Run) -> Oscillation | None:
-    if run.kind not in ("sweep", "harmonic"):
-        return None
-    try:
-        return follow(run.displacement, run.sample_time)
-    except NotOscillatingError:
-        return None
 
 
 def _sweeps(tracked: Mapping[str, Oscillation], conditions: Mapping[str, Conditions]) -> dict[str, Oscillation]:

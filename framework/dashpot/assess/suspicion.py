@@ -81,7 +81,7 @@ def view_of(model: Model, runs: Sequence[ScoredRun], elements: Mapping[str, type
     """The model on runs as causes see it."""
     forces = Objective(compile_network(model.fitted), runs).forces(model.values)
     seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
-    return ModelView({run.name: run for run in runs}, seen, elements)
+    return ModelView({run.name: run for run in runs}, seen, elements, model.fitted)
 
 
 def gather_candidates(

@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.drive import drive_from_samples
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.model.element import Element
@@ -25,6 +26,7 @@ class ModelView:
     scored: Mapping[str, ScoredRun]
     forces: Mapping[str, Array]
     elements: Mapping[str, type[Element]]
+    network: NetworkSpec | None = None
 
     @property
     def runs(self) -> tuple[str, ...]:
@@ -73,6 +75,15 @@ class ModelView:
     def step(self, run: str) -> float:
         """The sample time in s."""
         return self.scored[run].drive.dt
+
+    def moved(self, run: str, change: Array) -> Array:
+        """The force (n,) of the model along a changed deflection. ValueError for a view without its network."""
+        if self.network is None:
+            raise ValueError("expected a view that knows its network, got one made of forces alone")
+        network = compile_network(self.network)
+        drive = drive_from_samples(self.step(run), self.displacement(run) + change)
+        force = network.simulate(network.prepare(drive))
+        return network.observation(network.start).see(force[None], drive.dt)[0]
 
     def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
         """The forces (m, n) of an element with each of m sets of values.

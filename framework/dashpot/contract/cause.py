@@ -56,6 +56,9 @@ class View(Protocol):
     def step(self, run: str) -> float:
         """The sample time in s."""
 
+    def moved(self, run: str, change: Array) -> Array:
+        """The force (n,) in N of the present model if the deflection were larger by ``change`` (n,) in m."""
+
     def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
         """The forces (m, n) of an element with each of m sets of values, moved like the specimen."""
 
@@ -116,15 +119,21 @@ def added_branch(
     sign: Literal[0, 1] = 1,
     most: int = 1,
     unknowns: int = 1,
+    fixed: Sequence[str] = (),
 ) -> Suspect:
-    """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``."""
+    """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
+
+    Those named in ``fixed`` are written as plain numbers, the others to be found.
+    """
 
     def columns(view: View, run: str) -> Array:
         return view.respond(run, element, [values(1.0, place) for place in grid])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
-            text = add_branch(text, branch_lines(free_name(text, branch), element, values(strength, place), units))
+            text = add_branch(
+                text, branch_lines(free_name(text, branch), element, values(strength, place), units, fixed)
+            )
         return text
 
     return Suspect(element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns)
@@ -155,11 +164,14 @@ def one_of_the_runs(
     return Suspect(form, grid, columns, unchanged, sign=0, unknowns=0, most=most, mends=True, local=True, tell=tell)
 
 
-def branch_lines(name: str, element: str, values: Mapping[str, float], units: Mapping[str, str]) -> str:
-    """A branch with free parameters as lines of YAML."""
+def branch_lines(
+    name: str, element: str, values: Mapping[str, float], units: Mapping[str, str], fixed: Sequence[str] = ()
+) -> str:
+    """A branch as lines of YAML, its parameters free but for those named in ``fixed``."""
     from dashpot.text.quantity import pretty
 
-    numbers = [f"  {key}: {{start: {pretty(value, units[key], 6)}}}" for key, value in values.items()]
+    texts = {key: pretty(value, units[key], 6) for key, value in values.items()}
+    numbers = [f"  {key}: {text}" if key in fixed else f"  {key}: {{start: {text}}}" for key, text in texts.items()]
     return "\n".join([f"{name}:", f"  element: {element}", *numbers])
 
 

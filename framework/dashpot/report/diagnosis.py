@@ -105,7 +105,7 @@ def _before_and_after(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
 
 def _next(diagnosis: Json, evidence: Evidence) -> list[str]:
     named = [cause["next_measurement"] for cause in diagnosis["causes"] if cause.get("next_measurement")]
-    return list(dict.fromkeys([*evidence.get("next_measurement", ()), *named]))
+    return list(dict.fromkeys(evidence.get("next_measurement") or named))
 
 
 def _limits(evidence: Evidence) -> Iterator[Part]:

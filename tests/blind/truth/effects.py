@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from . import channel, damping, fault, friction, inertia, relaxation, stiffness
+from . import (
+    channel,
+    contacts,
+    damping,
+    fault,
+    friction,
+    history,
+    inertia,
+    relaxation,
+    resonator,
+    sliding,
+    stiffness,
+    valves,
+)
 from .form import Form
 
 FORMS: dict[str, tuple[type[Form], ...]] = {
@@ -14,16 +27,42 @@ FORMS: dict[str, tuple[type[Form], ...]] = {
     "stiffness_curve": stiffness.FORMS,
     "moving_mass": inertia.FORMS,
     "delay": channel.FORMS,
+    "asymmetric_damping": valves.ASYMMETRIC_FORMS,
+    "power_law_damping": valves.POWER_FORMS,
+    "end_stop": contacts.STOP_FORMS,
+    "clearance": contacts.PLAY_FORMS,
+    "resonance": resonator.FORMS,
+    "amplitude_softening": history.PAYNE_FORMS,
+    "softening": history.WARM_FORMS,
+    "bedding_in": history.MULLINS_FORMS,
+    "creep": history.CREEP_FORMS,
+    "load_dependent_friction": sliding.LOADED_FORMS,
+    "velocity_dependent_friction": sliding.FADING_FORMS,
 }
 
 FAULTS = fault.FORMS
 
-_EVERYWHERE = ("friction", "relaxation", "quadratic_damping", "moving_mass", "delay")
+_SPECIMEN = (
+    "friction",
+    "relaxation",
+    "quadratic_damping",
+    "asymmetric_damping",
+    "power_law_damping",
+    "clearance",
+    "resonance",
+    "amplitude_softening",
+    "softening",
+    "bedding_in",
+    "creep",
+    "load_dependent_friction",
+    "velocity_dependent_friction",
+)
+_EVERYWHERE = (*_SPECIMEN, "moving_mass", "delay", *FAULTS)
 
 # What the refit of a base would swallow cannot be hidden in it: a damper in a damper, a curve in a free table.
 KINDS_OF_BASE: dict[str, tuple[str, ...]] = {
     "spring": ("friction", "relaxation", "viscous_damping", "moving_mass"),
     "kelvin_voigt": (*_EVERYWHERE, "preload_dependent_damping"),
     "ftire": (*_EVERYWHERE, "preload_dependent_damping"),
-    "polynomial": (*_EVERYWHERE, "preload_dependent_damping", "stiffness_curve"),
+    "polynomial": (*_EVERYWHERE, "preload_dependent_damping", "stiffness_curve", "end_stop"),
 }

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dashpot.data.order_tracking import follow
+from dashpot.assess.tracking import track
 from dashpot.data.orders import fit_orders
-from dashpot.data.phase import NotOscillatingError
 from dashpot.data.run import Run
 
 NOTABLE = 0.05
@@ -18,13 +17,10 @@ def actuator_harmonics(run: Run) -> str:
 
     The measured motion drives the model, so this is no fault; but harmonics of the force are then not the specimen's.
     """
-    if run.kind not in ("sweep", "harmonic"):
+    oscillation = track(run)
+    if oscillation is None:
         return ""
-    try:
-        track = follow(run.displacement, run.sample_time)
-    except NotOscillatingError:
-        return ""
-    orders = fit_orders(track.angle, track.windows, run.displacement[:, None], ORDERS)
+    orders = fit_orders(oscillation.angle, oscillation.windows, run.displacement[:, None], ORDERS)
     shares = np.nanmedian(np.abs(orders.harmonics[:, 1:, 0] / orders.harmonics[:, :1, 0]), axis=0)
     if not np.max(shares) > NOTABLE:
         return ""

@@ -17,6 +17,7 @@ SIDE = 10
 DEGREE = 2
 SUSPECT = 6.0
 CERTAIN = 12.0
+NOTABLE = 5e-3  # of the stroke: smaller jumps do no harm
 
 
 def lost_samples(run: Run) -> Fault | None:
@@ -24,7 +25,11 @@ def lost_samples(run: Run) -> Fault | None:
     x = run.displacement
     if run.kind not in MOVING or x.size < 8 * SIDE:
         return None
-    jumps = _jumps(x, max(white_noise(x), 1e-9 * float(np.ptp(x))))
+    jumps = {
+        place: step
+        for place, step in _jumps(x, max(white_noise(x), 1e-9 * float(np.ptp(x)))).items()
+        if abs(step) > NOTABLE * float(np.ptp(x))
+    }
     if not jumps:
         return None
     where, size = max(jumps.items(), key=lambda jump: abs(jump[1]))

@@ -1,0 +1,46 @@
+"""Softening with amplitude, as in filled rubber."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import product
+
+import numpy as np
+
+from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.model.network import NetworkSpec
+
+UNITS = {"stiffness": "N/m", "shortest": "m", "longest": "m"}
+SHORTEST = (1e-3, 4e-3, 1.5e-2)  # of the stroke
+LONGEST = (0.3, 1.0, 3.0)
+
+
+class AmplitudeSoftening(Cause):
+    """Sliders behind springs whose yield travels are spread over decades (Payne effect)."""
+
+    word = "amplitude_softening"
+    kind = "specimen"
+    about = "softening with amplitude"
+    shows = "storage stiffness falls with the logarithm of amplitude over decades, the loop stays near to an ellipse"
+    confused_with = {
+        "friction": "a wider ladder of amplitudes: one slider softens within a decade, and shows a third harmonic",
+        "relaxation": "an amplitude ladder at one frequency: relaxation does not soften",
+        "softening": "the ladder up and down again: warming lags behind, amplitude does not",
+        "bedding_in": "the ladder up and down again: bedding-in does not come back",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """A spread of sliders between a shortest and a longest yield travel."""
+        spans = [(short * view.stroke, long * view.stroke) for short, long in product(SHORTEST, LONGEST)]
+        yield added_branch(
+            "iwan",
+            "amplitude_softening",
+            tuple(float(number) for number in np.arange(len(spans))),
+            lambda stiffness, place: {
+                "stiffness": stiffness,
+                "shortest": spans[int(place)][0],
+                "longest": spans[int(place)][1],
+            },
+            UNITS,
+            unknowns=2,
+        )

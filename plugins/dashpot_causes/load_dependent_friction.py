@@ -1,0 +1,71 @@
+"""Dry friction that grows with the load."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import add_branch
+from dashpot.text.quantity import pretty
+
+Array = NDArray[np.float64]
+UNITS = {"limit": "N", "stiffness": "N/m"}
+PLACES = 7
+FACTORS = (0.06, 0.4)
+BOUNDS = "[0.02, 0.8]"
+
+
+class LoadDependentFriction(Cause):
+    """A slider whose force has a factor over deflection: it changes from one end of the reach to the other."""
+
+    word = "load_dependent_friction"
+    kind = "specimen"
+    about = "dry friction that depends on the load"
+    shows = "the width of a slow loop changes along the deflection; otherwise like dry friction"
+    confused_with = {
+        "friction": "a second preload: the width of the loop changes with it, or not",
+        "preload_dependent_damping": "a slow triangle: damping disappears, friction stays",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """Smooth sliders over yield travels, their force growing or falling along the reach."""
+        travels = tuple(np.geomspace(5e-4 * view.stroke, 0.6 * view.stroke, PLACES))
+        for rising in (True, False):
+            for least in FACTORS:
+                scaled = _Scaled(travels, view.reach, least, rising)
+                yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
+                              travels, scaled, scaled.extend, unknowns=2)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Scaled:
+    travels: tuple[float, ...]
+    reach: tuple[float, float]
+    least: float
+    rising: bool
+
+    @property
+    def factors(self) -> tuple[float, float]:
+        return (self.least, 1.0) if self.rising else (1.0, self.least)
+
+    def __call__(self, view: View, run: str) -> Array:
+        plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])
+        return plain * np.interp(view.displacement(run), self.reach, self.factors)
+
+    def extend(self, text: str, atoms: Sequence[Atom]) -> str:
+        limit, travel = atoms[0]
+        free = f"{{start: {self.least:g}, bounds: {BOUNDS}}}"
+        factors = f"[{free}, 1]" if self.rising else f"[1, {free}]"
+        values = {"limit": limit, "stiffness": limit / travel}
+        lines = [
+            branch_lines(free_name(text, "load_dependent_friction"), "dahl", values, UNITS),
+            "  scale:",
+            f"    deflection: [{', '.join(pretty(place, 'm', 6) for place in self.reach)}]",
+            f"    factor: {factors}",
+        ]
+        return add_branch(text, "\n".join(lines))

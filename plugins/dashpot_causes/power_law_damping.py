@@ -1,0 +1,53 @@
+"""Damping between dry friction and turbulence."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import add_branch
+from dashpot.text.quantity import pretty
+
+UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
+DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
+PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
+BOUNDS = ((0.2, 0.9), (1.1, 1.8), (2.2, 4.0))
+SHARE = 0.3
+
+
+class PowerLawDamping(Cause):
+    """A force that follows a power of the velocity other than zero, one and two."""
+
+    word = "power_law_damping"
+    kind = "specimen"
+    about = "damping with a power of the velocity"
+    shows = "loss stiffness follows a broken power of frequency and the same power, less one, of amplitude"
+    confused_with = {
+        "viscous_damping": "an amplitude ladder at one frequency: the loss stiffness of a dashpot does not change",
+        "quadratic_damping": "a wider range of velocities: the slope of force over velocity in a log-log plot",
+        "friction": "a triangle at 0.1, 1 and 10 mm/s: the width of a friction loop does not change with speed",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """One dashpot with a power of the velocity."""
+        reference = float(f"{SHARE * view.speed:.2g}")
+        grid = DIGRESSIVE + PROGRESSIVE
+
+        def values(force: float, exponent: float) -> dict[str, float]:
+            return {"force": force, "exponent": exponent, "reference": reference}
+
+        def columns(view, run):
+            return view.respond(run, "power_law_damper", [values(1.0, exponent) for exponent in grid])
+
+        def extend(text: str, atoms: Sequence[Atom]) -> str:
+            force, exponent = atoms[0]
+            low, high = next(pair for pair in BOUNDS if pair[0] <= exponent <= pair[1])
+            lines = [
+                branch_lines(free_name(text, "power_law_damping"), "power_law_damper", {"force": force}, UNITS),
+                f"  exponent: {{start: {exponent:g}, bounds: [{low:g}, {high:g}]}}",
+                f"  reference: {pretty(reference, 'm/s')}",
+            ]
+            return add_branch(text, "\n".join(lines))
+
+        yield Suspect("power of velocity", grid, columns, extend)

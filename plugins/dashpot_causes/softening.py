@@ -1,0 +1,40 @@
+"""Stiffness that falls while the specimen warms up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import product
+
+from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.model.network import NetworkSpec
+
+UNITS = {"stiffness": "N/m", "speed": "m/s", "time": "s"}
+SPEEDS = (0.3, 3.0)  # of the largest speed
+TIMES = (0.1, 0.4, 1.6)  # of the length of a run
+
+
+class Softening(Cause):
+    """A part of the stiffness that warmth takes away, and warmth comes from the motion."""
+
+    word = "softening"
+    kind = "specimen"
+    about = "softening by warming up"
+    shows = "stiffness and loss fall slowly over the run, more so at large amplitude and frequency, and recover at rest"
+    confused_with = {
+        "bedding_in": "repeat the run after a rest: warmth is gone, bedding-in is not",
+        "creep": "a dwell at rest: creep goes on, warming does not",
+        "gain": "repeat the run after a rest: a gain does not fade over the run",
+        "amplitude_softening": "the amplitude ladder up and down again: warming lags behind, amplitude does not",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """A spring that its own motion softens, over speeds and times of warming."""
+        places = [(speed * view.speed, time * view.duration) for speed, time in product(SPEEDS, TIMES)]
+        yield added_branch(
+            "softening",
+            "softening",
+            tuple(float(number) for number in range(len(places))),
+            lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1]},
+            UNITS,
+            unknowns=2,
+        )
