@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -15,6 +16,7 @@ from dashpot.report.readable import number, rig_unit, set_value
 
 Json = Mapping[str, Any]
 
+MOST_KNOTS = 8
 ALIKE = 0.02  # amplitudes that differ by less are the same test
 
 
@@ -47,7 +49,11 @@ def stages_grid(study: Json) -> Grid:
 
 
 def intervals_grid(model: Json) -> Grid:
-    """The searched numbers of a model with their 95 % intervals, of every kind that the study asked for."""
+    """The searched numbers of a model with their 95 % intervals, of every kind that the study asked for.
+
+    Tables of many knots are left to the result file.
+    """
+    knots = Counter(path.partition("[")[0] for path in model["parameters"])
     profiles = {profile["parameter"]: profile for profile in model["profiles"]}
     columns = [
         Column("parameter", "parameter"),
@@ -60,7 +66,7 @@ def intervals_grid(model: Json) -> Grid:
     rows = [
         _interval_row(path, entry, model["bootstrap"].get(path), profiles.get(path))
         for path, entry in model["parameters"].items()
-        if entry["role"] != "fixed" and entry["interval"] is not None
+        if entry["role"] != "fixed" and entry["interval"] is not None and knots[path.partition("[")[0]] <= MOST_KNOTS
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
