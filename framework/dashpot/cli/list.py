@@ -19,7 +19,18 @@ from dashpot.text.problem import InputError, nearest
 if TYPE_CHECKING:
     from dashpot.contract.registry import Registry
 
-KINDS = ("elements", "networks", "optimizers", "causes", "formats", "specimens", "rigs", "exports", "plugins")
+KINDS = (
+    "elements",
+    "networks",
+    "optimizers",
+    "causes",
+    "formats",
+    "specimens",
+    "rigs",
+    "studies",
+    "exports",
+    "plugins",
+)
 NOT_YET = ("exports",)
 
 
@@ -42,8 +53,8 @@ class Entry:
 def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed: each thing with the distribution and the plugin that brought it.
 
-    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, exports or plugins; without it, everything
-    is listed.
+    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, studies, exports or plugins; without it,
+    everything is listed.
 
     \b
     Example:
@@ -65,6 +76,8 @@ def entries_of(kind: str, session: Session) -> list[Entry]:
         return networks(session)
     if kind == "rigs":
         return things(kind, session.registry) + benches(session.registry)
+    if kind == "studies":
+        return studies(session.registry)
     return plugins(session.registry) if kind == "plugins" else things(kind, session.registry)
 
 
@@ -83,17 +96,29 @@ def networks(session: Session) -> list[Entry]:
 
 def benches(registry: Registry) -> list[Entry]:
     """The shipped benches: procedures with options, and how they measure."""
-    from dashpot.contract.bench import shipped_benches
+    from dashpot.contract.bench import find_bench, shipped_benches
 
     origin = Origin("specs", "dashpot", __version__)
-    return [Entry(name, origin, about_or_why(partial(about_bench, name, registry))) for name in shipped_benches()]
+    return [
+        Entry(name, origin, about_or_why(partial(about_file, find_bench, name, registry.rigs)))
+        for name in shipped_benches()
+    ]
 
 
-def about_bench(name: str, registry: Registry) -> str:
-    """What a bench says about itself. InputError when it needs what is not installed."""
-    from dashpot.contract.bench import find_bench
+def about_file(read: Callable[..., Any], *where: Any) -> str:
+    """What a bench or a study says about itself. InputError when it needs what is not installed."""
+    return read(*where).about
 
-    return find_bench(name, registry.rigs).about
+
+def studies(registry: Registry) -> list[Entry]:
+    """The shipped studies."""
+    from dashpot.fit.study.reading import read_study, shipped_studies
+
+    origin = Origin("specs", "dashpot", __version__)
+    return [
+        Entry(name, origin, about_or_why(partial(about_file, read_study, path, registry)))
+        for name, path in shipped_studies().items()
+    ]
 
 
 def about_network(name: str, session: Session) -> str:

@@ -62,5 +62,16 @@ def test_a_bench_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reason
 
 def test_without_a_kind_everything_is_listed_under_headings(call):
     lines = call("list")[1].splitlines()
-    kinds = ("elements", "networks", "optimizers", "causes", "formats", "specimens", "rigs", "exports", "plugins")
+    kinds = (
+        "elements",
+        "networks",
+        "optimizers",
+        "causes",
+        "formats",
+        "specimens",
+        "rigs",
+        "studies",
+        "exports",
+        "plugins",
+    )
     assert [line for line in lines if line in kinds] == list(kinds)
