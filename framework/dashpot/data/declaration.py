@@ -15,7 +15,7 @@ from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place, Problem
 from dashpot.text.quantity import measure
 
-SETTING_UNITS = {"amplitude": "m", "preload": "m", "start": "Hz", "stop": "Hz", "frequency": "Hz"}
+SETTING_UNITS = {"amplitude": "m", "preload": "m", "start": "Hz", "stop": "Hz", "frequency": "Hz", "added_mass": "kg"}
 
 # what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
 ACCEPTABLE = ("clipping", "units")

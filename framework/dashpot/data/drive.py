@@ -38,6 +38,19 @@ class Drive:
         return self.displacement.size
 
 
+def refined_path(drive: Drive, parts: int) -> tuple[Array, Array, Array]:
+    """Displacement, velocity and acceleration, ((samples - 1) * parts + 1,) each, at equal parts of every step.
+
+    Between two samples they follow the quintic with the given positions, velocities and accelerations.
+    """
+    from scipy.interpolate import BPoly
+
+    time = drive.dt * np.arange(drive.samples)
+    fine = drive.dt / parts * np.arange((drive.samples - 1) * parts + 1)
+    path = BPoly.from_derivatives(time, np.column_stack([drive.displacement, drive.velocity, drive.acceleration]))
+    return path(fine), path(fine, 1), path(fine, 2)
+
+
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:
     """The drive of a path whose rates are known."""
     step, place = find_turns(dt, displacement, velocity)

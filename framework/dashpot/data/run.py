@@ -20,6 +20,7 @@ class Run:
     held_out: what the dataset says about it, None when it says nothing.
     sensors: channel -> its specification in SI (gain, zero, delay, noise).
     source: the file it came from; order: its number in the dataset, from 0, as it was measured.
+    end: the node whose force it is about, where a run with several forces was taken apart.
     """
 
     name: str
@@ -34,11 +35,22 @@ class Run:
     source: str = ""
     order: int = 0
     notes: Mapping[str, str] = field(default_factory=dict)
+    end: str = ""
 
     @property
     def sample_time(self) -> float:
         """Seconds between two samples."""
         return float(self.time[1] - self.time[0])
+
+    @property
+    def record(self) -> str:
+        """The name of the measured run; those that were taken apart share it."""
+        return self.name.removesuffix(f"@{self.end}") if self.end else self.name
+
+    @property
+    def cluster(self) -> str:
+        """What is fitted or held out together: a run, its repeats, and all forces of both."""
+        return self.group.removesuffix(f"@{self.end}") if self.end else self.group
 
     @property
     def displacement(self) -> np.ndarray:

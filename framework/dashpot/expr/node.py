@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -101,6 +101,18 @@ def table(curve: str, argument: Node, order: int = 0) -> Node:
     return _intern("table", (argument,), (curve, order))
 
 
+def lookup(curve: str, argument: Node, order: int = 0) -> Node:
+    """The same as ``table`` where the argument moves with the lanes: every lane finds its own segment."""
+    return _intern("lookup", (argument,), (curve, order))
+
+
+def with_arguments(node: Node, arguments: Sequence[Node]) -> Node:
+    """The same operation on other arguments."""
+    if node.operation in ("table", "lookup"):
+        return _intern(node.operation, tuple(arguments), node.payload)
+    return apply(node.operation, *arguments) if arguments else node
+
+
 def as_node(value: Any) -> Node:
     """A node as it is, a number as a constant."""
     return value if isinstance(value, Node) else constant(value)
@@ -177,11 +189,17 @@ def _simplify(operation: str, arguments: tuple[Node, ...]) -> Node | None:
             return arguments[1] if first.payload else arguments[2]
         return arguments[1] if arguments[1] is arguments[2] else None
     if operation == "multiply":
+        if _is(first, 0.0) or _is(second, 0.0):
+            return constant(0.0)
         return second if _is(first, 1.0) else first if _is(second, 1.0) else None
     if operation == "add":
         return second if _is(first, 0.0) else first if _is(second, 0.0) else None
     if operation == "subtract" and _is(second, 0.0):
         return first
+    if operation == "subtract" and first is second:
+        return constant(0.0)
+    if operation == "negative" and first.operation == "negative":
+        return first.arguments[0]
     if operation in ("divide", "power") and _is(second, 1.0):
         return first
     if operation == "power" and _is(second, 2.0):

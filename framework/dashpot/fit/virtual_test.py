@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from dashpot.contract.bench import Bench
 from dashpot.contract.measuring import Measuring
 from dashpot.contract.rig import PORT, PlannedRun, channel_at
+from dashpot.data.excitation import Excitation
 from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.observe import Observation
+from dashpot.kernel.system import CompiledSystem
 from dashpot.model.network import NetworkSpec
-from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 DYNAMIC = ("sweep", "harmonic", "random", "transient")
@@ -36,14 +37,14 @@ def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0) -> list[Run]:
     return measured
 
 
-def forces_of(network: CompiledNetwork, planned: PlannedRun) -> dict[str, Array]:
+def forces_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun) -> dict[str, Array]:
     """The force (n,) in N that each driven node feels, by node."""
-    if set(planned.motion) != {PORT}:
-        driven = ", ".join(repr(node) for node in planned.motion)
-        raise InputError.at(Place(network.spec.source or network.spec.name),
-                            f"run '{planned.name}' drives the nodes {driven}, '{network.spec.name}' has two ends only",
-                            "choose a rig for a single specimen")  # fmt: skip
-    return {PORT: network.simulate(network.prepare(planned.motion[PORT].drive(planned.sample_time)))}
+    drives = {node: path.drive(planned.sample_time) for node, path in planned.motion.items()}
+    rows = network.prepare(Excitation(drives, {}, planned.settings, planned.sample_time, planned.samples, planned.name))
+    if isinstance(network, CompiledNetwork):
+        return {PORT: network.simulate(rows)}
+    forces = dict(zip(network.outputs, network.forces(rows)[0], strict=True))
+    return {PORT: forces.popitem()[1]} if list(drives) == [PORT] else forces
 
 
 def _measured(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +31,11 @@ class Rows:
     local: Array
     turn_at: NDArray[np.int64]
     turn_columns: Array
+    settings: Mapping[str, float] = field(default_factory=dict)
 
 
-def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive) -> Rows:
+def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive,
+                 settings: Mapping[str, float]) -> Rows:  # fmt: skip
     """Everything of a network that depends on the drive alone. At the first sample no branch has a memory yet."""
     samples, turns = see_samples(drive), see_turns(drive)
     before_samples, before_turns = follow(program.followers, drive, samples, turns)
@@ -46,7 +48,7 @@ def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: 
         argument = np.broadcast_to(interpret([look.argument], samples)[0], (drive.samples,))
         segment, local[:, number] = segment_of(curves[look.curve], argument)
         index[:, number] = bases[look.curve] + SEGMENT * segment
-    return Rows(drive, columns, index, local, drive.turn_step, turn_columns)
+    return Rows(drive, columns, index, local, drive.turn_step, turn_columns, settings)
 
 
 def table_bases(program: Program, curves: Mapping[str, Characteristic]) -> dict[str, int]:

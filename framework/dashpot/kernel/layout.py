@@ -23,11 +23,24 @@ def score_row(program: Program) -> int:
     return len(program.constants) + len(program.states)
 
 
-class Layout:
-    """The places of a program's nodes during one pass over the lanes; ``updates`` are the states that it moves."""
+@dataclass(frozen=True)
+class Shelf:
+    """Where a curve's coefficients begin in the tables, and its knots among all knots."""
 
-    def __init__(self, program: Program, updates: Mapping[str, Node], force: Node | None = None) -> None:
-        self.updates, self.force = updates, force
+    base: int
+    first: int
+    count: int
+
+
+class Layout:
+    """The places of a program's nodes during one pass over the lanes; ``updates`` are the states that it moves.
+
+    ``shelves`` says for every curve that lanes look up by themselves where it stands.
+    """
+
+    def __init__(self, program: Program, updates: Mapping[str, Node], force: Node | None = None,
+                 shelves: Mapping[str, Shelf] | None = None) -> None:  # fmt: skip
+        self.updates, self.force, self.shelves = updates, force, shelves or {}
         self.constants = {node.serial: number for number, node in enumerate(program.constants)}
         self.columns = {node.serial: number for number, node in enumerate(program.columns)}
         self.states = {name: len(self.constants) + number for number, name in enumerate(program.states)}

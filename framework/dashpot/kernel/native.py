@@ -44,17 +44,30 @@ def load_native(source: str) -> Native:
 
     Raises InputError when the cache folder cannot be written.
     """
+    return _native(source, str(cache_folder()))
+
+
+def load_module(source: str) -> ModuleType:
+    """The compiled file of a source text, from the cache where it is known.
+
+    Raises InputError when the cache folder cannot be written.
+    """
     return _load(source, str(cache_folder()))
 
 
 @lru_cache(maxsize=256)
-def _load(source: str, folder: str) -> Native:
+def _native(source: str, folder: str) -> Native:
+    module = _load(source, folder)
+    return Native(module.simulate, module.score, Path(str(module.__file__)))
+
+
+@lru_cache(maxsize=256)
+def _load(source: str, folder: str) -> ModuleType:
     digest = hashlib.sha256(source.encode()).hexdigest()[:16]
     name = f"network_{digest}"
     file = Path(folder) / "kernels" / f"{name}.py"
     _write_once(file, source)
-    module = _import(name, file)
-    return Native(module.simulate, module.score, file)
+    return _import(name, file)
 
 
 def _import(name: str, file: Path) -> ModuleType:

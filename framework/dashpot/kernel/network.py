@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node, walk
 from dashpot.kernel.block import Block, aligned_copy
@@ -20,10 +21,13 @@ from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.layout import Passes, score_row
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.settings import with_settings
 from dashpot.kernel.source import WIDTH, print_source
+from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.kernel.tiers import Program, sort_tiers
 from dashpot.kernel.trace import refuse_missing_numbers, trace_network
-from dashpot.model.network import Characteristic, NetworkSpec
+from dashpot.model.network import END, Characteristic, NetworkSpec
+from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 VECTOR = 8
@@ -53,8 +57,7 @@ class CompiledNetwork:
     @cached_property
     def curves(self) -> dict[str, Characteristic]:
         """Every curve of the network by path."""
-        return {f"{branch.name}.{key}": curve for branch in self.spec.leaves()
-                for key, curve in branch.characteristics().items()}  # fmt: skip
+        return self.spec.curves()
 
     @cached_property
     def rows(self) -> int:
@@ -65,9 +68,11 @@ class CompiledNetwork:
     def _recipe(self) -> list[Node]:
         return walk(self.program.constants)
 
-    def prepare(self, drive: Drive) -> Rows:
+    def prepare(self, motion: Drive | Excitation) -> Rows:
         """The part of the work that depends on the drive alone."""
-        return prepare_rows(self.program, self.curves, drive)
+        if isinstance(motion, Drive):
+            return prepare_rows(self.program, self.curves, motion, {})
+        return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], motion.settings)
 
     def observation(self, values: Array) -> Observation:
         """How the load cell sees each lane."""
@@ -75,7 +80,7 @@ class CompiledNetwork:
 
     def simulate(self, run: Rows, values: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
-        lanes = np.atleast_2d(self.start if values is None else values)
+        lanes = with_settings(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
         out = np.empty((lanes.shape[0], run.drive.samples))
         for block in self._blocks(run.drive.dt, lanes):
             buffer = np.empty((run.drive.samples, block.width))
@@ -90,10 +95,13 @@ class CompiledNetwork:
         A lane whose force is not finite scores NaN.
         """
         lanes = np.atleast_2d(values)
-        blocks = {dt: self._blocks(dt, lanes) for dt in {run.drive.dt for run in runs}}
+        blocks: dict[Hashable, list[Block]] = {}
+        for run in runs:
+            if _make(run) not in blocks:
+                blocks[_make(run)] = self._blocks(run.drive.dt, with_settings(self.spec, lanes, run.settings))
 
         def work(run: Rows, target: Array, weight: Array) -> Array:
-            return self._score(run, target, weight, blocks[run.drive.dt], lanes.shape[0])
+            return self._score(run, target, weight, blocks[_make(run)], lanes.shape[0])
 
         if jobs == 1:
             return np.array(list(map(work, runs, measured, weights)))
@@ -136,12 +144,19 @@ class CompiledNetwork:
         return np.concatenate(parts) if parts else np.empty(0)
 
 
-def compile_network(spec: NetworkSpec) -> CompiledNetwork:
-    """Trace, sort, print, compile.
+def _make(run: Rows) -> Hashable:
+    return run.drive.dt, tuple(sorted(run.settings.items()))
+
+
+def compile_network(spec: NetworkSpec) -> CompiledNetwork | CompiledSystem:
+    """Trace, sort, print, compile; a network with nodes whose motion is unknown becomes a ``CompiledSystem``.
 
     Raises InputError for a network that cannot be compiled, such as one whose curve is still to come from data.
     """
     refuse_missing_numbers(spec)
+    topology = topology_of(spec)
+    if not topology.parallel:
+        return compile_system(spec, topology)
     program = sort_tiers(trace_network(spec))
     return CompiledNetwork(spec, program, load_native(print_source(program)))
 

@@ -147,21 +147,24 @@ def sign(a):
     return a if a != a else side
 
 
-# the long functions on rows of the workspace: from row ``source`` on, every ``step``-th; answers from ``target`` on
+# the long functions on rows of the workspace: from row ``source`` on, every ``step``-th; answers from ``target`` on.
+# Rows are cut out, so that the compiler sees that no index is negative
 @njit(**FUNCTION)
 def exp_rows(w, source, step, target, onward, rows, lanes):
     use_full_vectors()
     for r in range(rows):
+        x, y = w[source + step * r :][:64], w[target + onward * r :][:64]
         for l in range(lanes):
-            w[target + onward * r + l] = exp(w[source + step * r + l])
+            y[l] = exp(x[l])
 
 
 @njit(**FUNCTION)
 def log_rows(w, source, step, target, onward, rows, lanes):
     use_full_vectors()
     for r in range(rows):
+        x, y = w[source + step * r :][:64], w[target + onward * r :][:64]
         for l in range(lanes):
-            w[target + onward * r + l] = log(w[source + step * r + l])
+            y[l] = log(x[l])
 
 
 @njit(**FUNCTION)
@@ -169,13 +172,58 @@ def wrightomega_rows(w, source, step, target, onward, rows, lanes):
     use_full_vectors()
     above = False
     for r in range(rows):
+        x, y = w[source + step * r :][:64], w[target + onward * r :][:64]
         for l in range(lanes):
-            above |= w[source + step * r + l] > 24.0
-            w[target + onward * r + l] = wrightomega_below_24(w[source + step * r + l])
+            above |= x[l] > 24.0
+            y[l] = wrightomega_below_24(x[l])
     if above:
         for r in range(rows):
+            x, y = w[source + step * r :][:64], w[target + onward * r :][:64]
             for l in range(lanes):
-                p = w[source + step * r + l]
-                y = w[target + onward * r + l]
-                w[target + onward * r + l] = wrightomega_above_24(p) if p > 24.0 else y
+                y[l] = wrightomega_above_24(x[l]) if x[l] > 24.0 else y[l]
+
+
+@njit(**FUNCTION)
+def cubic(part, l, u, order):
+    # a cubic of a table, or its first or second derivative
+    c1, c2, c3 = part[l + 64], part[l + 128], part[l + 192]
+    value = part[l] + u * (c1 + u * (c2 + u * c3))
+    slope = c1 + u * (2.0 * c2 + 3.0 * u * c3)
+    return value if order == 0 else slope if order == 1 else 2.0 * c2 + 6.0 * u * c3
+
+
+@njit("void(float64[::1], int64, int64, float64[::1], int64, float64[::1], int64, int64, int64, int64)", **LOOP)
+def lookup_rows(w, source, target, tables, base, knots, first, count, order, lanes):
+    # a table whose argument every lane has for itself. Lanes are close together: the segment of the first one serves
+    # all, then those above and those below it are done again, segment by segment, while there are any
+    use_full_vectors()
+    lanes = lanes & -8
+    x, y = w[source : source + 64], w[target : target + 64]
+    s = 0
+    while s < count and x[0] >= knots[first + s]:
+        s += 1
+    start = knots[first + max(s - 1, 0)]
+    part = tables[base + 256 * s : base + 256 * s + 256]
+    for l in range(lanes):
+        y[l] = cubic(part, l, x[l] - start, order)
+    for k in range(s + 1, count + 1):
+        knot = knots[first + k - 1]
+        part = tables[base + 256 * k : base + 256 * k + 256]
+        left = 0
+        for l in range(lanes):
+            beyond = x[l] >= knot
+            y[l] = cubic(part, l, x[l] - knot, order) if beyond else y[l]
+            left += 1 if beyond else 0
+        if left == 0:
+            break
+    for k in range(s - 1, -1, -1):
+        knot, start = knots[first + k], knots[first + max(k - 1, 0)]
+        part = tables[base + 256 * k : base + 256 * k + 256]
+        left = 0
+        for l in range(lanes):
+            beyond = x[l] < knot
+            y[l] = cubic(part, l, x[l] - start, order) if beyond else y[l]
+            left += 1 if beyond else 0
+        if left == 0:
+            break
 """

@@ -46,8 +46,8 @@ def print_source(program: Program) -> str:
     return "\n".join([
         f'"""Network kernel: {len(program.states)} states, {len(program.constants)} constants."""',
         PRELUDE,
-        _function("simulate", ", out", ", float64[:,::1]", [], _passes(program, passes, store)),
-        _function("score", ", measured, weight", ", float64[::1], float64[::1]", begin, _passes(program, passes, add)),
+        _function("simulate", ", out", ", float64[:,::1]", [], _run(program, passes, store)),
+        _function("score", ", measured, weight", ", float64[::1], float64[::1]", begin, _run(program, passes, add)),
     ])  # fmt: skip
 
 
@@ -56,25 +56,30 @@ def _function(name: str, extra: str, types: str, begin: Sequence[str], body: Seq
     lines = [f'@njit("void({_TYPES}{types})", cache=True, **LOOP)', f"def {name}({_ARGUMENTS}{extra}):",
              "    use_full_vectors()", "    lanes = lanes & -8", "    m = 0",
              "    for k in range(columns.shape[0]):"]  # fmt: skip
-    return _renumber("\n".join([*lines, *_indent(8, [*begin, *body])])) + "\n"
+    return renumbered("\n".join([*lines, *indented(8, [*begin, *body])])) + "\n"
 
 
-def _passes(program: Program, passes: Passes, ending: Sequence[str]) -> list[str]:
+def _run(program: Program, passes: Passes, ending: Sequence[str]) -> list[str]:
     lines: list[str] = []
     if passes.turn:
-        turn = [*_correction(program, passes, "turn_columns[m"), *_pass(passes.turn, "turn_columns[m", []), "m += 1"]
-        lines += ["while m < turn_at.shape[0] and turn_at[m] == k:", *_indent(4, turn)]
-    return [*lines, *_correction(program, passes, "columns[k"), *_pass(passes.step, "columns[k", ending)]
+        turn = [
+            *_correction(program, passes, "turn_columns[m"),
+            *print_pass(passes.turn, "turn_columns[m", []),
+            "m += 1",
+        ]
+        lines += ["while m < turn_at.shape[0] and turn_at[m] == k:", *indented(4, turn)]
+    return [*lines, *_correction(program, passes, "columns[k"), *print_pass(passes.step, "columns[k", ending)]
 
 
 def _correction(program: Program, passes: Passes, column: str) -> list[str]:
     if not passes.correct:
         return []
     due = [f"{column}, {passes.correct.columns[event.serial]}] != 0.0" for event in program.events]
-    return [f"if {' or '.join(due)}:", *_indent(4, _pass(passes.correct, column, []))]
+    return [f"if {' or '.join(due)}:", *indented(4, print_pass(passes.correct, column, []))]
 
 
-def _pass(layout: Layout, column: str, ending: Sequence[str]) -> list[str]:
+def print_pass(layout: Layout, column: str, ending: Sequence[str]) -> list[str]:
+    """The lines of a pass over the lanes, with the drive's columns in ``column``; ``ending`` closes the last loop."""
     *early, last = layout.stages
     lines = []
     for stage in early:
@@ -103,19 +108,30 @@ def _loop(layout: Layout, stage: Stage, column: str, ending: Sequence[str]) -> l
             body += [f"{_name(layout, node)} = {_expression(layout, node)}"]
     body += [f"w[{WIDTH * layout.row(node)} + l] = {_name(layout, node)}" for node in stage.nodes
              if node.serial in layout.kept]  # fmt: skip
-    return [*head, "for l in range(lanes):", *_indent(4, [*body, *ending])] if stage.nodes or ending else []
+    return [*head, "for l in range(lanes):", *indented(4, [*body, *ending])] if stage.nodes or ending else []
 
 
 def _calls(layout: Layout, stage: Stage) -> list[str]:
     # calls of the same function, whose rows follow one another at equal distances, are one call
     runs: list[tuple[str, list[tuple[int, int]]]] = []
+    lines = []
     for node in stage.calls:
         rows = layout.row(node.arguments[0]), layout.row(node)
+        if node.operation == "lookup":
+            lines.append(_lookup(layout, node, rows))
+            continue
         if runs and runs[-1][0] == node.operation and _continues(runs[-1][1], rows):
             runs[-1][1].append(rows)
         else:
             runs.append((node.operation, [rows]))
-    return [f"{operation}_rows(w, {_places(run)}, {len(run)}, lanes)" for operation, run in runs]
+    return [*lines, *(f"{operation}_rows(w, {_places(run)}, {len(run)}, lanes)" for operation, run in runs)]
+
+
+def _lookup(layout: Layout, node: Node, rows: tuple[int, int]) -> str:
+    (curve, order), (source, target) = node.payload, rows
+    shelf = layout.shelves[curve]
+    place = f"tables, {shelf.base}, knots, {shelf.first}, {shelf.count}"
+    return f"lookup_rows(w, {WIDTH * source}, {WIDTH * target}, {place}, {order}, lanes)"
 
 
 def _continues(run: Sequence[tuple[int, int]], rows: tuple[int, int]) -> bool:
@@ -167,11 +183,13 @@ def _expression(layout: Layout, node: Node) -> str:
     return f"{_CALLS[node.operation]}({', '.join(arguments)})"
 
 
-def _indent(width: int, lines: Sequence[str]) -> list[str]:
+def indented(width: int, lines: Sequence[str]) -> list[str]:
+    """Lines moved to the right."""
     return [" " * width + line for line in lines]
 
 
-def _renumber(text: str) -> str:
+def renumbered(text: str) -> str:
+    """The text with its intermediate results numbered from 0 on."""
     # the names of intermediate results carry serial numbers of this process; equal networks must print equal files
     order: dict[str, str] = {}
     return re.sub(r"\bt(\d+)\b", lambda found: order.setdefault(found[0], f"t{len(order)}"), text)

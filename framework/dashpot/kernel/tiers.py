@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntFlag
 
-from dashpot.expr.node import Node, apply, constant, symbol, table, walk
+from dashpot.expr.node import Node, apply, constant, symbol, walk, with_arguments
 from dashpot.kernel.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
 from dashpot.kernel.trace import TracedBranch
 
@@ -78,13 +78,13 @@ def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
     roots, corrections = split_events(roots, known)
     events = _unique(correction.condition for correction in corrections)
     before = [_corrected(correction, len(events) > 1) for correction in corrections]
-    regroup = _Regrouping(set(states), known, _shared([*roots, *before]))
+    regroup = Regrouping(set(states), known, shared_nodes([*roots, *before]))
     force, *updates = [regroup(root) for root in roots]
     corrected = {correction.state: regroup(node) for correction, node in zip(corrections, before, strict=True)}
     for event in events:
         regroup.settle(event)
     everything = [force, *updates, *corrected.values()]
-    columns, constants, lookups = _hoist(everything, events, regroup.tiers)
+    columns, constants, lookups = hoist(everything, events, regroup.tiers)
     turning = {name for branch in branches if branch.sight == "monotone" for name in branch.states}
     return Program(
         columns, constants, lookups, followers, force, dict(zip(states, updates, strict=True)),
@@ -98,8 +98,10 @@ def _corrected(correction: Correction, among_others: bool) -> Node:
     return apply("where", correction.condition, correction.then, symbol(correction.state))
 
 
-def _hoist(roots: Sequence[Node], events: Sequence[Node], tiers: Mapping[int, Tier],
-           ) -> tuple[tuple[Node, ...], tuple[Node, ...], tuple[Lookup, ...]]:  # fmt: skip
+def hoist(
+    roots: Sequence[Node], events: Sequence[Node], tiers: Mapping[int, Tier]
+) -> tuple[tuple[Node, ...], tuple[Node, ...], tuple[Lookup, ...]]:
+    """The nodes that leave the inner loop: once per sample, once per lane, and the tables along the drive."""
     inner = [node for node in walk(roots) if _is_inner(tiers[node.serial])]
     edges = [argument for node in inner if node.operation != "table" for argument in node.arguments]
     edges += [root for root in roots if not _is_inner(tiers[root.serial])]
@@ -110,8 +112,8 @@ def _hoist(roots: Sequence[Node], events: Sequence[Node], tiers: Mapping[int, Ti
     )
 
 
-def _shared(roots: Sequence[Node]) -> set[int]:
-    # nodes with more than one use: regrouping must not dissolve them, or their work would be done twice
+def shared_nodes(roots: Sequence[Node]) -> set[int]:
+    """The serials of nodes with more than one use: dissolved by regrouping, their work would be done twice."""
     uses = Counter(root.serial for root in roots)
     for node in walk(roots):
         uses.update(argument.serial for argument in node.arguments)
@@ -130,7 +132,7 @@ def _unique(nodes: Iterable[Node]) -> tuple[Node, ...]:
     return tuple({node.serial: node for node in nodes}.values())
 
 
-class _Regrouping:
+class Regrouping:
     """Rebuilds a graph bottom up with the factors and terms of each tier together."""
 
     def __init__(self, states: set[str], known: set[str], shared: set[int]) -> None:
@@ -149,8 +151,13 @@ class _Regrouping:
 
     def settle(self, node: Node) -> Node:
         """Note the tiers of a node and everything below it."""
-        for inner in walk([node]):
-            if inner.serial not in self.tiers:
+        stack = [node]
+        while stack:
+            new = [argument for argument in stack[-1].arguments if argument.serial not in self.tiers]
+            if new:
+                stack.extend(new)
+            else:
+                inner = stack.pop()
                 self.tiers[inner.serial] = self.tier(inner)
         return node
 
@@ -159,18 +166,16 @@ class _Regrouping:
             if node.payload in self.states:
                 return Tier.STATE
             return Tier.NOTHING if node.payload == "dt" else Tier.DRIVE if node.payload in self.known else Tier.LANE
-        found = Tier.LANE if node.operation == "table" else Tier.NOTHING
+        found = Tier.LANE if node.operation in ("table", "lookup") else Tier.NOTHING
         for argument in node.arguments:
             found |= self.tiers[argument.serial]
         return found
 
     def rebuild(self, node: Node) -> Node:
         arguments = tuple(self.done[argument.serial] for argument in node.arguments)
-        if node.operation == "table":
-            return table(node.payload[0], arguments[0], node.payload[1])
         if not arguments:
             return node
-        plain = apply(node.operation, *arguments)
+        plain = with_arguments(node, arguments)
         if plain.serial in self.kept:
             return plain
         if node.operation in ("multiply", "divide", "negative"):
@@ -199,6 +204,7 @@ class _Regrouping:
 
     def spread(self, factor: Node, total: Node) -> Node | None:
         """A lane's factor times a sum, where every term holds a number of the lane that can take the factor in."""
+        self.settle(total)
         if total.operation in ("add", "subtract") and total.serial not in self.kept:
             first, second = (self.spread(factor, argument) for argument in total.arguments)
             return None if first is None or second is None else apply(total.operation, first, second)

@@ -9,12 +9,14 @@ from typing import Any, Literal
 
 from dashpot.expr.node import Node, TraceError, as_node, symbol, symbols_of, table, walk
 from dashpot.model.element import Motion, Response
-from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec
+from dashpot.model.network import Branch, Characteristic, NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 # how a branch sees the drive: "still" without memory, "path" along the cubic of a whole step, "monotone" from turning
 # point to turning point
 Sight = Literal["still", "path", "monotone"]
+# the law in itself, with the symbols of a motion that is put in later
+Course = Literal["still", "path", "monotone", "edge"]
 
 STATE_MARK = "|"  # between the branch and the state in the symbol of a state
 RATES = ("velocity_old", "velocity_new", "acceleration")
@@ -25,7 +27,7 @@ class TracedBranch:
     """The law of one branch as graph nodes. ``states`` maps the symbol of a state to its new value."""
 
     name: str
-    sight: Sight
+    sight: Course
     force: Node
     states: Mapping[str, Node]
 
@@ -56,8 +58,7 @@ class CurveLaw:
 
 
 def trace_network(spec: NetworkSpec) -> tuple[TracedBranch, ...]:
-    """The laws of all branches. Raises InputError where the network needs what this version cannot solve."""
-    _refuse_series(spec.root)
+    """The laws of all branches of a network with two ends, each along the motion of the driven one."""
     return tuple(trace_branch(branch) for branch in spec.leaves())
 
 
@@ -84,15 +85,16 @@ def trace_branch(branch: Branch) -> TracedBranch:
 
 
 def _see(branch: Branch) -> TracedBranch:
-    traced = _trace(branch, "path")
+    traced = trace_along(branch, "path")
     if not traced.states:
-        return _trace(branch, "still")
+        return trace_along(branch, "still")
     used = {name for root in traced.roots for name in symbols_of(root)}
     needs_rates = "dt" in used or any(f"path.{rate}" in used for rate in RATES)
-    return traced if needs_rates else _trace(branch, "monotone")
+    return traced if needs_rates else trace_along(branch, "monotone")
 
 
-def _trace(branch: Branch, sight: Sight) -> TracedBranch:
+def trace_along(branch: Branch, sight: Course) -> TracedBranch:
+    """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on."""
     motion = Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
     declared = branch.element.declares
     states = {key: f"{branch.name}{STATE_MARK}{key}" for key in declared.states}
@@ -105,7 +107,7 @@ def _trace(branch: Branch, sight: Sight) -> TracedBranch:
     check_states(branch, response)
     force = as_node(response.force)
     if branch.scale:
-        force = force * CurveLaw(f"{branch.name}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
+        force = force * CurveLaw(f"{branch.numbers}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
     return TracedBranch(branch.name, sight, force, {states[k]: as_node(v) for k, v in response.states.items()})
 
 
@@ -120,20 +122,10 @@ def check_states(branch: Branch, response: Response) -> None:
 def _parameter(branch: Branch, key: str) -> Node | CurveLaw | float | None:
     if key in branch.curves:
         curve: Characteristic = branch.curves[key]
-        return CurveLaw(f"{branch.name}.{key}", curve.form, len(curve.values))
+        return CurveLaw(f"{branch.numbers}.{key}", curve.form, len(curve.values))
     if key in branch.values:
-        return symbol(f"{branch.name}.{key}")
+        return symbol(f"{branch.numbers}.{key}")
     return branch.element.declares.parameters[key].default
-
-
-def _refuse_series(group: Group) -> None:
-    for member in group.members:
-        if isinstance(member, Group):
-            if member.kind == "series":
-                message = f"the branch '{member.name}' is a series connection: its inner node cannot be solved yet"
-                hint = "use an element that contains the series; `dashpot list elements` shows all"
-                raise InputError.at(member.place, message, hint)
-            _refuse_series(member)
 
 
 def _refuse_moving_tables(branch: Branch, traced: TracedBranch) -> None:

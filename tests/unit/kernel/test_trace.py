@@ -46,20 +46,6 @@ def test_a_factor_acts_on_the_force_and_not_on_the_memory():
     assert scaled.force is not plain.force
 
 
-def test_a_series_connection_is_refused_with_its_place():
-    spec = network("""
-        leg:
-          parallel:
-            chain:
-              series:
-                a: {element: spring, stiffness: 5}
-                b: {element: damper, damping: 5}
-    """)
-    for compile_or_trace in (compile_network, trace_network):
-        with pytest.raises(InputError, match="n.yaml:7:9: the branch 'leg.chain' is a series connection"):
-            compile_or_trace(spec)
-
-
 def test_a_curve_without_numbers_is_refused_with_what_to_do():
     spec = network("it: {element: spring, stiffness: {from: quasi_static}}")
     assert trace_network(spec)

@@ -1,0 +1,74 @@
+"""What a rig does to a specimen with any number of ends: known motions, known forces, and the settings of the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive, drive_from_samples
+from dashpot.data.run import Run
+from dashpot.text.problem import InputError, Place
+
+Array = NDArray[np.float64]
+
+
+def channel_at(quantity: str, node: str) -> str:
+    """The name of a channel: ``force@wheel_left``, or ``force`` alone in a network with two ends."""
+    return f"{quantity}@{node}" if node else quantity
+
+
+@dataclass(frozen=True, eq=False)
+class Excitation:
+    """Motions (Drive) and loads (n,) in N by the name of the node, and the numbers of the test procedure, in SI.
+
+    The node of a network with two ends has the name "". ``name`` is that of the run, ``source`` its file.
+    """
+
+    motions: Mapping[str, Drive]
+    loads: Mapping[str, Array] = field(default_factory=dict)
+    settings: Mapping[str, float] = field(default_factory=dict)
+    dt: float = 0.0
+    samples: int = 0
+    name: str = ""
+    source: str = ""
+
+    @classmethod
+    def of_drive(cls, drive: Drive) -> Excitation:
+        """The excitation of a network with two ends."""
+        return cls({"": drive}, dt=drive.dt, samples=drive.samples)
+
+    @classmethod
+    def of_run(cls, run: Run) -> Excitation:
+        """The measured motions of a run, and the forces at nodes whose motion is not measured."""
+        motions = {_node(name): drive_from_samples(run.sample_time, np.array(samples))
+                   for name, samples in run.channels.items() if name.partition("@")[0] == "displacement"}  # fmt: skip
+        loads = {_node(name): np.array(samples) for name, samples in run.channels.items()
+                 if name.partition("@")[0] == "force" and _node(name) not in motions}  # fmt: skip
+        return cls(motions, loads, run.settings, run.sample_time, run.time.size, run.record, run.source)
+
+    def at(self, driven: Sequence[str], loaded: Sequence[str]) -> Excitation:
+        """The excitation of a network with these nodes; a single motion without a name is that of its only driven node.
+
+        Raises InputError for a node whose motion or load is not there.
+        """
+        motions = dict(self.motions)
+        if len(driven) == 1 and driven[0] not in motions and list(motions) == [""]:
+            motions = {driven[0]: motions[""]}
+        for quantity, known, nodes in (("displacement", motions, driven), ("force", self.loads, loaded)):
+            for node in nodes:
+                if node not in known:
+                    raise InputError.at(Place(self.source or None), f"run '{self.name}' has no channel "
+                                        f"'{channel_at(quantity, node)}', which the network needs; it has motions of "
+                                        f"{_names(self.motions)}", "declare it under 'channels'")  # fmt: skip
+        return replace(self, motions=motions)
+
+
+def _node(channel: str) -> str:
+    return channel.partition("@")[2]
+
+
+def _names(nodes: Iterable[str]) -> str:
+    return ", ".join(f"'{node}'" for node in nodes) or "no node"

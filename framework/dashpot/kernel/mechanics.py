@@ -1,0 +1,321 @@
+"""The equations of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
+
+The unknowns are the new positions of the free nodes. Every edge answers its force and its new memory for a given motion
+of its two ends; the derivative of that force after the new position is the tangent that Newton's method needs. The
+equations come in passes, each a set of rows of the workspace and their new values:
+
+start    a first guess of the static equilibrium
+settle   Newton's step towards it
+rest     the motion and the memory with which the record begins
+predict  the part of a step that does not depend on the unknowns, and a first guess of them
+improve  Newton's step
+commit   the new motion, the new memory, what is measured
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+
+from dashpot.expr.derive import derive
+from dashpot.expr.node import Node, constant, lookup, symbol, symbols_of
+from dashpot.expr.rebuild import rebuild, replaced
+from dashpot.kernel.elimination import ZERO, solve_symmetric
+from dashpot.kernel.trace import RATES, TracedBranch, trace_along
+from dashpot.model.topology import Edge, Topology
+
+SMALLEST_DAMPING, STALLING = 1.0 / 64.0, 0.9
+ONE, NEVER = constant(1.0), constant(1e300)
+
+# what drives the steps, the same for all lanes
+SLOPE, NOW, BEFORE, SWING = (symbol(f"rule.{key}") for key in ("slope", "now", "before", "swing"))
+TOLERANCE, FARTHEST = symbol("newton.tolerance"), symbol("newton.farthest")
+GRAVITY, STEP = symbol("gravity"), symbol("dt")
+# rows that belong to the whole network
+DONE, DAMPING, DISTANCE, NOTHING = (f"newton|{key}" for key in ("done", "damping", "distance", "nothing"))
+RULE = ("rule.slope", "rule.now", "rule.before", "rule.swing", "newton.tolerance", "newton.farthest")
+MOVED = ("old", "new", "velocity_old", "velocity_new", "acceleration")
+
+Rows = Mapping[str, Node]
+
+
+def driven_symbol(joint: str, key: str) -> str:
+    """The name of a known motion (``MOVED``) or ``load`` of a node."""
+    return f"node:{joint}.{key}"
+
+
+def row_of(joint: str, key: str) -> str:
+    """The name of a row: position, velocity, acceleration, position_before, velocity_before, next ... of a node."""
+    return f"node:{joint}|{key}"
+
+
+def force_row(joint: str) -> str:
+    """The row of the force that the outside exerts on a driven node, upwards, in N."""
+    return row_of(joint, "force")
+
+
+@dataclass(frozen=True)
+class Equations:
+    """The passes of a network; see the module. ``known`` are the symbols that the drive gives."""
+
+    start: Rows
+    settle: Rows
+    rest: Rows
+    predict: Rows
+    improve: Rows
+    commit: Rows
+    known: frozenset[str]
+
+    @property
+    def passes(self) -> tuple[Rows, ...]:
+        """All of them, in the order in which they run."""
+        return (self.start, self.settle, self.rest, self.predict, self.improve, self.commit)
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """The names of all rows."""
+        return tuple(dict.fromkeys([NOTHING, *(name for rows in self.passes for name in rows)]))
+
+
+def write_equations(topology: Topology) -> Equations:
+    """The equations of a network."""
+    laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
+    known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
+    known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
+    still, moving = _Still(topology, laws), _Moving(topology, laws)
+    states = {name for law in laws for name in law.states} | {row_of(joint, key) for joint in topology.unknown
+                                                               for key in (*_KEPT, "next")}  # fmt: skip
+    finish = _Finish(states | {NOTHING})
+    return Equations(*(finish(rows) for rows in (still.start(), still.improve(), still.rest(), moving.predict(),
+                                                moving.improve(), moving.commit())), frozenset(known))  # fmt: skip
+
+
+_KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
+
+
+class _Finish:
+    """Makes every table one that each lane looks up by itself."""
+
+    def __init__(self, states: set[str]) -> None:
+        self.states = states
+
+    def __call__(self, rows: Rows) -> Rows:
+        return dict(zip(rows, rebuild(list(rows.values()), self.look_up), strict=True))
+
+    def look_up(self, node: Node) -> Node:
+        if node.operation != "table":
+            return node
+        argument = node.arguments[0]
+        # an argument that is the same for all lanes has no row of its own yet
+        moves = any("|" in name for name in symbols_of(argument))
+        return lookup(node.payload[0], argument if moves else argument + symbol(NOTHING), node.payload[1])
+
+
+class _Balance:
+    """The balance of forces at the unknown nodes."""
+
+    def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
+        self.topology, self.laws = topology, laws
+        pairs = list(zip(topology.edges, laws, strict=True))
+        self.forces = [self.along(edge, law.force) for edge, law in pairs]
+        self.tangents = [self.along(edge, self.tangent(law.force)) for edge, law in pairs]
+
+    def motion(self, edge: Edge) -> Mapping[str, Node]:
+        """The motion of an edge: what stands for ``edge.old``, ``edge.new`` ..."""
+        raise NotImplementedError
+
+    def tangent(self, force: Node) -> Node:
+        """The change of a force with the new deflection."""
+        raise NotImplementedError
+
+    def inertia(self, joint: str) -> tuple[Node, Node]:
+        """The acceleration of a node and its change with the new position."""
+        raise NotImplementedError
+
+    def load(self, joint: str) -> Node:
+        """The force that is known to act on a node."""
+        return symbol(driven_symbol(joint, "load")) if self.topology.joints[joint].hold == "loaded" else ZERO
+
+    def along(self, edge: Edge, law: Node) -> Node:
+        """What a law says for the motion of its edge."""
+        return replaced(law, self.motion(edge))
+
+    def mass(self, joint: str) -> Node:
+        """The mass of a node."""
+        node = self.topology.joints[joint]
+        return reduce(np.add, [symbol(f"{node.numbers}.{key}") for key in node.masses], ZERO)
+
+    def push(self, joint: str) -> Node:
+        """The sum of the forces of all edges on a node, upwards."""
+        total = ZERO
+        for edge, force in zip(self.topology.edges, self.forces, strict=True):
+            if joint == edge.upper:
+                total = total + force
+            elif joint == edge.lower:
+                total = total - force
+        return total
+
+    def carried(self, joint: str) -> Node:
+        """The force that the outside has to exert on a node to move it as it moves."""
+        mass = self.mass(joint)
+        weight = ZERO if mass is ZERO else mass * (self.inertia(joint)[0] + GRAVITY)
+        return weight - self.push(joint)
+
+    def improve(self) -> dict[str, Node]:
+        """Newton's step of all unknowns, damped where the last one did not get nearer; finished lanes stay."""
+        unknown = self.topology.unknown
+        missing = {joint: self.load(joint) - self.carried(joint) for joint in unknown}
+        ways = solve_symmetric(self._matrix(), missing)
+        distance = reduce(np.maximum, (np.absolute(way) for way in ways.values()), ZERO)
+        done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
+        stalled = distance > STALLING * before
+        damped = np.where(stalled, np.maximum(0.5 * damping, SMALLEST_DAMPING), np.minimum(2.0 * damping, 1.0))
+        # what is not a number is not far: such a lane is finished, and its forces tell
+        near = np.logical_not(distance > TOLERANCE)
+        share = np.where(near, 1.0, np.minimum(damped, FARTHEST / np.maximum(distance, FARTHEST)))
+        after = {row_of(joint, "next"): self._next(joint) + np.where(done, 0.0, share * way)
+                 for joint, way in ways.items()}  # fmt: skip
+        return {**after, DISTANCE: distance, DAMPING: damped, DONE: np.where(done | near, 1.0, 0.0)}
+
+    def _next(self, joint: str) -> Node:
+        return symbol(row_of(joint, "next"))
+
+    def _matrix(self) -> dict[str, dict[str, Node]]:
+        unknown = self.topology.unknown
+        rows: dict[str, dict[str, Node]] = {joint: {joint: ZERO} for joint in unknown}
+        for joint in unknown:
+            mass = self.mass(joint)
+            rows[joint][joint] = ZERO if mass is ZERO else mass * self.inertia(joint)[1]
+        for edge, tangent in zip(self.topology.edges, self.tangents, strict=True):
+            ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
+            for joint in ends:
+                rows[joint][joint] = rows[joint][joint] + tangent
+            if len(ends) == 2:
+                for one, other in (ends, ends[::-1]):
+                    rows[one][other] = rows[one].get(other, ZERO) - tangent
+        return rows
+
+    def difference(self, edge: Edge, of: Callable[[str], Node]) -> Node:
+        """A kinematic quantity of an edge: that of its lower node less that of its upper one."""
+        return of(edge.lower) - of(edge.upper)
+
+    def known(self, joint: str, key: str) -> Node | None:
+        """The motion of a node that the drive gives; None for an unknown one."""
+        hold = self.topology.joints[joint].hold
+        return {"ground": ZERO, "driven": symbol(driven_symbol(joint, key))}.get(hold)
+
+    def outputs(self) -> dict[str, Node]:
+        """The forces at the driven nodes."""
+        return {force_row(joint): self.carried(joint) for joint in self.topology.held("driven")}
+
+    @staticmethod
+    def offset(edge: Edge) -> Node:
+        """The deflection of an edge whose nodes stand at zero."""
+        return symbol(edge.offset) if edge.offset else ZERO
+
+
+class _Still(_Balance):
+    """The static equilibrium: nothing moves, no branch has a memory."""
+
+    def position(self, joint: str) -> Node:
+        """Where a node is."""
+        known = self.known(joint, "new")
+        return self._next(joint) if known is None else known
+
+    def motion(self, edge: Edge) -> Mapping[str, Node]:
+        place = self.difference(edge, self.position) + self.offset(edge)
+        return {"edge.new": place, **self._rest(place)}
+
+    def _rest(self, place: Node) -> dict[str, Node]:
+        memory = {name: ZERO for law in self.laws for name in law.states}
+        return {"edge.old": place, **{f"edge.{rate}": ZERO for rate in RATES}, **memory}
+
+    def tangent(self, force: Node) -> Node:
+        return derive(replaced(force, self._rest(symbol("edge.new"))), "edge.new")
+
+    def inertia(self, joint: str) -> tuple[Node, Node]:
+        return ZERO, ZERO
+
+    def start(self) -> dict[str, Node]:
+        """All unknown nodes in the middle of the known ones."""
+        driven = [symbol(driven_symbol(joint, "new")) for joint in self.topology.held("driven")]
+        middle = reduce(np.add, driven, ZERO) / float(max(len(driven), 1))
+        first = {row_of(joint, "next"): middle for joint in self.topology.unknown}
+        return {**first, DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
+
+    def rest(self) -> dict[str, Node]:
+        """At rest in equilibrium."""
+        rows: dict[str, Node] = {name: ZERO for law in self.laws for name in law.states}
+        for joint in self.topology.unknown:
+            rows |= {row_of(joint, key): ZERO for key in _KEPT}
+            rows |= {row_of(joint, key): self._next(joint) for key in ("position", "position_before")}
+        return {**rows, **self.outputs()}
+
+
+class _Moving(_Balance):
+    """One step."""
+
+    def position(self, joint: str) -> Node:
+        """Where a node is at the end of the step."""
+        known = self.known(joint, "new")
+        return self._next(joint) if known is None else known
+
+    def velocity(self, joint: str) -> Node:
+        """The velocity of a node at the end of the step."""
+        known = self.known(joint, "velocity_new")
+        return SLOPE * self._next(joint) + symbol(row_of(joint, "drift")) if known is None else known
+
+    def acceleration(self, joint: str) -> Node:
+        """The acceleration of a node at the end of the step."""
+        known = self.known(joint, "acceleration")
+        return SLOPE * self.velocity(joint) + symbol(row_of(joint, "swing")) if known is None else known
+
+    def before(self, joint: str, key: str, row: str) -> Node:
+        """The motion of a node at the begin of the step."""
+        known = self.known(joint, key)
+        return symbol(row_of(joint, row)) if known is None else known
+
+    def motion(self, edge: Edge) -> Mapping[str, Node]:
+        offset = self.offset(edge)
+        return {
+            "edge.old": self.difference(edge, lambda joint: self.before(joint, "old", "position")) + offset,
+            "edge.new": self.difference(edge, self.position) + offset,
+            "edge.velocity_old": self.difference(edge, lambda joint: self.before(joint, "velocity_old", "velocity")),
+            "edge.velocity_new": self.difference(edge, self.velocity),
+            "edge.acceleration": self.difference(edge, self.acceleration),
+        }
+
+    def tangent(self, force: Node) -> Node:
+        rates = derive(force, "edge.velocity_new") + SLOPE * derive(force, "edge.acceleration")
+        return derive(force, "edge.new") + SLOPE * rates
+
+    def inertia(self, joint: str) -> tuple[Node, Node]:
+        return self.acceleration(joint), SLOPE * SLOPE
+
+    def predict(self) -> dict[str, Node]:
+        """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""
+        rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
+        for joint in self.topology.unknown:
+            x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in _KEPT)
+            rows[row_of(joint, "drift")] = NOW * x + BEFORE * earlier + SWING * v
+            rows[row_of(joint, "swing")] = NOW * v + BEFORE * slower + SWING * a
+            bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
+            rows[row_of(joint, "next")] = x + STEP * (v + bend)
+        return rows
+
+    def commit(self) -> dict[str, Node]:
+        """The end of the step becomes the begin of the next one."""
+        rows = {name: self.along(edge, node) for edge, law in zip(self.topology.edges, self.laws, strict=True)
+                for name, node in law.states.items()}  # fmt: skip
+        for joint in self.topology.unknown:
+            rows |= {
+                row_of(joint, "position"): self._next(joint),
+                row_of(joint, "velocity"): self.velocity(joint),
+                row_of(joint, "acceleration"): self.acceleration(joint),
+                row_of(joint, "position_before"): symbol(row_of(joint, "position")),
+                row_of(joint, "velocity_before"): symbol(row_of(joint, "velocity")),
+            }
+        return {**rows, **self.outputs()}

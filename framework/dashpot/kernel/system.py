@@ -1,0 +1,304 @@
+"""A compiled network with unknown nodes: simulate and score whole blocks of lanes, with an estimate of the error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.drive import Drive, refined_path
+from dashpot.data.excitation import Excitation
+from dashpot.expr.interpret import interpret
+from dashpot.expr.node import constant, walk
+from dashpot.kernel.block import aligned_copy
+from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.layout import Shelf
+from dashpot.kernel.mechanics import MOVED, Equations, driven_symbol, write_equations
+from dashpot.kernel.native import load_module
+from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.scheme import PAIR, alternate
+from dashpot.kernel.settings import with_settings
+from dashpot.kernel.source import SEGMENT, WIDTH
+from dashpot.kernel.system_source import UNBALANCED, UNSOLVED, SystemLayouts, print_system
+from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
+from dashpot.kernel.trace import refuse_missing_numbers
+from dashpot.model.network import Characteristic, NetworkSpec
+from dashpot.model.topology import Topology, topology_of
+
+Array = NDArray[np.float64]
+
+VECTOR = 8
+PAIRS = 1  # coarse steps in a sample, in pairs
+TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3
+
+
+class Status(Enum):
+    """How a lane ended; the value is the message."""
+
+    GOOD = "solved"
+    UNSOLVED = "the forces at the inner nodes could not be balanced in some step"
+    UNBALANCED = "no static equilibrium was found at the begin of the record"
+    NOT_FINITE = "a force is not a finite number"
+
+
+_CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANCED}
+
+
+@dataclass(frozen=True, eq=False)
+class SystemRows:
+    """The part of the work on a run that depends on its excitation alone."""
+
+    excitation: Excitation
+    pairs: int
+    still: Array
+    coarse: Array
+    fine: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Forces (lanes, driven nodes, samples) in N and motions (lanes, unknown nodes, samples) in m, of the nodes named.
+
+    ``error`` (lanes, driven nodes) in N is the estimated root mean square error of the forces, from halving the steps;
+    it is that of the short steps, before their leading error was taken away. ``status`` is one for each lane.
+    """
+
+    driven: tuple[str, ...]
+    unknown: tuple[str, ...]
+    force: Array
+    motion: Array
+    error: Array
+    status: tuple[Status, ...]
+
+
+@dataclass(frozen=True)
+class CompiledSystem:
+    """A network with unknown nodes that is constant: one per topology and number of knots, never per parameter value.
+
+    ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
+    """
+
+    spec: NetworkSpec
+    topology: Topology
+    program: Program
+    layouts: SystemLayouts
+    native: ModuleType
+
+    @cached_property
+    def paths(self) -> tuple[str, ...]:
+        """The paths of the slots."""
+        return tuple(slot.path for slot in self.spec.slots())
+
+    @cached_property
+    def start(self) -> Array:
+        """The values of the file as a single lane (slots,)."""
+        return np.array([slot.value.number for slot in self.spec.slots()])
+
+    @cached_property
+    def outputs(self) -> tuple[str, ...]:
+        """The driven nodes, whose forces are answered."""
+        return self.topology.held("driven")
+
+    @cached_property
+    def _recipe(self) -> list:
+        return walk(self.program.constants)
+
+    @cached_property
+    def _knots(self) -> Array:
+        return np.array([at for curve in _tabulated(self.spec).values() for at in curve.at])
+
+    def observation(self, values: Array) -> Observation:
+        """How the load cells see each lane."""
+        return read_observation(self.paths, np.atleast_2d(values))
+
+    def prepare(self, motion: Drive | Excitation, pairs: int = PAIRS) -> SystemRows:
+        """The part of the work that depends on the excitation alone; ``pairs`` of coarse steps lie in a sample."""
+        whole = Excitation.of_drive(motion) if isinstance(motion, Drive) else motion
+        excitation = whole.at(self.outputs, self.topology.held("loaded"))
+        return SystemRows(
+            excitation,
+            pairs,
+            self._columns({"dt": excitation.dt, **self._still(excitation)}, 1),
+            self._moved(excitation, PAIR * pairs),
+            self._moved(excitation, 2 * PAIR * pairs),
+        )
+
+    def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
+        """Forces and motions with their estimated errors."""
+        lanes = self._lanes(run, values)
+        samples, driven, unknown = run.excitation.samples, self.outputs, self.topology.unknown
+        out = np.empty((lanes.shape[0], len(driven) + len(unknown), samples))
+        error, status = np.empty((lanes.shape[0], len(driven))), np.empty(lanes.shape[0], dtype=np.int64)
+        for block in _blocks(lanes):
+            answer, miss = np.empty((samples, out.shape[1], WIDTH)), np.zeros((out.shape[1], WIDTH))
+            status[block] = self._run(run, lanes[block], answer, miss)
+            count = lanes[block].shape[0]
+            out[block] = answer[:, :, :count].transpose(2, 1, 0)
+            error[block] = np.sqrt(miss[: len(driven), :count] / samples).T / 3.0
+        force, motion = out[:, : len(driven)], out[:, len(driven) :]
+        sound = np.isfinite(force).all(axis=(1, 2))
+        states = tuple(_CODES[code] if fine else Status.NOT_FINITE for code, fine in zip(status, sound, strict=True))
+        return Solution(driven, unknown, force, motion, error, states)
+
+    def forces(self, run: SystemRows, values: Array | None = None) -> Array:
+        """The forces at the driven nodes (lanes, nodes, samples) in N; a lane that failed answers NaN."""
+        found = self.solve(run, values)
+        found.force[[status is not Status.GOOD for status in found.status]] = np.nan
+        return found.force
+
+    def simulate(self, run: SystemRows, values: Array | None = None, end: str | None = None) -> Array:
+        """The force at a driven node (lanes, samples) in N, by default the first one; a lane that failed answers NaN.
+
+        One lane is answered as (samples,).
+        """
+        force = self.forces(run, values)[:, self.number_of(end) if end else 0]
+        return force[0] if values is None or np.ndim(values) == 1 else force
+
+    def number_of(self, end: str) -> int:
+        """The place of a driven node among all; a network with a single one has it under any name."""
+        return 0 if len(self.outputs) == 1 else self.outputs.index(end)
+
+    def score(self, runs: Sequence[SystemRows], measured: Sequence[Array], weights: Sequence[Array], values: Array,
+              jobs: int = 1) -> Array:  # fmt: skip
+        """Weighted sums of squared errors (runs, nodes, lanes) against ``measured`` (nodes, samples), no force stored.
+
+        A lane that fails scores NaN.
+        """
+
+        def work(run: SystemRows, target: Array, weight: Array) -> Array:
+            return self._score(run, np.ascontiguousarray(target), np.ascontiguousarray(weight), values)
+
+        if jobs == 1:
+            return np.array(list(map(work, runs, measured, weights)))
+        with ThreadPoolExecutor(jobs) as pool:
+            return np.array(list(pool.map(work, runs, measured, weights)))
+
+    def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
+        lanes = self._lanes(run, values)
+        total = np.empty((len(self.outputs), lanes.shape[0]))
+        for block in _blocks(lanes):
+            out, miss = np.zeros((1, len(self.outputs), WIDTH)), np.zeros((len(self.outputs), WIDTH))
+            status = self._run(run, lanes[block], out, miss, (measured, weight))
+            total[:, block] = np.where(status, np.nan, out[0, :, : status.size])
+        return total
+
+    def _run(self, run: SystemRows, lanes: Array, out: Array, miss: Array,
+             scoring: tuple[Array, Array] | None = None) -> NDArray[np.int64]:  # fmt: skip
+        count = lanes.shape[0]
+        width = -(-count // VECTOR) * VECTOR
+        padded = np.concatenate([lanes, np.repeat(lanes[-1:], width - count, axis=0)])
+        step = run.excitation.dt / (PAIR * run.pairs)
+        space = aligned_copy(np.concatenate([self._workspace(dt, padded) for dt in (step, 0.5 * step)]))
+        status = np.zeros(WIDTH, dtype=np.int64)
+        measured, weight = scoring or (np.empty((0, 0)), np.empty((0, 0)))
+        self.native.run(run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status,
+                        width, aligned_copy(self._tables(padded)), self._knots, measured, weight, out, miss,
+                        scoring is not None)  # fmt: skip
+        return status[:count]
+
+    def _lanes(self, run: SystemRows, values: Array | None) -> Array:
+        return with_settings(
+            self.spec, np.atleast_2d(self.start if values is None else values), run.excitation.settings
+        )
+
+    def _workspace(self, dt: float, lanes: Array) -> Array:
+        space = np.zeros((self.layouts.rows, WIDTH))
+        known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
+        for row, number in zip(space, interpret(self.program.constants, known, nodes=self._recipe), strict=False):
+            row[: lanes.shape[0]] = number
+        return space.ravel()
+
+    def _tables(self, lanes: Array) -> Array:
+        parts = [np.empty(0)]
+        for path, curve in _tabulated(self.spec).items():
+            numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
+            coefficients = cubic_coefficients(curve, lanes[:, numbers].T)
+            wide = np.zeros((*coefficients.shape[:2], WIDTH))
+            wide[..., : lanes.shape[0]] = coefficients
+            parts.append(wide.ravel())
+        return np.concatenate(parts)
+
+    def _moved(self, excitation: Excitation, parts: int) -> Array:
+        seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
+        count = (excitation.samples - 1) * parts
+        for joint in self.outputs:
+            x, v, a = refined_path(excitation.motions[joint], parts)
+            moved = dict(zip(MOVED, (x[:-1], x[1:], v[:-1], v[1:], a[1:]), strict=True))
+            seen |= {driven_symbol(joint, key): column for key, column in moved.items()}
+        for joint in self.topology.held("loaded"):
+            at = np.arange(1, count + 1) / parts
+            seen[driven_symbol(joint, "load")] = _between(excitation.loads[joint], at)
+        rule = alternate(excitation.dt / parts, count // PAIR)
+        seen |= {f"rule.{key}": getattr(rule, key) for key in ("slope", "now", "before", "swing")}
+        return self._columns(seen | self._newton(excitation), count)
+
+    def _still(self, excitation: Excitation) -> dict[str, float]:
+        seen = {f"rule.{key}": 0.0 for key in ("slope", "now", "before", "swing")} | self._newton(excitation)
+        for joint in self.outputs:
+            place = float(excitation.motions[joint].displacement[0])
+            seen |= {driven_symbol(joint, key): place if key in ("old", "new") else 0.0 for key in MOVED}
+        for joint in self.topology.held("loaded"):
+            seen[driven_symbol(joint, "load")] = float(excitation.loads[joint][0])
+        return seen
+
+    def _newton(self, excitation: Excitation) -> dict[str, float]:
+        spans = [np.ptp(drive.displacement) for drive in excitation.motions.values()]
+        span = float(max([SMALLEST_SPAN, *spans]))
+        return {"newton.tolerance": TOLERANCE * span, "newton.farthest": FARTHEST * span}
+
+    def _columns(self, seen: dict[str, Array | float], count: int) -> Array:
+        found = np.zeros((count, len(self.program.columns)))
+        for column, values in zip(found.T, interpret(self.program.columns, seen), strict=True):
+            column[:] = values
+        return found
+
+
+def compile_system(spec: NetworkSpec, topology: Topology | None = None) -> CompiledSystem:
+    """Trace, balance, sort, print, compile. Raises InputError for a network that cannot be compiled."""
+    refuse_missing_numbers(spec)
+    topology = topology or topology_of(spec)
+    equations = write_equations(topology)
+    program, passes = _sort(equations)
+    layouts = SystemLayouts(program, equations, _shelves(spec), passes)
+    source = print_system(layouts, topology.held("driven"), topology.unknown)
+    return CompiledSystem(spec, topology, program, layouts, load_module(source))
+
+
+def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
+    roots = [node for rows in equations.passes for node in rows.values()]
+    regroup = Regrouping(set(equations.rows), set(equations.known), shared_nodes(roots))
+    names = ("start", "settle", "rest", "predict", "improve", "commit")
+    passes = {name: {row: regroup(node) for row, node in rows.items()}
+              for name, rows in zip(names, equations.passes, strict=True)}  # fmt: skip
+    columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
+    zero = constant(0.0)
+    return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
+
+
+def _blocks(lanes: Array) -> list[slice]:
+    return [slice(first, first + WIDTH) for first in range(0, lanes.shape[0], WIDTH)]
+
+
+def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:
+    return {path: curve for path, curve in spec.curves().items() if curve.form == "table"}
+
+
+def _shelves(spec: NetworkSpec) -> dict[str, Shelf]:
+    shelves, base, first = {}, 0, 0
+    for path, curve in _tabulated(spec).items():
+        shelves[path] = Shelf(base, first, len(curve.at))
+        base += SEGMENT * (len(curve.at) + 1)
+        first += len(curve.at)
+    return shelves
+
+
+def _between(samples: Array, at: Array) -> Array:
+    from scipy.interpolate import make_interp_spline
+
+    return make_interp_spline(np.arange(samples.size), samples, k=3 if samples.size > 3 else 1)(at)
