@@ -2,7 +2,8 @@
 
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen`` or ``Rig`` and mark its hook with
 ``hookimpl``. Use the parts from Python with ``load_registry``, ``read_network``, ``read_dataset``, ``simulate_runs``,
-``fit_network``, ``compare`` and ``diagnose``. Everything is imported on first use: ``import dashpot`` costs nothing.
+``fit_network``, ``read_study``, ``run_study``, ``virtual_test``, ``compare`` and ``diagnose``. Everything is imported on
+first use: ``import dashpot`` costs nothing.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from dashpot.contract.specimen import Specimen as Specimen
     from dashpot.data.dataset import read_dataset as read_dataset
     from dashpot.fit.api import fit_network as fit_network
+    from dashpot.fit.study.reading import read_study as read_study
+    from dashpot.fit.study.run import run_study as run_study
+    from dashpot.fit.virtual_test import virtual_test as virtual_test
     from dashpot.kernel.api import simulate_runs as simulate_runs
     from dashpot.model.element import Curve as Curve
     from dashpot.model.element import Element as Element
@@ -59,6 +63,9 @@ _HOMES = {
     "dashpot.contract.rig": ("PlannedRun", "PrescribedPath", "Rig"),
     "dashpot.kernel.api": ("simulate_runs",),
     "dashpot.fit.api": ("fit_network",),
+    "dashpot.fit.study.reading": ("read_study",),
+    "dashpot.fit.study.run": ("run_study",),
+    "dashpot.fit.virtual_test": ("virtual_test",),
     "dashpot.assess.compare": ("compare",),
     "dashpot.assess.diagnose": ("diagnose",),
 }

@@ -28,7 +28,7 @@ class Sweep:
     @property
     def time(self) -> Array:
         """The instants (n,) in s."""
-        return self.sample_time * np.arange(round(self.duration / self.sample_time) + 1)
+        return np.arange(round(self.duration / self.sample_time) + 1, dtype=float) * self.sample_time
 
     def turning(self) -> tuple[Array, Array, Array]:
         """Phase (rad), its rate (rad/s) and the rate of that (rad/s^2), each (n,)."""

@@ -30,7 +30,7 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     return {**content, "format": "dashpot-study-result/1", "study": study, "models": models}
 
 
-def study_evidence(result: StudyResult) -> dict[str, Any]:
+def study_evidence(result: StudyResult) -> Any:
     """Arrays and texts for the report: those of the comparison."""
     return comparison_of(result).evidence()
 

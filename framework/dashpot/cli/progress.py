@@ -55,7 +55,8 @@ class ProgressBar:
         if stage != self._stage or not self._bar.tasks:
             for task in self._bar.task_ids:
                 self._bar.remove_task(task)
-            self._bar.add_task(text, completed=done or 0.0)
+            self._bar.update(self._bar.add_task(text, start=False), completed=done or 0.0)
+            self._bar.start_task(self._bar.task_ids[0])
         task = self._bar.task_ids[0]
         self._bar.update(task, description=text, completed=done or 0.0, total=None if done is None else 1.0)
 

@@ -75,7 +75,7 @@ def read_optimizer_options(text: str, known: Mapping[str, type[Optimizer]], text
     for name in texts if len(words) > 1 else ():
         if name.partition(".")[0] not in words or "." not in name:
             raise ValueError(f"option '{name}': expected '{words[0]}.option' or another word of '{text}' in its place")
-    found = {}
+    found: dict[str, Any] = {}
     for word in words:
         own = read_options(known_optimizer(word, known), _own(texts, word, len(words)))
         found |= own if len(words) == 1 else {f"{word}.{name}": value for name, value in own.items()}

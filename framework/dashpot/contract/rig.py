@@ -54,7 +54,7 @@ class PlannedRun:
     @property
     def time(self) -> Array:
         """The instants (n,) in s."""
-        return self.sample_time * np.arange(self.samples)
+        return np.arange(self.samples, dtype=float) * self.sample_time
 
 
 class Rig(ABC):

@@ -68,8 +68,9 @@ class Coordinates:
         base = self.base.copy()
         base[self.which[number]] = self.number(number, at)
         paths = tuple(path for path, kept in zip(self.paths, rest, strict=True) if kept)
-        arrays = (self.which, self.log, self.low, self.high, self.unit)
-        return Coordinates(paths, *(array[rest] for array in arrays), base)
+        return Coordinates(
+            paths, self.which[rest], self.log[rest], self.low[rest], self.high[rest], self.unit[rest], base
+        )
 
 
 def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambda slot: True) -> Coordinates:

@@ -79,7 +79,7 @@ def _at_amplitude(study: Json, evidence: Evidence) -> Section:
     curves = [
         curve
         for curve in evidence.get("dynamic_stiffness", ())
-        if curve.get("amplitude") and math.isclose(curve["amplitude"], amplitude, rel_tol=ALIKE)
+        if math.isclose(curve.get("amplitude") or 0.0, amplitude, rel_tol=ALIKE)
     ]
     best = best_model(study)
     parts = figures.stiffness_figures(curves, [best["name"]] if best else []) if curves else []

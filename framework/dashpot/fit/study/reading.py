@@ -103,16 +103,26 @@ class _Reader:
     def _model(self, node: Node, before: list[str]) -> ModelPlan | None:
         if isinstance(node, Scalar):
             network = self._network(read_text(node))
-            return network and self._new(ModelPlan(network, self._stages), before, node.place)
+            return self._new(network, self._stages, None, before, node.place)
         form = Form(node, self._problems, "the model")
         word = form.text("network")
         start_from = form.choice("start_from", before, None)
         stages = self._read_stages(form, self._stages)
         form.close()
         network = self._network(word) if word else None
-        return network and self._new(ModelPlan(network, stages, start_from), before, node.place)
+        return self._new(network, stages, start_from, before, node.place)
 
-    def _new(self, plan: ModelPlan, before: list[str], place: Place) -> ModelPlan:
+    def _new(
+        self,
+        network: NetworkSpec | None,
+        stages: tuple[Stage, ...],
+        start_from: str | None,
+        before: list[str],
+        place: Place,
+    ) -> ModelPlan | None:
+        if network is None:
+            return None
+        plan = ModelPlan(network, stages, start_from)
         if plan.name in before:
             self._problems.append(Problem(place, f"two models are called '{plan.name}'", "give one another name"))
         if not plan.stages:
@@ -135,15 +145,16 @@ class _Reader:
     def _stage(self, form: Form) -> Stage | None:
         name = form.text("name")
         if "take" in form:
-            take = form.choice("take", ("curves", "ends"))
+            take: Any = form.choice("take", ("curves", "ends"))
             form.close()
             return TakeStage(name, take) if name and take else None
         optimizer = form.text("optimizer", OWN_METHOD)
+        runs: Any = form.choice("runs", ("dynamic", "all"), "all")
         stage = SearchStage(
             name=name or "",
             free=_patterns(form, "free", ("*",)),
             fixed=_patterns(form, "fixed", ()),
-            runs=form.choice("runs", ("dynamic", "all"), "all"),
+            runs=runs,
             optimizer=optimizer,
             options=self._options(form, optimizer),
             budget=_at_least_one(form, "budget", self._budget),
