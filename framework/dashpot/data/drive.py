@@ -43,12 +43,22 @@ def refined_path(drive: Drive, parts: int) -> tuple[Array, Array, Array]:
 
     Between two samples they follow the quintic with the given positions, velocities and accelerations.
     """
-    from scipy.interpolate import BPoly
+    x, v, a, dt = drive.displacement, drive.velocity, drive.acceleration, drive.dt
+    far = x[1:] - x[:-1] - dt * (v[:-1] + 0.5 * dt * a[:-1])
+    fast = dt * (v[1:] - v[:-1] - dt * a[:-1])
+    bent = 0.5 * dt * dt * (a[1:] - a[:-1])
+    third, fourth, fifth = 10 * far - 4 * fast + bent, -15 * far + 7 * fast - 2 * bent, 6 * far - 3 * fast + bent
+    ascending = [x[:-1], dt * v[:-1], 0.5 * dt * dt * a[:-1], third, fourth, fifth]
+    place, speed, bend = (_at_parts(ascending, order, parts) / dt**order for order in range(3))
+    return np.append(place, x[-1]), np.append(speed, v[-1]), np.append(bend, a[-1])
 
-    time = drive.dt * np.arange(drive.samples)
-    fine = drive.dt / parts * np.arange((drive.samples - 1) * parts + 1)
-    path = BPoly.from_derivatives(time, np.column_stack([drive.displacement, drive.velocity, drive.acceleration]))
-    return path(fine), path(fine, 1), path(fine, 2)
+
+def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
+    # the polynomials of every step, or their derivatives, at equal parts of it
+    u = np.arange(parts) / parts
+    powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(len(ascending))]
+    return sum(np.outer(part, np.polynomial.polynomial.polyval(u, power))
+               for part, power in zip(ascending, powers, strict=True)).ravel()  # fmt: skip
 
 
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:
