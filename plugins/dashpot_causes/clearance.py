@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.contract.cause import Cause, Suspect, View, added_branch, unchanged
 from dashpot.model.network import NetworkSpec
 
+Array = NDArray[np.float64]
 PLACES = 9
 CENTRES = 3
 
@@ -23,13 +26,14 @@ class Clearance(Cause):
         "storage stiffness falls like 1/amplitude towards small strokes; odd harmonics in phase with deflection; a "
         "flat spot after each reversal or around zero force"
     )
+    cure = "preload or replace the joint, or measure the displacement across the specimen"
     confused_with = {
         "friction": "a quasi-static triangle: friction makes the loop stiffer after a reversal, lost motion softer",
         "stiffness_curve": "preload the joint: a clearance vanishes",
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring behind play that is pushed to and fro; a spring with a dead zone around some deflections."""
+        """A spring behind play; a spring with a dead zone around some deflections; play between drive and specimen."""
         gaps = tuple(np.geomspace(2e-3 * view.stroke, 0.3 * view.stroke, PLACES))
         units = {"stiffness": "N/m", "gap": "m", "centre": "m"}
         yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
@@ -43,3 +47,29 @@ class Clearance(Cause):
                 units,
                 unknowns=2,
             )
+        lost = _Lost(gaps[::2])
+        yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
+
+
+@dataclass(frozen=True)
+class _Lost:
+    """The whole specimen is moved only by what play leaves of the motion."""
+
+    gaps: tuple[float, ...]
+
+    def __call__(self, view: View, run: str) -> Array:
+        x = view.displacement(run)
+        return np.array([view.moved(run, _behind_play(x, gap) - x) - view.force(run) for gap in self.gaps])
+
+    def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
+        return {"gap": (self.gaps[int(np.argmax(strengths))], "m"), "share": (max(strengths), "1")}
+
+
+def _behind_play(x: Array, gap: float) -> Array:
+    """The follower (n,) of a path behind play of ``gap`` to either side."""
+    found = np.empty(x.size)
+    now = float(x[0])
+    for number, place in enumerate(x.tolist()):
+        now = min(max(now, place - gap), place + gap)
+        found[number] = now
+    return found

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +13,8 @@ from dashpot.model.patch import add_branch
 
 Array = NDArray[np.float64]
 UNITS = {"stiffness": "N/m", "fluid_mass": "kg", "damping": "N*s/m"}
-RATIOS = (0.05, 0.2)
-LOWEST, HIGHEST = 2.0, 120.0
-PLACES = 14
+BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
+LOWEST, HIGHEST = 0.15, 3.0  # of the end of the measured band
 SMALLEST_MASS = 1.01e-3  # kg
 
 
@@ -37,8 +35,9 @@ class Resonance(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A mass behind a spring over resonance frequencies, weakly or strongly damped."""
-        highest = min(HIGHEST, 0.15 / view.dt)
-        places = list(product(np.geomspace(LOWEST, highest, PLACES), RATIOS))
+        end = view.speed / (np.pi * view.stroke)
+        band = LOWEST * end, min(HIGHEST * end, 0.15 / view.dt)
+        places = [(float(f), ratio) for ratio, count in (BROAD, NARROW) for f in np.geomspace(*band, count)]
 
         def values(stiffness: float, place: float) -> dict[str, float]:
             frequency, ratio = places[int(place)]

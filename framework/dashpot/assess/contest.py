@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.assess.mend import Mend, corrected, make_mend, mended, shape_rows
+from dashpot.assess.mend import Mend, corrected, make_mend, mended, reshaped, shape_rows
 from dashpot.assess.noise import NoiseModel, flat_noise
 from dashpot.assess.projection import SparseRows, normal_equations, stack
 from dashpot.assess.screen import Finding
-from dashpot.assess.view import ModelView
+from dashpot.assess.view import ModelView, view_of
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
@@ -59,12 +59,20 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """What every refit needs; ``sensors`` is the data sheet of the force channel by run."""
+    """What every refit needs; ``sensors`` is the data sheet of the force channel by run.
+
+    ``unseen`` are runs that no refit sees, but on which a fault that it finds in all runs has to be known, too.
+    """
 
     runs: Sequence[ScoredRun]
     elements: Mapping[str, type[Element]]
     sensors: Mapping[str, Mapping[str, float]]
     jobs: int = 1
+    unseen: Sequence[ScoredRun] = ()
+
+    def view(self, model: Model) -> ModelView:
+        """A model on all runs as causes see it."""
+        return view_of(model.fitted, [*self.runs, *self.unseen], self.elements)
 
     def fit(
         self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None, mends: Sequence[Mend] = ()
@@ -90,6 +98,8 @@ class Bench:
         return Model(declared, fitted, coordinates, found.point, chi_square, found.outcome, mends)
 
     def _strengthened(self, model: Model, noise: NoiseModel | None) -> tuple[Mend, ...]:
+        view = self.view(model)
+        model = replace(model, mends=tuple(mend if mend.local else reshaped(mend, view) for mend in model.mends))
         residual, tangents = self.linearise(model)
         shapes = shape_rows(model.mends, self.runs)
         white = noise or flat_noise(dict.fromkeys(residual, 1.0))
@@ -128,12 +138,13 @@ class Trial:
     failure: str = ""
 
 
-def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int, view: ModelView) -> Trial:
-    """Extend the base by a finding, or mend the measurement, and refit; ``view`` shows the base on all runs."""
+def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int) -> Trial:
+    """Extend the base by a finding, or mend the measurement, and refit."""
     suspect = finding.candidate.suspect
     try:
         if suspect.mends:
-            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(view, finding)))
+            mend = make_mend(bench.view(base), finding)
+            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, mend))
         else:
             model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
     except InputError as error:

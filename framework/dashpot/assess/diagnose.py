@@ -59,7 +59,7 @@ def diagnose(
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
-    bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs)
+    bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out)
     pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name))
     pursuit = pursuer.run(model_of(fit))
     final = known_to(bench, pursuit)

@@ -70,6 +70,11 @@ def make_mend(view: ModelView, finding: Finding) -> Mend:
     return Mend(finding, touched, finding.strengths, finding.deviations)
 
 
+def reshaped(mend: Mend, view: ModelView) -> Mend:
+    """The mend with its strengths and the shapes that it has on another model."""
+    return replace(make_mend(view, mend.finding), strengths=mend.strengths, deviations=mend.deviations)
+
+
 def mended(run: ScoredRun, mends: Sequence[Mend]) -> ScoredRun:
     """The run with all faults taken out of its force."""
     faults = [mend.fault(run.name) for mend in mends if run.name in mend.shapes]

@@ -18,7 +18,7 @@ from dashpot.assess.gain import Gain, crossed, measure_gain
 from dashpot.assess.mend import Mend, mended, shape_rows
 from dashpot.assess.noise import NoiseModel
 from dashpot.assess.screen import Finding
-from dashpot.assess.suspicion import Look, expected_gain, look_at, view_of
+from dashpot.assess.suspicion import Look, expected_gain, look_at
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
 from dashpot.fit.objective import Objective
@@ -32,6 +32,8 @@ MOST_CAUSES = 5
 FINALISTS = 5
 TIE = 10.0
 TIE_SHARE = 5e-4
+SHARE_OF_FORM = 1e-3  # of what is explained already: forms are never quite right
+FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 
@@ -97,7 +99,7 @@ class Pursuer:
         accepted: list[Accepted] = []
         while len(accepted) < MOST_CAUSES:
             self.tried += len(look.screen.findings)
-            winner = self.best_trial(look, bool(accepted))
+            winner = self.best_trial(look, sum(entry.trial.gain for entry in accepted))
             if winner is None:
                 break
             accepted.append(winner)
@@ -112,8 +114,8 @@ class Pursuer:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out."""
         if not self.held_out:
             return
-        jury = Jury(replace(self.bench, runs=self.held_out), known_directions(self.bench, look.model, look.noise),
-                    self.causes, self.seed)  # fmt: skip
+        directions = known_directions(self.bench, look.model, look.noise)
+        jury = Jury(replace(self.bench, runs=self.held_out, unseen=()), directions, self.causes, self.seed)
         for _ in self.held_out:
             found = jury.faulty(replace(look.model, mends=ladder[-1].mends))
             if found is None:
@@ -149,7 +151,7 @@ class Pursuer:
         steps = [first, *models, last.model] if accepted else [first]
         return [self.bench.fit(step.declared, step.fitted, None, step.mends) for step in steps]
 
-    def best_trial(self, look: Look, later: bool) -> Accepted | None:
+    def best_trial(self, look: Look, explained: float) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
         finalists = choose_finalists(look)
         trials = []
@@ -160,7 +162,7 @@ class Pursuer:
         for trial in ranked:
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
             gain = self.gain_of(look.model, trial.model)
-            reason = self.objection(trial, gain, look, later)
+            reason = self.objection(trial, gain, look, explained)
             if reason:
                 self.reject(trial, reason, foreseen, gain)
                 continue
@@ -176,10 +178,7 @@ class Pursuer:
 
     def try_out(self, finding: Finding, look: Look) -> Trial:
         """A finding as a refitted model."""
-        view = look.view
-        if finding.candidate.suspect.mends:
-            view = view_of(look.model, [*self.bench.runs, *self.held_out], self.bench.elements)
-        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, view)
+        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples)
 
     def simplify(self, trial: Trial, look: Look) -> Trial:
         """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
@@ -190,8 +189,8 @@ class Pursuer:
         simpler = self.try_out(fewer, look)
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
-    def objection(self, trial: Trial, gain: Gain | None, look: Look, later: bool) -> str:
-        """Why a trial may not be accepted, or an empty text."""
+    def objection(self, trial: Trial, gain: Gain | None, look: Look, explained: float) -> str:
+        """Why a trial may not be accepted, or an empty text; ``explained`` is the fall of chi square so far."""
         if trial.failure:
             return trial.failure
         if trial.merit <= look.screen.threshold:
@@ -199,7 +198,9 @@ class Pursuer:
         if gain is not None and gain.value <= 0.0:
             return NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
-        if later and fall < SMALLEST_LATER_GAIN:
+        if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
+            return "explains no more than the accepted causes may be wrong by in their form"
+        if explained and fall < SMALLEST_LATER_GAIN:
             return f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
         return ""
 

@@ -13,13 +13,12 @@ from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
 from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
-from dashpot.assess.view import ModelView
+from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
 from dashpot.data.sensor_errors import error_shapes
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
-from dashpot.model.element import Element
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
@@ -74,14 +73,7 @@ def resolution(bench: Bench) -> dict[str, float]:
 def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array], dict[str, Array]]:
     """The model as causes see it, its residual (n,) and its tangents (p, n) by run, warm-up cut off."""
     residual, tangents = bench.linearise(model)
-    return view_of(model, bench.runs, bench.elements), residual, tangents
-
-
-def view_of(model: Model, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]]) -> ModelView:
-    """The model on runs as causes see it."""
-    forces = Objective(compile_network(model.fitted), runs).forces(model.values)
-    seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
-    return ModelView({run.name: run for run in runs}, seen, elements, model.fitted)
+    return view_of(model.fitted, bench.runs, bench.elements), residual, tangents
 
 
 def gather_candidates(

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.menu import Proposal, runs_to_choose_from
 from dashpot.assess.noise import NoiseModel
-from dashpot.assess.suspicion import view_of
 from dashpot.assess.unseen import known_directions
+from dashpot.assess.view import view_of
 from dashpot.data.drive import drive_from_samples
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise
@@ -45,7 +45,7 @@ def telling_run(bench: Bench, one: Model, other: Model, noise: NoiseModel) -> Te
     deviation = noise_deviation(bench, noise)
     known = {id(model): known_directions(bench, model, noise) for model in (one, other)}
     found = []
-    for proposal in runs_to_choose_from(view_of(one, bench.runs, bench.elements)):
+    for proposal in runs_to_choose_from(view_of(one.fitted, bench.runs, bench.elements)):
         run = _as_run(proposal, deviation)
         forces = [_force(model, run) for model in (one, other)]
         distances = [

@@ -16,8 +16,8 @@ from dashpot.assess.mend import Mend, make_mend
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.projection import SparseRows, normal_equations, stack
 from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen
-from dashpot.assess.suspicion import first_noise, resolution, sensor_nuisance, view_of
-from dashpot.assess.view import ModelView
+from dashpot.assess.suspicion import first_noise, resolution, sensor_nuisance
+from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ class Jury:
 
     def _columns(self, model: Model) -> tuple[Columns | None, ModelView]:
         residual, tangents = self.bench.linearise(model)
-        view = view_of(model, self.bench.runs, self.bench.elements)
+        view = view_of(model.fitted, self.bench.runs, self.bench.elements)
         candidates = _local_candidates(self.causes, view, model)
         if not candidates:
             return None, view

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import drive_from_samples
+from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.model.element import Element
@@ -95,6 +96,14 @@ class ModelView:
         probe = _probe(self.elements[element], tuple(values[0]))
         lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in values])
         return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
+
+
+def view_of(network: NetworkSpec, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]]) -> ModelView:
+    """A fitted network on runs as causes see it."""
+    objective = Objective(compile_network(network), runs)
+    forces = objective.forces(objective.network.start)
+    seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
+    return ModelView({run.name: run for run in runs}, seen, elements, network)
 
 
 @lru_cache(maxsize=64)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -29,13 +29,14 @@ class NoiseFloor:
     """RMS of the noise on a force, N, and where it was seen; value and source are None when it could not be.
 
     offset: N, scatter of the mean force between repeated runs, which is not part of the value;
-    weight: how many samples say so.
+    weight: how many samples say so; lower_bound: the noise may be larger, as part of it hides under the motion.
     """
 
     value: float | None
     source: Literal["repeats", "residual"] | None
     offset: float = 0.0
     weight: float = 0.0
+    lower_bound: bool = False
 
 
 UNKNOWN = NoiseFloor(None, None)
@@ -98,18 +99,22 @@ def noise_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time:
     seen = frequency > free
     densities = _densities(force, sample_time)[1][:, seen]
     spectrum = collect_spectrum(np.tile(frequency[seen], len(densities)), densities.ravel(), sample_time)
-    return _floor(spectrum.flat_below(), len(force))
+    return replace(_floor(spectrum.flat_below(), len(force)), lower_bound=True)
 
 
 def pool_noise(floors: Sequence[NoiseFloor]) -> NoiseFloor:
-    """One noise floor for many runs: of those from repeats if there are any, else of all that are known."""
-    for source in ("repeats", "residual"):
-        known = [(floor, floor.value) for floor in floors if floor.source == source and floor.value is not None]
+    """One noise floor for many runs, of the most trustworthy kind: from repeats, else no lower bounds, else these."""
+    for source, lower_bound in (("repeats", False), ("residual", False), ("residual", True)):
+        known = [
+            (floor, floor.value)
+            for floor in floors
+            if (floor.source, floor.lower_bound) == (source, lower_bound) and floor.value is not None
+        ]
         if known:
             weights = np.array([floor.weight for floor, _ in known])
             value = np.sqrt(np.average([value**2 for _, value in known], weights=weights))
             offset = np.sqrt(np.average([floor.offset**2 for floor, _ in known], weights=weights))
-            return NoiseFloor(float(value), known[0][0].source, float(offset), float(weights.sum()))
+            return NoiseFloor(float(value), known[0][0].source, float(offset), float(weights.sum()), lower_bound)
     return UNKNOWN
 
 

@@ -117,7 +117,7 @@ def dynamic_stiffness(
     `frequency` (n,) Hz is the law of the run if it is known; else the phase is followed in the displacement.
     Windows are `periods` long (3 to 6; shorter runs take what they have) and a quarter period apart.
 
-    In a sweep K* is off by j (beta / 2) (d2 K* / d omega2) with beta = d omega / dt, with opposite sign in the other
+    In a sweep K* is off by -j (beta / 2) (d2 K* / d omega2) with beta = d omega / dt, with opposite sign in the other
     direction: see `average_directions`. Raises NotOscillatingError when the motion has no phase to follow.
     """
     return harmonics_of(force, follow(displacement, sample_time, frequency, periods))

@@ -57,7 +57,7 @@ def cause_phrase(cause: Json) -> str:
     if len(branches) > 1:
         return f"{cause_title(cause)} in {len(branches)} branches"
     first = next(iter(parameters.values()), {})
-    if first.get("value") is None or not _is_known(first):
+    if first.get("value") is None or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
     return f"{cause_title(cause)} of {with_interval(first['value'], first.get('interval'), first.get('unit') or '')}"
 

@@ -226,3 +226,12 @@ def test_a_smooth_motion_has_no_white_noise(smooth):
 
 def test_fewer_than_fifteen_samples_tell_nothing():
     assert white_noise(np.arange(14.0) ** 3) == 0.0
+
+
+def test_lower_bounds_count_only_where_there_is_nothing_better():
+    """Noise seen above the motion alone is a lower bound; one run seen between its orders outweighs many of them."""
+    bounds = [NoiseFloor(1.0, "residual", weight=1e6, lower_bound=True)] * 3
+    sound = NoiseFloor(5.0, "residual", weight=1e3)
+    assert pool_noise([*bounds, sound]).value == pytest.approx(5.0)
+    assert pool_noise(bounds).value == pytest.approx(1.0)
+    assert pool_noise(bounds).lower_bound
