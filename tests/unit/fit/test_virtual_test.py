@@ -83,5 +83,5 @@ def test_what_was_written_reads_back_alike(tmp_path):
 
 
 def test_a_network_without_the_driven_nodes_is_refused():
-    with pytest.raises(InputError, match="drives the nodes 'platform_left', 'platform_right'"):
+    with pytest.raises(InputError, match="it has motions of 'platform_left', 'platform_right'"):
         measured(rigs=(RIGS["axle_sweep"](duration=1.0),))

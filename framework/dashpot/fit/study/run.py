@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import hashlib
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import dashpot
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, measure_errors, prepare, silent
 from dashpot.fit.bootstrap import bootstrap_intervals
@@ -84,21 +85,27 @@ def run_study(
 
 def study_setting(study: StudySpec, dataset: Dataset) -> Setting:
     """The dataset made ready, split as the study wants it. InputError for a pattern that names no run."""
-    names = [run.name for run in dataset.runs]
-    for pattern in (*(study.hold_out or ()), *study.weights):
-        if not any(chosen(name, [pattern]) for name in names):
-            raise InputError.at(
-                Place(study.name), f"no run is called '{pattern}'", f"runs are: {', '.join(names[:12])}"
-            )
     setting = prepare(dataset, study.seed)
+    runs = setting.dataset.runs
+    for pattern in (*(study.hold_out or ()), *study.weights):
+        if not any(named(run, [pattern]) for run in runs):
+            names = dict.fromkeys(run.record or run.name for run in runs)
+            raise InputError.at(
+                Place(study.name), f"no run is called '{pattern}'", f"runs are: {', '.join(list(names)[:12])}"
+            )
     if study.hold_out is None:
         return setting
-    groups = {run.group for run in dataset.runs if chosen(run.name, study.hold_out)}
-    train = tuple(run.name for run in dataset.runs if run.group not in groups)
+    groups = {run.group for run in runs if named(run, study.hold_out)}
+    train = tuple(run.name for run in runs if run.group not in groups)
     if not train:
         raise InputError.at(Place(study.name), "'hold_out' leaves no run to train on", "name fewer runs")
-    held_out = tuple(run.name for run in dataset.runs if run.group in groups)
+    held_out = tuple(run.name for run in runs if run.group in groups)
     return replace(setting, split=Split(train, held_out, "" if held_out else "the study holds none out"))
+
+
+def named(run: Run | ScoredRun, patterns: Iterable[str]) -> bool:
+    """Whether a pattern names a run, or the record that it is one force of."""
+    return chosen(run.name, patterns) or bool(run.record and chosen(run.record, patterns))
 
 
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
@@ -110,7 +117,7 @@ def fingerprint(study: StudySpec, dataset: Dataset) -> str:
 
 def run_weights(study: StudySpec, runs: list[ScoredRun]) -> list[float]:
     """The weight of each run: that of the first pattern that names it, else 1."""
-    return [next((w for pattern, w in study.weights.items() if chosen(run.name, [pattern])), 1.0) for run in runs]
+    return [next((w for pattern, w in study.weights.items() if named(run, [pattern])), 1.0) for run in runs]
 
 
 def take_numbers(spec: NetworkSpec, what: str, runs: list[ScoredRun]) -> NetworkSpec:

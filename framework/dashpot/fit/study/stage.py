@@ -131,7 +131,7 @@ def _refine(
         )
         refined, spread, evaluations, history = best.refined, best.spread, best.evaluations, best.history
     else:
-        refined = refine(objective, coordinates, coordinates.start, budget=stage.budget)
+        refined = refine(objective, coordinates, coordinates.start, steps=stage.budget, budget=stage.budget)
         spread, evaluations = (refined.loss,), refined.evaluations
         history = ((evaluations, refined.loss),)
     return {
