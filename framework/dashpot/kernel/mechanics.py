@@ -27,7 +27,7 @@ from dashpot.kernel.elimination import ZERO, solve_symmetric
 from dashpot.kernel.trace import RATES, TracedBranch, trace_along
 from dashpot.model.topology import Edge, Topology
 
-SMALLEST_DAMPING, STALLING = 1.0 / 64.0, 0.9
+SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1
 ONE, NEVER = constant(1.0), constant(1e300)
 
 # what drives the steps, the same for all lanes
@@ -171,7 +171,8 @@ class _Balance:
         ways = solve_symmetric(self._matrix(), missing)
         distance = reduce(np.maximum, (np.absolute(way) for way in ways.values()), ZERO)
         done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
-        stalled = distance > STALLING * before
+        # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
+        stalled = distance > before - NEARER * np.minimum(damping * before, FARTHEST)
         damped = np.where(stalled, np.maximum(0.5 * damping, SMALLEST_DAMPING), np.minimum(2.0 * damping, 1.0))
         # what is not a number is not far: such a lane is finished, and its forces tell
         near = np.logical_not(distance > TOLERANCE)
