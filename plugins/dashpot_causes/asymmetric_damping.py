@@ -32,7 +32,9 @@ class AsymmetricDamping(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One dashpot that acts in compression or in rebound only."""
-        yield Suspect("one direction", (COMPRESSION, REBOUND), _columns, _extend, unknowns=0)
+        yield Suspect(
+            "one direction", (COMPRESSION, REBOUND), _columns, _extend, unknowns=0, quantity="damping", unit="N*s/m"
+        )
 
 
 def _columns(view: View, run: str) -> Array:

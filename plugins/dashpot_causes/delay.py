@@ -32,7 +32,7 @@ class Delay(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A shift of the model's force by a small time, unless the network has one already."""
         if "force.delay" not in network.measurement:
-            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0)
+            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, quantity="delay", unit="s")
 
 
 def _slope(view: View, run: str) -> Array:

@@ -29,7 +29,8 @@ class FixtureCompliance(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A deflection in proportion to the force, taken out of the measured one."""
-        yield Suspect("compliance", (0.0,), _lost, unchanged, unknowns=0, mends=True, tell=_tell)
+        yield Suspect("compliance", (0.0,), _lost, unchanged, unknowns=0, mends=True,
+                      quantity="compliance", unit="m/N", tell=_tell)  # fmt: skip
 
 
 def _lost(view: View, run: str) -> Array:

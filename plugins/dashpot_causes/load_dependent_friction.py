@@ -39,7 +39,7 @@ class LoadDependentFriction(Cause):
             for least in FACTORS:
                 scaled = _Scaled(travels, view.reach, least, rising)
                 yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
-                              travels, scaled, scaled.extend, unknowns=2)  # fmt: skip
+                              travels, scaled, scaled.extend, unknowns=2, quantity="limit", unit="N")  # fmt: skip
 
 
 @dataclass(frozen=True)

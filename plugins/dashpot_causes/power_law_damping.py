@@ -50,4 +50,4 @@ class PowerLawDamping(Cause):
             ]
             return add_branch(text, "\n".join(lines))
 
-        yield Suspect("power of velocity", grid, columns, extend)
+        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N")

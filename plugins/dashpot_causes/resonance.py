@@ -54,4 +54,4 @@ class Resonance(Cause):
             return add_branch(text, branch_lines(free_name(text, "resonance"), "hydro", found, UNITS))
 
         grid = tuple(float(number) for number in range(len(places)))
-        yield Suspect("a mass behind a spring", grid, columns, extend, unknowns=2)
+        yield Suspect("a mass behind a spring", grid, columns, extend, unknowns=2, quantity="stiffness", unit="N/m")

@@ -56,14 +56,18 @@ def history_of(fit: FitResult) -> dict[str, list[float]]:
 
 
 def detection_limits(screen: Screen) -> list[dict[str, Any]]:
-    """The smallest strength of each cause that the screen would have found with 95 % power."""
+    """The smallest strength of each cause that the screen would have found with 95 % power.
+
+    ``value`` is told in the cause's own ``unit``, ``force`` is the RMS force in N that it makes.
+    """
     return [
         {
             "cause": limit.cause.word,
             "title": limit.cause.about,
-            "quantity": f"as {limit.form}, force RMS",
-            "value": limit.force,
-            "unit": "N",
+            "quantity": " as ".join(dict.fromkeys([limit.suspect.quantity, limit.suspect.form])),
+            "value": limit.strength if limit.suspect.unit else limit.force,
+            "unit": limit.suspect.unit or "N",
+            "force": limit.force,
         }
         for limit in screen.limits
     ]

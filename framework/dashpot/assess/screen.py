@@ -82,10 +82,15 @@ class Finding:
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest effect of a cause, as RMS force in N, that would have been found with 95 % power."""
+    """The smallest effect of a cause that would have been found with 95 % power.
+
+    ``force`` is its RMS in N, ``strength`` its size at ``place`` of the suspect's grid.
+    """
 
     cause: type[Cause]
-    form: str
+    suspect: Suspect
+    place: float
+    strength: float
     force: float
 
 
@@ -227,7 +232,10 @@ def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[L
             continue
         price = (1 + suspect.unknowns) * np.log(projected.samples) + threshold
         strength = (np.sqrt(price) + POWER_95) / np.sqrt(kept[where][usable])
-        limit = Limit(candidate.cause, suspect.form, float(np.min(strength * sizes[where][usable])))
+        forces = strength * sizes[where][usable]
+        least = int(np.argmin(forces))
+        place = suspect.grid[np.flatnonzero(usable)[least]]
+        limit = Limit(candidate.cause, suspect, place, float(strength[least]), float(forces[least]))
         if candidate.cause not in found or limit.force < found[candidate.cause].force:
             found[candidate.cause] = limit
     return tuple(found.values())

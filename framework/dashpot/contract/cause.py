@@ -74,7 +74,7 @@ class Suspect:
 
     With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
-    ``local`` says that a column touches one run only.
+    ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what a strength of one is.
     """
 
     form: str
@@ -87,6 +87,8 @@ class Suspect:
     most: int = 1
     mends: bool = False
     local: bool = False
+    quantity: str = "strength"
+    unit: str = ""
     tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
 
 
@@ -136,7 +138,11 @@ def added_branch(
             )
         return text
 
-    return Suspect(element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns)
+    quantity = next(iter(values(1.0, grid[0])))
+    return Suspect(
+        element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
+        quantity=quantity.replace("_", " "), unit=units[quantity],
+    )  # fmt: skip
 
 
 def unchanged(text: str, atoms: Sequence[Atom]) -> str:
@@ -161,7 +167,8 @@ def one_of_the_runs(
 
     most = max(1, int(share * len(names)))
     grid = tuple(float(number) for number in range(len(names)))
-    return Suspect(form, grid, columns, unchanged, sign=0, unknowns=0, most=most, mends=True, local=True, tell=tell)
+    return Suspect(form, grid, columns, unchanged, sign=0, unknowns=0, most=most, mends=True, local=True,
+                   quantity=quantity, unit=unit, tell=tell)  # fmt: skip
 
 
 def branch_lines(

@@ -81,6 +81,7 @@ class Limit(TypedDict, total=False):
     quantity: str
     value: float
     unit: str
+    force: float  # RMS, N
 
 
 class Evidence(TypedDict, total=False):

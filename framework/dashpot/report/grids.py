@@ -84,9 +84,20 @@ def misfit_grid(diagnosis: Json) -> Grid:
 
 def limits_grid(limits: Sequence[Json]) -> Grid:
     """The smallest amplitude of each cause that would have been found; see `Evidence.limits`."""
-    columns = [Column("cause", "cause"), Column("quantity", "smallest"), Column("value", "value", "", 3), UNIT]
+    columns = [
+        Column("cause", "cause"),
+        Column("quantity", "smallest"),
+        Column("value", "value", "", 3),
+        UNIT,
+        Column("force", "force RMS", "N", 3),
+    ]
     rows = [
-        {"cause": cause_title(limit), "quantity": limit["quantity"], **_in_rig_units(limit["value"], limit["unit"])}
+        {
+            "cause": cause_title(limit),
+            "quantity": limit["quantity"],
+            "force": limit.get("force"),
+            **_in_rig_units(limit["value"], limit["unit"]),
+        }
         for limit in limits
     ]
     return Grid("What would have been found", columns, rows, csv_name="limits.csv")

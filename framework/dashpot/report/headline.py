@@ -90,11 +90,24 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
     return f"{error_phrase(errors)}; {percent(errors.gain)} of it is {_named(causes)}."
 
 
-def _nothing_missing(_: Json, errors: Errors) -> str:
+def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
     if errors.before is None or not errors.floor:
-        return "Nothing is missing: no suspected cause is supported by the data."
+        return f"Nothing is missing: no suspected cause is supported by the data.{_limit(diagnosis)}"
     error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
-    return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
+    return f"Nothing is missing: the error of {error} is at the noise floor ({floor}).{_limit(diagnosis)}"
+
+
+def _limit(diagnosis: Json) -> str:
+    """How small an effect the silence is about."""
+    limits = [limit for limit in diagnosis.get("limits") or () if limit.get("force")]
+    if not limits:
+        return ""
+    hardest = max(limits, key=lambda limit: limit["force"])
+    force, value = quantity(hardest["force"], "N"), quantity(hardest["value"], hardest["unit"])
+    return (
+        f" Each suspected cause would have been found from a force of {force} RMS on, most of them earlier; the "
+        f"hardest to see is {cause_title(hardest)} ({hardest['quantity']} {value})."
+    )
 
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:

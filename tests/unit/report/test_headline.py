@@ -122,3 +122,21 @@ def test_large_forces_are_given_in_kilonewtons():
     rmse = {"before": {"held_out": 56311.8}, "after": {"held_out": 25617.2}}
     said = headline(diagnosis(rmse=rmse, noise_floor={"value": 3626.0, "from": "repeats"}))
     assert said.startswith("56.3 kN of error is 16 × the noise floor (3626 N)")
+
+
+def test_silence_says_how_small_an_effect_it_is_about():
+    """The hardest to see of all causes, in force and in its own unit."""
+    limits = [
+        {
+            "cause": "friction",
+            "title": "dry friction",
+            "quantity": "limit as dahl",
+            "value": 2.0,
+            "unit": "N",
+            "force": 1.4,
+        },
+        {"cause": "delay", "title": "delay", "quantity": "delay", "value": 45e-6, "unit": "s", "force": 9.0},
+    ]
+    said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
+    assert "from a force of 9.00 N RMS on" in said
+    assert "delay (delay 45.0 us)" in said
