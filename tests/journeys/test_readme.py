@@ -17,7 +17,7 @@ from dashpot.cli import main
 from .conftest import ROOT, Installation, install
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-TAKES_MINUTES = ("demo", "diagnose")
+TAKES_MINUTES = ("demo", "diagnose", "study")
 
 
 def blocks(language: str, start: str = "") -> list[str]:
