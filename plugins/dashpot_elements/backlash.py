@@ -29,3 +29,7 @@ class Backlash(Element):
         """The play operator at the end of the step."""
         follower = np.minimum(np.maximum(z.follower, x.new - p.gap), x.new + p.gap)
         return Response(p.stiffness * follower, follower=follower)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the spring behind the play."""
+        return 0.5 * p.stiffness * z.follower * z.follower

@@ -28,3 +28,7 @@ class BeddingIn(Element):
         """The reach grows to the end of the step."""
         reach = np.maximum(z.reach, np.abs(x.new))
         return Response(p.stiffness * x.new / (1.0 + reach / p.depth), reach=reach)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the softened spring."""
+        return 0.5 * p.stiffness * x.new * x.new / (1.0 + z.reach / p.depth)

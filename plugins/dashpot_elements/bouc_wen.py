@@ -44,6 +44,10 @@ class BoucWen(Element):
         force = side * p.limit * level
         return Response(force, force=force)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of a spring that the force bends; it slips for the rest of the way."""
+        return 0.5 * z.force * z.force / p.stiffness
+
 
 def _plain(level: Any, way: Any, bulge: Any) -> Any:
     """The level after a way with exponent 1: against the motion it goes to zero, with it from there to one."""

@@ -41,3 +41,9 @@ class Creep(Element):
             felt = np.exp(-dt / time) * old + fading_travel(x, dt, time)
             force, crept[f"crept_{number + 1}"] = force + felt, x.new - felt
         return Response(p.stiffness * distance * force, **crept)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the springs of all branches."""
+        stretches = [x.new - getattr(z, f"crept_{number}") for number in range(1, COUNT + 1)]
+        stiffness = p.stiffness * p.decades / (COUNT - 1)
+        return 0.5 * stiffness * sum(stretch * stretch for stretch in stretches)

@@ -36,6 +36,10 @@ class Dahl(Element):
         force = side * p.limit * (1.0 - _approach(distance, way, p.exponent))
         return Response(force, force=force)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the bristles, which bend as springs of the stiffness and slip for the rest of the way."""
+        return 0.5 * z.force * z.force / p.stiffness
+
 
 def _approach(distance: Any, way: Any, exponent: Any) -> Any:
     """u after a dimensionless way: du/dway = -|u|^exponent sgn(u)."""

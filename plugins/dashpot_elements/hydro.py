@@ -50,6 +50,14 @@ class Hydro(Element):
         static = p.compensation_stiffness * (p.stiffness / both)
         return Response(static * x.new + p.stiffness * bulge, bulge=bulge, flow=_slowed(shift / dt, turbulence))
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the walls, of the compensation chamber and of the moving fluid."""
+        share = p.stiffness / (p.stiffness + p.compensation_stiffness)
+        displaced = share * x.new - z.bulge
+        walls, chamber = x.new - displaced, displaced
+        held = p.stiffness * walls * walls + p.compensation_stiffness * chamber * chamber
+        return 0.5 * (held + p.fluid_mass * z.flow * z.flow)
+
 
 def _slowed(flow: Any, turbulence: Any) -> Any:
     """The flow after a while of quadratic damping alone."""

@@ -22,3 +22,7 @@ class Inerter(Element):
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the acceleration at the end of the step."""
         return Response(p.inertance * x.acceleration)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The kinetic energy."""
+        return 0.5 * p.inertance * x.velocity_new * x.velocity_new

@@ -36,10 +36,22 @@ class Iwan(Element):
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Every spring takes the travel up to its yield travel."""
         distance = np.log(p.longest / p.shortest) / (COUNT - 1)
-        weights = [np.exp(-p.slope * number * distance) for number in range(COUNT)]
         force, stretches = 0.0, {}
-        for number, weight in enumerate(weights):
+        for number, weight in enumerate(_weights(p)):
             travel = p.shortest * np.exp(number * distance)
             stretch = np.minimum(np.maximum(getattr(z, f"stretch_{number + 1}") + x.travel, -travel), travel)
-            force, stretches[f"stretch_{number + 1}"] = force + weight / sum(weights) * stretch, stretch
+            force, stretches[f"stretch_{number + 1}"] = force + weight * stretch, stretch
         return Response(p.stiffness * force, **stretches)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of all springs."""
+        stretches = [getattr(z, f"stretch_{number}") for number in range(1, COUNT + 1)]
+        pairs = zip(_weights(p), stretches, strict=True)
+        return 0.5 * p.stiffness * sum(weight * stretch * stretch for weight, stretch in pairs)
+
+
+def _weights(p: Any) -> list[Any]:
+    """The share of every spring in the stiffness."""
+    distance = np.log(p.longest / p.shortest) / (COUNT - 1)
+    weights = [np.exp(-p.slope * number * distance) for number in range(COUNT)]
+    return [weight / sum(weights) for weight in weights]

@@ -29,3 +29,7 @@ class Maxwell(Element):
         fading = np.exp(-dt / p.relaxation_time)
         force = fading * z.force + p.stiffness * fading_travel(x, dt, p.relaxation_time)
         return Response(force, force=force)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the spring."""
+        return 0.5 * z.force * z.force / p.stiffness

@@ -49,6 +49,10 @@ class Prandtl(Element):
         force = side * p.limit * (1.0 - left)
         return Response(force, force=force, side=side, reach=reach)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the spring and of the bristles of the slider."""
+        return 0.5 * z.force * z.force / p.stiffness * (1.0 + 1.0 / p.sharpness)
+
 
 def _general(distance: Any, way: Any, sharpness: Any, exponent: Any) -> Any:
     return np.where(exponent > 0.5, _gradual(distance, way, sharpness, exponent),

@@ -33,6 +33,10 @@ class Softening(Element):
         warmth = z.warmth + gained * (_mean_square(x, dt) / (p.speed * p.speed) - z.warmth)
         return Response(p.stiffness * x.new / (1.0 + warmth), warmth=warmth)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the softened spring, without the warmth."""
+        return 0.5 * p.stiffness * x.new * x.new / (1.0 + z.warmth)
+
 
 def _mean_square(x: Motion, dt: Any) -> Any:
     """The mean of v^2 over a step, v = v_old (1 - u) + v_new u + 6 bow u (1 - u)."""

@@ -47,6 +47,11 @@ class Springpot(Element):
             forces[f"force_{number}"] = np.exp(-dt / time) * old + stiffness * fading_travel(x, dt, time)
         return Response(sum(forces.values()), **forces)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the springs of all branches."""
+        forces = [getattr(z, f"force_{number}") for number in range(1, INSIDE + 3)]
+        return 0.5 * sum(force * force / stiffness for force, (stiffness, _) in zip(forces, _branches(p), strict=True))
+
 
 def _branches(p: Any) -> list[tuple[Any, Any]]:
     """Stiffness (N/m) and relaxation time (s) of every branch."""

@@ -36,6 +36,10 @@ class Stribeck(Element):
         force = _slide(force, x.new - middle, 0.5 * np.abs(x.velocity_new), p)
         return Response(force, force=force)
 
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the bristles, which bend as springs of the stiffness and slip for the rest of the way."""
+        return 0.5 * z.force * z.force / p.stiffness
+
 
 def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
     ratio = speed / p.stribeck_velocity

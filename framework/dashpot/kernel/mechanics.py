@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import reduce
+from typing import Protocol
 
 import numpy as np
 
@@ -80,17 +81,20 @@ class Equations:
         return tuple(dict.fromkeys([NOTHING, *(name for rows in self.passes for name in rows)]))
 
 
-def write_equations(topology: Topology) -> Equations:
-    """The equations of a network."""
+def write_equations(topology: Topology, meter: Meter | None = None) -> Equations:
+    """The equations of a network, and those of a meter that goes along."""
     laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
     still, moving = _Still(topology, laws), _Moving(topology, laws)
     states = {name for law in laws for name in law.states} | {row_of(joint, key) for joint in topology.unknown
                                                                for key in (*_KEPT, "next")}  # fmt: skip
+    rest, commit = still.rest(), moving.commit()
+    if meter:
+        rest, commit = {**rest, **meter.rest(still)}, {**commit, **meter.commit(moving)}
     finish = _Finish(states | {NOTHING})
-    return Equations(*(finish(rows) for rows in (still.start(), still.improve(), still.rest(), moving.predict(),
-                                                moving.improve(), moving.commit())), frozenset(known))  # fmt: skip
+    return Equations(*(finish(rows) for rows in (still.start(), still.improve(), rest, moving.predict(),
+                                                moving.improve(), commit)), frozenset(known))  # fmt: skip
 
 
 _KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
@@ -114,7 +118,17 @@ class _Finish:
         return lookup(node.payload[0], argument if moves else argument + symbol(NOTHING), node.payload[1])
 
 
-class _Balance:
+class Meter(Protocol):
+    """Rows of its own that are kept beside those of the network."""
+
+    def rest(self, still: Balance) -> Rows:
+        """Their values when the record begins."""
+
+    def commit(self, moving: Balance) -> Rows:
+        """Their values at the end of a step."""
+
+
+class Balance:
     """The balance of forces at the unknown nodes."""
 
     def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
@@ -138,6 +152,15 @@ class _Balance:
     def load(self, joint: str) -> Node:
         """The force that is known to act on a node."""
         return symbol(driven_symbol(joint, "load")) if self.topology.joints[joint].hold == "loaded" else ZERO
+
+    def position(self, joint: str) -> Node:
+        """Where a node is at the end of the step."""
+        known = self.known(joint, "new")
+        return self._next(joint) if known is None else known
+
+    def velocity(self, joint: str) -> Node:
+        """The velocity of a node at the end of the step."""
+        raise NotImplementedError
 
     def along(self, edge: Edge, law: Node) -> Node:
         """What a law says for the motion of its edge."""
@@ -218,13 +241,13 @@ class _Balance:
         return symbol(edge.offset) if edge.offset else ZERO
 
 
-class _Still(_Balance):
+class _Still(Balance):
     """The static equilibrium: nothing moves, no branch has a memory."""
 
-    def position(self, joint: str) -> Node:
-        """Where a node is."""
-        known = self.known(joint, "new")
-        return self._next(joint) if known is None else known
+    def velocity(self, joint: str) -> Node:
+        """Unknown nodes begin at rest, driven ones as they are driven."""
+        known = self.known(joint, "velocity_new")
+        return ZERO if known is None else known
 
     def motion(self, edge: Edge) -> Mapping[str, Node]:
         place = self.difference(edge, self.position) + self.offset(edge)
@@ -256,16 +279,10 @@ class _Still(_Balance):
         return {**rows, **self.outputs()}
 
 
-class _Moving(_Balance):
+class _Moving(Balance):
     """One step."""
 
-    def position(self, joint: str) -> Node:
-        """Where a node is at the end of the step."""
-        known = self.known(joint, "new")
-        return self._next(joint) if known is None else known
-
     def velocity(self, joint: str) -> Node:
-        """The velocity of a node at the end of the step."""
         known = self.known(joint, "velocity_new")
         return SLOPE * self._next(joint) + symbol(row_of(joint, "drift")) if known is None else known
 

@@ -19,7 +19,7 @@ from dashpot.expr.node import constant, walk
 from dashpot.kernel.block import aligned_copy
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.layout import Shelf
-from dashpot.kernel.mechanics import MOVED, Equations, driven_symbol, write_equations
+from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, write_equations
 from dashpot.kernel.native import load_module
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.scheme import PAIR, alternate
@@ -48,6 +48,11 @@ class Status(Enum):
 
 
 _CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANCED}
+
+
+def status_of(code: int, answer: Array) -> Status:
+    """How a lane ended, from the code of the kernel and what it answered."""
+    return _CODES[code] if np.isfinite(answer).all() else Status.NOT_FINITE
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,8 +147,7 @@ class CompiledSystem:
             out[block] = answer[:, :, :count].transpose(2, 1, 0)
             error[block] = np.sqrt(miss[: len(driven), :count] / samples).T / 3.0
         force, motion = out[:, : len(driven)], out[:, len(driven) :]
-        sound = np.isfinite(force).all(axis=(1, 2))
-        states = tuple(_CODES[code] if fine else Status.NOT_FINITE for code, fine in zip(status, sound, strict=True))
+        states = tuple(status_of(code, own) for code, own in zip(status, force, strict=True))
         return Solution(driven, unknown, force, motion, error, states)
 
     def forces(self, run: SystemRows, values: Array | None = None) -> Array:
@@ -159,6 +163,22 @@ class CompiledSystem:
         """
         force = self.forces(run, values)[:, self.number_of(end) if end else 0]
         return force[0] if values is None or np.ndim(values) == 1 else force
+
+    def last_rows(self, run: SystemRows, values: Array | None = None) -> tuple[dict[str, Array], NDArray[np.int64]]:
+        """Every row of the workspace by name after the last sample, (2, lanes): long steps, short steps; and the codes.
+
+        ``Equations`` names the rows.
+        """
+        lanes = self._lanes(run, values)
+        zeros = np.zeros((len(self.outputs), run.excitation.samples))
+        spaces, codes = [], []
+        for block in _blocks(lanes):
+            out, miss = np.zeros((1, len(self.outputs), WIDTH)), np.zeros((len(self.outputs), WIDTH))
+            space = self._spaces(run, lanes[block])
+            codes.append(self._run(run, lanes[block], out, miss, (zeros, zeros), space))
+            spaces.append(space.reshape(2, -1, WIDTH)[:, :, : lanes[block].shape[0]])
+        rows = np.concatenate(spaces, axis=2)
+        return {name: rows[:, self.layouts.row(name)] for name in self.layouts.equations.rows}, np.concatenate(codes)
 
     def number_of(self, end: str) -> int:
         """The place of a driven node among all; a network with a single one has it under any name."""
@@ -189,18 +209,19 @@ class CompiledSystem:
         return total
 
     def _run(self, run: SystemRows, lanes: Array, out: Array, miss: Array,
-             scoring: tuple[Array, Array] | None = None) -> NDArray[np.int64]:  # fmt: skip
-        count = lanes.shape[0]
-        width = -(-count // VECTOR) * VECTOR
-        padded = np.concatenate([lanes, np.repeat(lanes[-1:], width - count, axis=0)])
-        step = run.excitation.dt / (PAIR * run.pairs)
-        space = aligned_copy(np.concatenate([self._workspace(dt, padded) for dt in (step, 0.5 * step)]))
+             scoring: tuple[Array, Array] | None = None, space: Array | None = None) -> NDArray[np.int64]:  # fmt: skip
+        padded = _padded(lanes)
+        space = self._spaces(run, lanes) if space is None else space
         status = np.zeros(WIDTH, dtype=np.int64)
         measured, weight = scoring or (np.empty((0, 0)), np.empty((0, 0)))
         self.native.run(run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status,
-                        width, aligned_copy(self._tables(padded)), self._knots, measured, weight, out, miss,
+                        padded.shape[0], aligned_copy(self._tables(padded)), self._knots, measured, weight, out, miss,
                         scoring is not None)  # fmt: skip
-        return status[:count]
+        return status[: lanes.shape[0]]
+
+    def _spaces(self, run: SystemRows, lanes: Array) -> Array:
+        padded, step = _padded(lanes), run.excitation.dt / (PAIR * run.pairs)
+        return aligned_copy(np.concatenate([self._workspace(dt, padded) for dt in (step, 0.5 * step)]))
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
         return with_settings(
@@ -241,8 +262,10 @@ class CompiledSystem:
     def _still(self, excitation: Excitation) -> dict[str, float]:
         seen = {f"rule.{key}": 0.0 for key in ("slope", "now", "before", "swing")} | self._newton(excitation)
         for joint in self.outputs:
-            place = float(excitation.motions[joint].displacement[0])
-            seen |= {driven_symbol(joint, key): place if key in ("old", "new") else 0.0 for key in MOVED}
+            motion = excitation.motions[joint]
+            place, speed = float(motion.displacement[0]), float(motion.velocity[0])
+            begin = dict(zip(MOVED, (place, place, speed, speed, 0.0), strict=True))
+            seen |= {driven_symbol(joint, key): number for key, number in begin.items()}
         for joint in self.topology.held("loaded"):
             seen[driven_symbol(joint, "load")] = float(excitation.loads[joint][0])
         return seen
@@ -259,11 +282,11 @@ class CompiledSystem:
         return found
 
 
-def compile_system(spec: NetworkSpec, topology: Topology | None = None) -> CompiledSystem:
-    """Trace, balance, sort, print, compile. Raises InputError for a network that cannot be compiled."""
+def compile_system(spec: NetworkSpec, topology: Topology | None = None, meter: Meter | None = None) -> CompiledSystem:
+    """Trace, balance, sort, print, compile; a ``meter`` goes along. InputError for what cannot be compiled."""
     refuse_missing_numbers(spec)
     topology = topology or topology_of(spec)
-    equations = write_equations(topology)
+    equations = write_equations(topology, meter)
     program, passes = _sort(equations)
     layouts = SystemLayouts(program, equations, _shelves(spec), passes)
     source = print_system(layouts, topology.held("driven"), topology.unknown)
@@ -279,6 +302,11 @@ def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
     columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
     zero = constant(0.0)
     return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
+
+
+def _padded(lanes: Array) -> Array:
+    missing = -lanes.shape[0] % VECTOR
+    return np.concatenate([lanes, np.repeat(lanes[-1:], missing, axis=0)])
 
 
 def _blocks(lanes: Array) -> list[slice]:

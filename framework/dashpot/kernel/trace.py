@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any, Literal
 
@@ -95,20 +95,53 @@ def _see(branch: Branch) -> TracedBranch:
 
 def trace_along(branch: Branch, sight: Course) -> TracedBranch:
     """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on."""
-    motion = Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
-    declared = branch.element.declares
-    states = {key: f"{branch.name}{STATE_MARK}{key}" for key in declared.states}
-    response = branch.element().step(
-        motion,
-        SimpleNamespace(**{key: symbol(name) for key, name in states.items()}),
-        SimpleNamespace(**{key: _parameter(branch, key) for key in (*declared.parameters, *declared.curves)}),
-        symbol("dt"),
-    )
+    motion, states = _motion(sight), _states(branch)
+    response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
     check_states(branch, response)
     force = as_node(response.force)
     if branch.scale:
-        force = force * CurveLaw(f"{branch.numbers}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
+        force = force * _scale(branch, motion)
     return TracedBranch(branch.name, sight, force, {states[k]: as_node(v) for k, v in response.states.items()})
+
+
+def trace_stored(branch: Branch, sight: Course) -> Node | None:
+    """The energy in J that a branch stores, from the motion and the states at the end of a step; None: not known.
+
+    A law of the deflection alone stores all ``work`` that is done on it, one of the rates alone stores nothing. The
+    others have to say it; a ``scale`` multiplies what they say.
+    """
+    motion, states = _motion(sight), _states(branch)
+    stored = branch.element().stored(motion, _symbols(states), _parameters(branch))
+    if stored is not None:
+        return as_node(stored) * _scale(branch, motion)
+    law = trace_along(replace(branch, scale=None), sight)
+    moving = symbols_of(law.force) & {*(f"{sight}.{key}" for key in ("old", "new", *RATES)), *states.values(), "dt"}
+    if moving <= {f"{sight}.new"}:
+        return symbol("work")
+    return as_node(0.0) if moving <= {f"{sight}.{rate}" for rate in RATES} else None
+
+
+def _motion(sight: Course) -> Motion:
+    return Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
+
+
+def _states(branch: Branch) -> dict[str, str]:
+    return {key: f"{branch.name}{STATE_MARK}{key}" for key in branch.element.declares.states}
+
+
+def _symbols(names: Mapping[str, str]) -> SimpleNamespace:
+    return SimpleNamespace(**{key: symbol(name) for key, name in names.items()})
+
+
+def _parameters(branch: Branch) -> SimpleNamespace:
+    declared = branch.element.declares
+    return SimpleNamespace(**{key: _parameter(branch, key) for key in (*declared.parameters, *declared.curves)})
+
+
+def _scale(branch: Branch, motion: Motion) -> Any:
+    if not branch.scale:
+        return 1.0
+    return CurveLaw(f"{branch.numbers}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
 
 
 def check_states(branch: Branch, response: Response) -> None:

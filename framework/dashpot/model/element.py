@@ -144,3 +144,11 @@ class Element(ABC):
         ``z`` holds the old states and ``p`` the parameters as attributes; a curve is called with its argument.
         Use numpy functions only (``np.where`` for a choice): arrays and graph nodes both pass through here.
         """
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy in J that could be got back at the end of a step; ``z`` holds the states there.
+
+        None, the default, leaves it to the framework: a law of the deflection alone gives all work back, one of the
+        rates alone nothing; of other laws it is then not known.
+        """
+        return None
