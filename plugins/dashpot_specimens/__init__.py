@@ -4,6 +4,9 @@
 - `tire_laws`  what the tire answers to its deflection
 - `tire_path`  what the rig does to it
 - `rig_log`    what the rig writes down
+- `test_car`   an axle on two platforms, and its tire
+- `car_laws`   what the car answers to its platforms
+- `car_path`   what the rigs do to it
 """
 
 from __future__ import annotations
@@ -16,6 +19,7 @@ hookimpl = pluggy.HookimplMarker("dashpot")
 @hookimpl
 def dashpot_specimens() -> list[type]:
     """Every specimen of this package."""
+    from dashpot_specimens.test_car import CarOnRig
     from dashpot_specimens.test_tire import TireOnRig
 
-    return [TireOnRig]
+    return [TireOnRig, CarOnRig]
