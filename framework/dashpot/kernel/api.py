@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -9,30 +11,64 @@ from numpy.typing import NDArray
 
 from dashpot.contract.registry import Registry, load_registry
 from dashpot.data.dataset import Dataset
-from dashpot.data.ends import one_force_each
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.model.network import NetworkSpec
+from dashpot.kernel.system import CompiledSystem, Status
+from dashpot.model.network import END, NetworkSpec
 from dashpot.model.reading import read_network
+from dashpot.text.problem import InputError, Place
+
+Array = NDArray[np.float64]
 
 
-def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
-                  registry: Registry | None = None) -> dict[str, NDArray[np.float64]]:  # fmt: skip
-    """The force (n,) in N of a network along the motion of every run, by the name of the run.
+@dataclass(frozen=True, eq=False)
+class RunSolution:
+    """A simulated run: ``force`` (n,) in N at the driven nodes, as load cells show it, and ``motion`` (n,) in m of the
+    nodes that are free to move, both by node. ``error`` estimates the root mean square numerical error of each force in
+    N; it is 0 where the law is solved exactly along the path.
+    """
 
-    Where a run measures the forces at several nodes the names are ``run@node``.
+    force: Mapping[str, Array]
+    motion: Mapping[str, Array]
+    error: Mapping[str, float]
 
-    It is seen through the network's ``measurement`` (gain, offset, delay). A network given by file or shipped name is
-    read with the elements of ``registry``, by default the installed ones. Raises InputError for a network with mistakes
-    or with a curve that has no numbers yet, and for a run that lacks a motion.
+
+def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
+               registry: Registry | None = None) -> dict[str, RunSolution]:  # fmt: skip
+    """Forces and motions of a network along the motions of every run, by the name of the run.
+
+    The forces are seen through the network's ``measurement`` (gain, offset, delay). A network given by file or shipped
+    name is read with the elements of ``registry``, by default the installed ones. Raises InputError for a network with
+    mistakes or with a curve that has no numbers yet, for a run that lacks a motion, and for one that cannot be solved.
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
     network = compile_network(spec)
+    return {run.name: solve(network, Excitation.of_run(run)) for run in dataset.runs}
+
+
+def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation) -> RunSolution:
+    """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start)
-    found = {}
-    for run in one_force_each(dataset).runs:
-        rows = network.prepare(Excitation.of_run(run))
-        force = network.simulate(rows) if isinstance(network, CompiledNetwork) else network.simulate(rows, end=run.end)
-        found[run.name] = observation.see(force[None], run.sample_time)[0]
-    return found
+    if isinstance(network, CompiledNetwork):
+        force = network.simulate(network.prepare(excitation))
+        return RunSolution({END: observation.see(force[None], excitation.dt)[0]}, {}, {END: 0.0})
+    found = network.solve(network.prepare(excitation))
+    if found.status[0] is not Status.GOOD:
+        raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
+                            f"{found.status[0].value}", "check the numbers with 'dashpot check'")  # fmt: skip
+    force = [observation.see(row[None], excitation.dt)[0] for row in found.force[0]]
+    motion = {node: row for node, row in zip(found.unknown, found.motion[0], strict=True) if ":" not in node}
+    return RunSolution(dict(zip(found.driven, force, strict=True)), motion,
+                       dict(zip(found.driven, found.error[0].tolist(), strict=True)))  # fmt: skip
+
+
+def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
+                  registry: Registry | None = None) -> dict[str, Array]:  # fmt: skip
+    """The force (n,) in N of a network along the motion of every run, by the name of the run; see ``solve_runs``.
+
+    Where a network has several driven nodes the names are ``run@node``.
+    """
+    found = solve_runs(spec, dataset, registry=registry)
+    return {f"{name}@{node}" if len(each.force) > 1 else name: force
+            for name, each in found.items() for node, force in each.force.items()}  # fmt: skip
