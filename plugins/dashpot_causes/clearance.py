@@ -13,7 +13,6 @@ from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
 PLACES = 9
-CENTRES = 3
 
 
 class Clearance(Cause):
@@ -33,20 +32,13 @@ class Clearance(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring behind play; a spring with a dead zone around some deflections; play between drive and specimen."""
+        """A spring behind play; a spring with a dead zone around zero; play between drive and specimen."""
         gaps = tuple(np.geomspace(2e-3 * view.stroke, 0.3 * view.stroke, PLACES))
-        units = {"stiffness": "N/m", "gap": "m", "centre": "m"}
+        units = {"stiffness": "N/m", "gap": "m"}
         yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
         low, high = view.reach
-        for centre in np.linspace(low, high, CENTRES + 2)[1:-1]:
-            yield added_branch(
-                "clearance",
-                "clearance",
-                gaps,
-                lambda k, gap, centre=centre: {"stiffness": k, "gap": gap, "centre": float(centre)},
-                units,
-                unknowns=2,
-            )
+        if low < 0.0 < high:
+            yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
         lost = _Lost(gaps[::2])
         yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
 

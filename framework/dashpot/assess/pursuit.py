@@ -36,6 +36,10 @@ SHARE_OF_FORM = 1e-3  # of what is explained already: forms are never quite righ
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
+TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
+REFIT_MAY_DOUBLE = 0.5
+FEWEST_FINALISTS = 3
+COMES_NEAR = 0.4  # of the best fall of chi square
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +143,7 @@ class Pursuer:
         if not useless:
             return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
         entry = accepted[useless[-1]]
-        self.reject(entry.trial, NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
+        self.reject(entry.finding, NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
         kept = [other for other in accepted if other is not entry]
         model = self.rebuild(kept, look.model, first.model, look.noise)
         return self.settle_gains(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
@@ -156,6 +160,9 @@ class Pursuer:
         finalists = choose_finalists(look)
         trials = []
         for finding in finalists:
+            if explained and finding.gain < self.least_fall(look):
+                self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding, self.bench.runs), None)
+                continue
             self.watch(f"refit with {finding.candidate.cause.word}", 0.0)
             trials.append(self.try_out(finding, look))
         ranked = sorted(trials, key=lambda trial: -trial.merit)
@@ -164,17 +171,21 @@ class Pursuer:
             gain = self.gain_of(look.model, trial.model)
             reason = self.objection(trial, gain, look, explained)
             if reason:
-                self.reject(trial, reason, foreseen, gain)
+                self.reject(trial.finding, reason, foreseen, gain)
                 continue
             chosen, others = settle_ties(trial, ranked)
             for other in ranked:
                 if other is not chosen and other.merit < trial.merit - tie_width(trial):
-                    self.reject(other, "explains less than the accepted cause", None, None)
+                    self.reject(other.finding, "explains less than the accepted cause", None, None)
             chosen = self.simplify(chosen, look)
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = self.gain_of(look.model, chosen.model)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model)
         return None
+
+    def least_fall(self, look: Look) -> float:
+        """The fall of chi square below which not even a refit would make a later cause worth a name."""
+        return REFIT_MAY_DOUBLE * (1.0 - (1.0 - SMALLEST_LATER_GAIN) ** 2) * look.model.chi_square
 
     def try_out(self, finding: Finding, look: Look) -> Trial:
         """A finding as a refitted model."""
@@ -201,12 +212,12 @@ class Pursuer:
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
             return "explains no more than the accepted causes may be wrong by in their form"
         if explained and fall < SMALLEST_LATER_GAIN:
-            return f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
+            return TOO_LITTLE
         return ""
 
-    def reject(self, trial: Trial, reason: str, foreseen: float | None, gain: Gain | None) -> None:
+    def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
         """Note a candidate that did not hold, with the reason."""
-        candidate = trial.finding.candidate
+        candidate = finding.candidate
         self.rejected.append(
             Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, gain.value if gain else None)
         )
@@ -254,7 +265,10 @@ class Pursuer:
 
 
 def choose_finalists(look: Look) -> list[Finding]:
-    """The best form of each significant cause, and further forms that come near it; best first."""
+    """The best form of each significant cause, and further forms that come near it; best first.
+
+    Beyond the third only those whose fall of chi square comes near that of the best.
+    """
     significant = [finding for finding in look.screen.findings if finding.merit > look.screen.threshold]
     best: dict[str, float] = {}
     chosen = []
@@ -263,7 +277,8 @@ def choose_finalists(look: Look) -> list[Finding]:
         if word not in best or finding.gain > 0.9 * best[word]:
             best.setdefault(word, finding.gain)
             chosen.append(finding)
-    return chosen[:FINALISTS]
+    near = [finding for finding in chosen[FEWEST_FINALISTS:] if finding.gain > COMES_NEAR * chosen[0].gain]
+    return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
 
 
 def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:

@@ -1,0 +1,142 @@
+"""Every built-in cause on a small view: what its cure adds to the network is what its columns showed."""
+
+import numpy as np
+import pytest
+
+from dashpot.contract.registry import load_registry
+from dashpot.data.drive import drive_from_samples
+from dashpot.kernel.eager import simulate_eagerly
+from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.model.reading import parse_network
+
+REGISTRY = load_registry()
+NETWORK = """\
+format: dashpot-network/1
+name: plain
+branches:
+  stiffness: {element: spring, stiffness: 200 N/mm}
+  damping: {element: damper, damping: 300 N*s/m}
+"""
+STEP, SAMPLES = 5e-3, 120
+DAMPING = 300.0
+SIZES = {
+    "N/m": 2e4,
+    "N": 50.0,
+    "N*s/m": 100.0,
+    "kg": 0.5,
+    "s": 1e-4,
+    "N*s^2/m^2": 1e3,
+    "1": 0.01,
+    "m/N": 1e-9,
+    "": 20.0,
+}
+
+
+class SmallView:
+    """Two sweeps of a plain network, its forces by the elements' own code."""
+
+    def __init__(self):
+        time = STEP * np.arange(SAMPLES)
+        sweep = np.sin(2.0 * np.pi * (2.0 * time + 4.0 * time**2))
+        paths = {"small": 10e-3 + 1e-3 * sweep, "large": -2e-3 + 5e-3 * sweep}
+        self.drives = {run: drive_from_samples(STEP, path) for run, path in paths.items()}
+        self.network = parse_network(NETWORK, REGISTRY.elements)
+        self.runs = tuple(paths)
+        self.reach, self.stroke, self.dt, self.duration = (-7e-3, 11e-3), 10e-3, STEP, STEP * SAMPLES
+        self.speed = max(float(np.abs(drive.velocity).max()) for drive in self.drives.values())
+
+    def displacement(self, run):
+        return self.drives[run].displacement
+
+    def velocity(self, run):
+        return self.drives[run].velocity
+
+    def step(self, run):
+        return STEP
+
+    def force(self, run):
+        return simulate_eagerly(self.network, self.drives[run])
+
+    def moved(self, run, change):
+        return simulate_eagerly(self.network, drive_from_samples(STEP, self.displacement(run) + change))
+
+    def respond(self, run, element, values):
+        law = REGISTRY.elements[element]
+        return np.array([simulate_eagerly(alone(law, entry), self.drives[run]) for entry in values])
+
+
+def alone(law, entry):
+    """A network of one branch with plain numbers."""
+    declared = law.declares
+    values = {key: Value(number, "") for key, number in entry.items() if key in declared.parameters}
+    values |= {key: Value(p.default, "") for key, p in declared.parameters.items() if key not in entry}
+    curves = {
+        key: Characteristic(declared.curves[key], "constant", (Value(number, ""),))
+        for key, number in entry.items()
+        if key in declared.curves
+    }
+    return NetworkSpec("alone", Group("", "parallel", (Branch("alone", law, values, curves),)))
+
+
+VIEW = SmallView()
+SUSPECTS = [
+    pytest.param(suspect, id=f"{word}-{suspect.form}")
+    for word, cause in sorted(REGISTRY.causes.items())
+    for suspect in cause().suspects(VIEW, VIEW.network)
+]
+
+
+@pytest.mark.parametrize("suspect", SUSPECTS)
+def test_columns_are_finite_and_one_for_each_place(suspect):
+    for run in VIEW.runs:
+        columns = np.atleast_2d(suspect.columns(VIEW, run))
+        assert columns.shape == (len(suspect.grid), SAMPLES)
+        assert np.isfinite(columns).all()
+
+
+@pytest.mark.parametrize("suspect", [p for p in SUSPECTS if not p.values[0].mends])
+def test_the_cure_adds_what_the_columns_show(suspect):
+    """The network with the patch less the one without, what its plain numbers would take up aside: to a fiftieth."""
+    size = SIZES[suspect.unit]
+    if suspect.joint:
+        atoms = [(size * (1.0 + 0.3 * number), place) for number, place in enumerate(suspect.grid)]
+    else:
+        atoms = [(size, suspect.grid[len(suspect.grid) // 2])]
+    extended = parse_network(suspect.extend(NETWORK, atoms), REGISTRY.elements)
+    places = [suspect.grid.index(place) for _, place in atoms]
+    for run in VIEW.runs:
+        added = simulate_eagerly(extended, VIEW.drives[run]) - VIEW.force(run)
+        if extended.measurement:
+            added = -extended.measurement["force.delay"].number * np.gradient(VIEW.force(run), STEP, edge_order=2)
+        shown = np.array([strength for strength, _ in atoms]) @ np.atleast_2d(suspect.columns(VIEW, run))[places]
+        # what a constant or the plain numbers of the network would take up does not count
+        tangents = np.array([np.ones(SAMPLES), VIEW.displacement(run), VIEW.velocity(run)])
+        left = added - shown
+        left = left - np.linalg.lstsq(tangents.T, left, rcond=None)[0] @ tangents
+        # a monotone cubic through all knots is not the sum of those through one knot each
+        share = 0.5 if suspect.joint else 0.02
+        assert np.std(left) <= share * np.std(shown) + 1e-3 * np.std(added)
+
+
+@pytest.mark.parametrize("suspect", [p for p in SUSPECTS if p.values[0].mends])
+def test_a_mend_leaves_the_network_and_tells_its_strength(suspect):
+    assert suspect.extend(NETWORK, [(1.0, suspect.grid[0])]) == NETWORK
+    strengths = np.zeros(len(suspect.grid))
+    strengths[0] = 0.5
+    told = suspect.tell(strengths.tolist())
+    assert told
+    assert all(np.isfinite(value) for value, _ in told.values())
+
+
+def test_every_cause_word_of_the_contract_is_there():
+    """All but lift-off, which needs a connection in series."""
+    words = """relaxation friction amplitude_softening viscous_damping power_law_damping quadratic_damping
+        asymmetric_damping preload_dependent_damping stiffness_curve end_stop clearance resonance
+        load_dependent_friction velocity_dependent_friction softening bedding_in creep moving_mass delay gain offset
+        drift clipping fixture_compliance hum"""
+    assert set(words.split()) <= set(REGISTRY.causes)
+
+
+def test_whatever_is_confused_with_something_names_a_cause_that_exists():
+    known = {*REGISTRY.causes, "lift_off"}
+    assert all(set(cause.confused_with) <= known for cause in REGISTRY.causes.values())
