@@ -35,6 +35,7 @@ TIE_SHARE = 5e-4
 SHARE_OF_FORM = 1e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
+SMALLEST_GAIN = 5e-4
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
 REFIT_MAY_DOUBLE = 0.5
@@ -211,6 +212,8 @@ class Pursuer:
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
             return "explains no more than the accepted causes may be wrong by in their form"
+        if fall < SMALLEST_GAIN:
+            return f"makes the training runs better by less than {SMALLEST_GAIN:.2%}: of no practical relevance"
         if explained and fall < SMALLEST_LATER_GAIN:
             return TOO_LITTLE
         return ""

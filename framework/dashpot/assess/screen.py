@@ -24,7 +24,7 @@ Places = NDArray[np.intp]
 FALSE_ALARMS = 0.01
 DRAWS = 400
 POWER_95 = 1.6448536269514722
-KEPT = 1e-7  # share of a column that must be left after projection
+KEPT = 1e-5  # of the square of a column must be left after projection: less is a matter of numerical errors
 RIDGE = 1e-9
 COARSE = 8  # places of a grid
 
