@@ -56,7 +56,7 @@ def print_system(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequenc
     forces = [layouts.row(force_row(joint)) for joint in driven]
     places = [layouts.row(row_of(joint, "position")) for joint in unknown]
     store = [line for number, row in enumerate([*forces, *places]) for line in _stored(number, row)]
-    score = [line for number, row in enumerate(forces) for line in _scored(number, row)]
+    score = [line for number, row in enumerate(forces) for line in _scored(number, row)] or ["pass"]
     begin = [_call("start", "still"), *_newton(layouts, "settle", "still", MOST_STATIC_STEPS, UNBALANCED),
              _call("rest", "still")]  # fmt: skip
     step = [_call("predict", "columns"), *_newton(layouts, "improve", "columns", MOST_STEPS, UNSOLVED),
