@@ -109,6 +109,8 @@ def next_runs(bench: Bench, pursuit: Pursuit) -> dict[tuple[str, str], Telling]:
         if not pairs and entry.base is not None and entry.trial.merit < WEAK:
             pairs = {"": entry.base}
         for rival, model in pairs.items():
+            if entry.trial.model.mends != model.mends:
+                continue  # what a fault of the measurement does on another run is not known
             run = telling_run(bench, entry.trial.model, model, pursuit.last.noise)
             if run is not None:
                 found[word, rival] = run

@@ -19,6 +19,7 @@ SAMPLES_PER_PERIOD = 40.0
 LONGEST_TRIANGLE = 120.0  # s
 SHARES = (0.15, 0.5, 0.85)  # of the reach
 LADDER = (0.1, 0.33, 1.0)  # of the largest amplitude
+BEYOND = (1.0, 2.0, 5.0)  # of the end of the measured band
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,14 +37,14 @@ class Proposal:
 
 
 def runs_to_choose_from(view: ModelView) -> Iterator[Proposal]:
-    """Sweeps over the measured band and to twice its end at several amplitudes and preloads, and slow triangles.
+    """Sweeps over the measured band and beyond its end at several amplitudes and preloads, and slow triangles.
 
     None goes beyond the measured deflections, nor faster than 1.5 times the measured speed.
     """
     low, high = view.reach
     stroke = min(view.stroke, high - low)
     top = view.speed / (np.pi * stroke)
-    for share, step, beyond in product(SHARES, LADDER, (1.0, 2.0)):
+    for share, step, beyond in product(SHARES, LADDER, BEYOND):
         amplitude = 0.5 * step * stroke
         centre = float(np.clip(low + share * (high - low), low + amplitude, high - amplitude))
         stop = beyond * top
