@@ -2,8 +2,8 @@
 
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen`` or ``Rig`` and mark its hook with
 ``hookimpl``. Use the parts from Python with ``load_registry``, ``read_network``, ``read_dataset``, ``simulate_runs``,
-``fit_network``, ``read_study``, ``run_study``, ``virtual_test``, ``compare`` and ``diagnose``. Everything is imported on
-first use: ``import dashpot`` costs nothing.
+``energy_balance``, ``fit_network``, ``read_study``, ``run_study``, ``virtual_test``, ``compare`` and ``diagnose``.
+Everything is imported on first use: ``import dashpot`` costs nothing.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from dashpot.fit.study.run import run_study as run_study
     from dashpot.fit.virtual_test import virtual_test as virtual_test
     from dashpot.kernel.api import simulate_runs as simulate_runs
+    from dashpot.kernel.energy import energy_balance as energy_balance
     from dashpot.model.element import Curve as Curve
     from dashpot.model.element import Element as Element
     from dashpot.model.element import Motion as Motion
@@ -62,6 +63,7 @@ _HOMES = {
     "dashpot.contract.specimen": ("Specimen",),
     "dashpot.contract.rig": ("PlannedRun", "PrescribedPath", "Rig"),
     "dashpot.kernel.api": ("simulate_runs",),
+    "dashpot.kernel.energy": ("energy_balance",),
     "dashpot.fit.api": ("fit_network",),
     "dashpot.fit.study.reading": ("read_study",),
     "dashpot.fit.study.run": ("run_study",),

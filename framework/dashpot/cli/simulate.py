@@ -10,6 +10,8 @@ from zipfile import ZipFile, ZipInfo
 
 import click
 
+from dashpot.cli.energy import FILE as ENERGIES
+from dashpot.cli.energy import write_energies
 from dashpot.cli.session import Session, split_setting
 from dashpot.cli.switches import Switches, output_option, switches
 
@@ -25,16 +27,24 @@ if TYPE_CHECKING:
 @click.option("--data", "dataset", metavar="DATASET", help="Measured runs that give the motion.")
 @click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.")
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".')
+@click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
 @output_option("A folder; with --data also a file ending in .npz.")
 @switches("seed", "quiet", "force")
 def verb(
-    spec: str, dataset: str | None, rig: str | None, settings: tuple[str, ...], output: Path, switches: Switches
+    spec: str,
+    dataset: str | None,
+    rig: str | None,
+    settings: tuple[str, ...],
+    energy: bool,
+    output: Path,
+    switches: Switches,
 ) -> None:
     """Simulate a network along measured motions, or measure it on a virtual test rig.
 
     SPEC is a network file or a shipped name. With --data the folder gets a CSV file for every run with time,
     displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
-    With --rig it becomes a dataset, with the noise of the rig, that every verb reads.
+    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work that the
+    rig puts in is followed to where it is stored or dissipated.
 
     \b
     Example:
@@ -46,31 +56,36 @@ def verb(
     session = Session(switches)
     network = session.network(spec)
     if rig is not None:
-        return measure_on(rig, settings, network, output, session)
+        return measure_on(rig, settings, network, output, session, energy)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
-    return follow(dataset, network, output, session)
+    return follow(dataset, network, output, session, energy)
 
 
-def follow(dataset: str, network: NetworkSpec, output: Path, session: Session) -> None:
+def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool) -> None:
     """Write the force along every measured run."""
+    from dashpot.data.excitation import Excitation
     from dashpot.kernel.api import simulate_runs
 
     measured = session.dataset(dataset)
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
-    folder = session.claim(output.parent if archive else output, *map(escape, files))
+    folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
     forces = simulate_runs(network, measured, registry=session.registry)
     if archive:
         folder.write_bytes(output.name, npz_bytes(forces))
     else:
         for name, force in forces.items():
             folder.write(f"{name}.csv", csv_text(measured.run(name), force))
+    if energy:
+        write_energies(network, map(Excitation.of_run, measured.runs), folder, session.talk)
     session.talk.say(f"simulated {len(forces)} runs: {output}")
 
 
-def measure_on(rig: str, settings: tuple[str, ...], network: NetworkSpec, output: Path, session: Session) -> None:
+def measure_on(
+    rig: str, settings: tuple[str, ...], network: NetworkSpec, output: Path, session: Session, energy: bool
+) -> None:
     """Write what a virtual rig measures as a dataset."""
     from dashpot.contract.bench import find_bench
     from dashpot.data.writing import dataset_files
@@ -82,9 +97,11 @@ def measure_on(rig: str, settings: tuple[str, ...], network: NetworkSpec, output
         raise click.UsageError(str(error)) from error
     runs = virtual_test(network, bench, session.switches.seed)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
-    folder = session.claim(output, *map(escape, files))
+    folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     for name, text in files.items():
         folder.write(name, text)
+    if energy:
+        write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
     session.talk.say(f"measured {len(runs)} runs: {output / 'dataset.yaml'}")
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive, drive_from_path
+from dashpot.data.excitation import Excitation
 
 Array = NDArray[np.float64]
 
@@ -55,6 +56,11 @@ class PlannedRun:
     def time(self) -> Array:
         """The instants (n,) in s."""
         return np.arange(self.samples, dtype=float) * self.sample_time
+
+    def excitation(self) -> Excitation:
+        """What the rig does to the specimen."""
+        drives = {node: path.drive(self.sample_time) for node, path in self.motion.items()}
+        return Excitation(drives, {}, self.settings, self.sample_time, self.samples, self.name)
 
 
 class Rig(ABC):

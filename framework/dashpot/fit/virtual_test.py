@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from dashpot.contract.bench import Bench
 from dashpot.contract.measuring import Measuring
 from dashpot.contract.rig import PORT, PlannedRun, channel_at
-from dashpot.data.excitation import Excitation
 from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.observe import Observation
@@ -39,12 +38,11 @@ def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0) -> list[Run]:
 
 def forces_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun) -> dict[str, Array]:
     """The force (n,) in N that each driven node feels, by node."""
-    drives = {node: path.drive(planned.sample_time) for node, path in planned.motion.items()}
-    rows = network.prepare(Excitation(drives, {}, planned.settings, planned.sample_time, planned.samples, planned.name))
+    rows = network.prepare(planned.excitation())
     if isinstance(network, CompiledNetwork):
         return {PORT: network.simulate(rows)}
     forces = dict(zip(network.outputs, network.forces(rows)[0], strict=True))
-    return {PORT: forces.popitem()[1]} if list(drives) == [PORT] else forces
+    return {PORT: forces.popitem()[1]} if list(planned.motion) == [PORT] else forces
 
 
 def _measured(
