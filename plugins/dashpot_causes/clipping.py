@@ -24,6 +24,7 @@ class Clipping(Cause):
     about = "clipping of the force channel"
     shows = "peaks are cut at one and the same force, at every amplitude, preload and frequency"
     cure = "measure again with a larger range; leave out what lies beyond the level"
+    faults = ("clipping",)
     confused_with = {
         "end_stop": "another frequency: clipping comes at one force, a stop at one deflection",
         "stiffness_curve": "a hold above the level: clipping depends on the force with its damping, a curve does not",

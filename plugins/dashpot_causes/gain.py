@@ -16,6 +16,7 @@ class Gain(Cause):
     about = "wrong gain of the force channel"
     shows = "the force of single runs is wrong in proportion to itself, while their repeats and neighbours are right"
     cure = "check range and calibration of these runs, or write 'gain' under their force channel"
+    faults = ("unit",)
     confused_with = {
         "offset": "a second preload under the same settings of the amplifier: a gain grows with the force",
         "stiffness_curve": "repeat the run: a gain of one run does not come again",

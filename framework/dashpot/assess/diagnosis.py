@@ -143,9 +143,12 @@ class Diagnosis:
 
     def _all_causes(self) -> list[dict[str, Any]]:
         """Faults of the measurement first, then what was pursued."""
-        words = dict.fromkeys(fault.cause for fault in self.triage.faults if fault.cause)
-        faults = [[fault for fault in self.triage.faults if fault.cause == word] for word in words]
-        found = [_cause_of_faults(rank, group, self.causes) for rank, group in enumerate(faults, 1)]
+        groups = [
+            (cause, faults)
+            for cause in self.causes.values()
+            if (faults := [fault for fault in self.triage.faults if fault.kind in cause.faults])
+        ]
+        found = [_cause_of_faults(rank, cause, faults) for rank, (cause, faults) in enumerate(groups, 1)]
         return found + [self._cause(rank, named) for rank, named in enumerate(self.named, len(found) + 1)]
 
     def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
@@ -167,13 +170,11 @@ class Diagnosis:
         }
 
 
-def _cause_of_faults(rank: int, faults: Sequence[Fault], causes: Mapping[str, type[Cause]]) -> dict[str, Any]:
-    word = faults[0].cause
-    known = causes.get(word)
+def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> dict[str, Any]:
     return {
-        "cause": word,
+        "cause": cause.word,
         "class": "measurement",
-        "title": known.about if known else word,
+        "title": cause.about,
         "rank": rank,
         "accepted": True,
         "branch": None,

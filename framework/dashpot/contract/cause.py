@@ -97,7 +97,7 @@ class Cause(ABC):
 
     ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
     other words to the measurement that tells the two apart. ``cure`` says what to do about the measurement, where it is
-    to blame.
+    to blame; ``faults`` are the kinds of faults found by triage that the cause stands for.
     """
 
     word: ClassVar[str]
@@ -105,6 +105,7 @@ class Cause(ABC):
     about: ClassVar[str]
     shows: ClassVar[str]
     cure: ClassVar[str] = ""
+    faults: ClassVar[tuple[str, ...]] = ()
     confused_with: ClassVar[Mapping[str, str]] = {}
 
     @abstractmethod

@@ -25,7 +25,7 @@ class Triage:
 
 def examine(dataset: Dataset) -> Triage:
     """Look for faults of the measurement. A dataset never loses its last run."""
-    read = [Fault(run, found.fault, found.message, found.hint, cause=found.fault) for run, found in dataset.faults]
+    read = [Fault(run, found.fault, found.message, found.hint) for run, found in dataset.faults]
     faults = duplicate_runs(dataset.runs)
     faults += [fault for run in dataset.runs if (fault := lost_samples(run))]
     bad = {fault.run for fault in faults}

@@ -12,7 +12,6 @@ class Fault:
     """A fault of one run: ``kind`` in a word, ``evidence`` in a sentence, ``cure`` says what to do.
 
     ``factor`` by which the force was multiplied here so that the run may stay; None for a run that is set aside.
-    ``cause`` is the cause word that the fault stands for, empty where there is none.
     """
 
     run: str
@@ -20,7 +19,6 @@ class Fault:
     evidence: str
     cure: str
     factor: float | None = None
-    cause: str = ""
 
     @property
     def sentence(self) -> str:

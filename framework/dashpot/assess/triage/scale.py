@@ -32,5 +32,5 @@ def wrong_scale(odd: Likeness) -> Fault | None:
     if odd.gain > 0.0 and near and abs(math.log(size)) > LONELY * spread:
         return Fault(odd.run, "unit",
                      f"its force is {pretty(odd.gain, '1', 4)} times what all others foretell, like {FACTORS[factor]}",
-                     "Correct the 'unit' of its force channel", 1.0 / factor, "gain")  # fmt: skip
+                     "Correct the 'unit' of its force channel", 1.0 / factor)  # fmt: skip
     return None
