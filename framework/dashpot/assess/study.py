@@ -13,19 +13,23 @@ from dashpot.fit.study.stage import StageResult
 
 
 def comparison_of(result: StudyResult) -> Comparison:
-    """The models of a study side by side."""
-    return Comparison(result.setting, tuple(model.fit for model in result.models), {}, result.study.seed)
+    """The models of a study side by side that are about the same runs as its last one."""
+    last = result.models[-1].setting
+    family = [model.fit for model in result.models if model.setting.dataset.digest == last.dataset.digest]
+    return Comparison(last, tuple(family), {}, result.study.seed)
 
 
 def study_content(result: StudyResult) -> dict[str, Any]:
     """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
     content = comparison_of(result).as_dict()
-    models = [{**row, **_model(model)} for row, model in zip(content["models"], result.models, strict=True)]
+    family = [model["name"] for model in content["models"]]
+    models = [{**_row(model, result.study.seed), **_model(model)} for model in result.models]
     study = {
         "name": result.study.name,
         "about": result.study.about,
         "budget": result.study.budget,
         "amplitude": result.study.amplitude,
+        "compared": family,
     }
     return {**content, "format": "dashpot-study-result/1", "study": study, "models": models}
 
@@ -63,9 +67,15 @@ def preview_text(previews: Sequence[Preview]) -> str:
     return "\n".join([*blocks, noise])
 
 
+def _row(model: ModelResult, seed: int) -> dict[str, Any]:
+    row: dict[str, Any] = Comparison(model.setting, (model.fit,), {}, seed).as_dict()["models"][0]
+    return row
+
+
 def _model(model: ModelResult) -> dict[str, Any]:
     fit = model.fit
     return {
+        "masses": _masses(model),
         "optimizer": fit.optimizer,
         "evaluations": fit.evaluations,
         "at_bound": list(fit.at_bound),
@@ -84,6 +94,15 @@ def _model(model: ModelResult) -> dict[str, Any]:
             for profile in model.profiles
         ],
     }
+
+
+def _masses(model: ModelResult) -> list[dict[str, Any]]:
+    """The masses that were identified, in kg, with their intervals."""
+    fitted = model.fit.fitted
+    slots = {slot.path: slot.value for slot in fitted.slots()}
+    paths = [f"{joint.numbers}.{key}" for joint in fitted.joints.values() for key in joint.masses]
+    return [{"node": path.rpartition(".")[0], "value": slots[path].number, "interval": list(slots[path].interval or ())}
+            for path in dict.fromkeys(paths) if slots[path].searched]  # fmt: skip
 
 
 def _known(known: Identifiability) -> dict[str, Any]:

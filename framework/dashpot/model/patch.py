@@ -56,6 +56,18 @@ def add_to_branch(text: str, branch: str, lines: str) -> str:
     return add_entry(document, node, lines)
 
 
+def use_in_branch(text: str, branch: str, word: str) -> str:
+    """The text with another network used by a branch. Raises InputError where the branch uses none."""
+    document = Document.parse(text)
+    branches = _mapping(document.root, "branches")
+    node = branches.entries.get(branch)
+    if node is None or not _has(node, "use"):
+        users = [name for name, entry in branches.entries.items() if _has(entry, "use")]
+        raise InputError.at(Place(document.file), f"no branch '{branch}' uses another network",
+                            nearest(branch, users) or f"those that do: {', '.join(users) or 'none'}")  # fmt: skip
+    return apply_edits(text, [replace_entry(_mapping(node), "use", plain_or_quoted(word))])
+
+
 def add_measurement(text: str, key: str, entry: str) -> str:
     """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``) under ``measurement: force:``.
 

@@ -32,15 +32,18 @@ def read_network(path_or_name: str | Path, elements: Elements) -> NetworkSpec:
     return build_network(Document.read(find_network(path_or_name)), elements)
 
 
-def parse_network(text: str, elements: Elements, file: str | None = None) -> NetworkSpec:
+def parse_network(text: str, elements: Elements, file: str | None = None,
+                  beside: MappingType[str, Document] | None = None) -> NetworkSpec:  # fmt: skip
     """The network in a text. Raises InputError with every mistake of the text.
 
-    ``file`` is its name in messages, and networks that it uses lie in the folder of that file.
+    ``file`` is its name in messages, and networks that it uses are among those ``beside`` it, by the word for them, or
+    lie in the folder of that file.
     """
-    return build_network(Document.parse(text, file), elements)
+    return build_network(Document.parse(text, file), elements, beside=beside)
 
 
-def build_network(document: Document, elements: Elements, trail: tuple[Path, ...] = ()) -> NetworkSpec:
+def build_network(document: Document, elements: Elements, trail: tuple[Path, ...] = (),
+                  beside: MappingType[str, Document] | None = None) -> NetworkSpec:  # fmt: skip
     """The network in a document. Raises InputError with every mistake.
 
     ``trail`` are the files of the networks that use this one, outermost first.
@@ -54,7 +57,7 @@ def build_network(document: Document, elements: Elements, trail: tuple[Path, ...
     gravity = form.quantity("gravity", "m/s^2", 0.0)
     if "gravity" in form and "nodes" not in form:
         form.complain("gravity", "gravity pulls at the masses of nodes, but the network has no nodes", "remove it")
-    reader = BranchReader(elements, problems, _Uses(document.file, elements, trail).network, joints)
+    reader = BranchReader(elements, problems, _Uses(document.file, elements, trail, beside or {}).network, joints)
     members = reader.outermost(form)
     measurement = _read_measurement(form, problems)
     # where the numbers of an identified model came from: written for people, read by nobody
@@ -92,16 +95,21 @@ class _Uses:
     file: str | None
     elements: Elements
     trail: tuple[Path, ...]
+    beside: MappingType[str, Document]
 
     def network(self, word: str) -> NetworkSpec:
         """The network that a file calls ``word``. Raises InputError with all that is wrong with it."""
+        if word in self.beside:
+            return self._checked(self.beside[word], self.trail)
         here = Path(self.file).resolve() if self.file else None
         trail = (*self.trail, here) if here else self.trail
         found = find_used_network(word, here.parent if here else Path.cwd())
         if found.resolve() in trail:
             names = " -> ".join(path.name for path in (*trail, found))
             raise InputError.at(Place(str(found)), f"the network uses itself: {names}", "break the circle")
-        document = Document.read(found)
+        return self._checked(Document.read(found), trail)
+
+    def _checked(self, document: Document, trail: tuple[Path, ...]) -> NetworkSpec:
         inner = build_network(document, self.elements, trail)
         if inner.joints:
             raise InputError.at(document.root.place, "a network that is used has two ends, expected no 'nodes'",

@@ -22,9 +22,10 @@ ALIKE = 0.02  # amplitudes that differ by less are the same test
 
 def study_page(study: Json, evidence: Evidence) -> Page:
     """The report of a `dashpot-study-result/1`; `evidence` is that of a comparison."""
-    page = comparison_page(study, evidence)
+    compared = [model for model in study["models"] if model["name"] in study["study"]["compared"]]
+    page = comparison_page({**study, "models": compared}, evidence)
     first, *others = page.sections
-    added = [_at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    added = [_masses(study), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
     return replace(
@@ -70,6 +71,31 @@ def intervals_grid(model: Json) -> Grid:
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
+
+
+def masses_grid(study: Json) -> Grid:
+    """The identified masses of all models."""
+    columns = [Column("model", "model"), Column("node", "node"), Column("value", "mass", "kg", 5),
+               Column("interval", "95 % interval, the structure taken as right")]  # fmt: skip
+    rows = [{"model": model["name"], "node": mass["node"], "value": mass["value"],
+             "interval": _pair(mass["interval"], 1.0) if mass["interval"] else None}
+            for model in study["models"] for mass in model["masses"]]  # fmt: skip
+    return Grid("Identified masses", columns, rows, csv_name="masses.csv")
+
+
+def _masses(study: Json) -> Section:
+    grid = masses_grid(study)
+    if not grid.rows:
+        return Section("", parts=[])
+    parts: list[Part] = [grid]
+    for node in dict.fromkeys(row["node"] for row in grid.rows):
+        values = {row["model"]: row["value"] for row in grid.rows if row["node"] == node}
+        low, high = min(values, key=values.get), max(values, key=values.get)
+        if low != high:
+            parts.append(Notice("warning", f"The mass of {node} depends on the structure: {number(values[low], 4)} kg "
+                                f"with {low}, {number(values[high], 4)} kg with {high}. The intervals do not hold this "
+                                "difference; compare the errors of the models."))  # fmt: skip
+    return Section("Masses", parts=parts)
 
 
 def _at_amplitude(study: Json, evidence: Evidence) -> Section:

@@ -21,7 +21,7 @@ class TakeStage:
 
 @dataclass(frozen=True)
 class SearchStage:
-    """Numbers are searched: those that ``free`` names and ``fixed`` does not, on the ``dynamic`` or on ``all`` runs.
+    """Numbers are searched: those that ``free`` names and ``fixed`` does not, on dynamic, slow or all runs.
 
     budget: parameter vectors to be evaluated at most, by all ``starts`` together.
     """
@@ -29,7 +29,7 @@ class SearchStage:
     name: str
     free: tuple[str, ...]
     fixed: tuple[str, ...]
-    runs: Literal["dynamic", "all"]
+    runs: Literal["dynamic", "slow", "all"]
     optimizer: str
     options: Mapping[str, Any]
     budget: int
@@ -45,11 +45,17 @@ Stage = TakeStage | SearchStage
 
 @dataclass(frozen=True)
 class ModelPlan:
-    """A network with its stages; ``start_from`` names the model of the study whose numbers it takes over."""
+    """A network with its stages; ``start_from`` names the model of the study whose numbers it takes over.
+
+    runs: patterns of the runs that it is about; parts: branch -> the model of the study that the branch uses, as it was
+    identified.
+    """
 
     network: NetworkSpec
     stages: tuple[Stage, ...]
     start_from: str | None = None
+    runs: tuple[str, ...] = ("*",)
+    parts: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def name(self) -> str:

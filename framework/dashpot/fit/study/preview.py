@@ -11,7 +11,7 @@ from dashpot.fit.identifiability import Identifiability, identifiability, unweig
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.study.declaration import StudySpec, TakeStage
-from dashpot.fit.study.run import study_setting, take_numbers
+from dashpot.fit.study.run import restricted, study_setting, take_numbers
 from dashpot.kernel.network import compile_network
 
 
@@ -28,9 +28,10 @@ class Preview:
 @single_threaded_algebra
 def preview_study(study: StudySpec, dataset: Dataset, jobs: int = 1) -> list[Preview]:
     """One preview for each model. Raises InputError as `run_study` does."""
-    setting = study_setting(study, dataset)
+    whole = study_setting(study, dataset)
     previews = []
     for plan in study.models:
+        setting = restricted(whole, plan)
         spec = plan.network
         if any(isinstance(stage, TakeStage) for stage in plan.stages) or spec.data_curves():
             spec = take_numbers(spec, "curves", setting.train)

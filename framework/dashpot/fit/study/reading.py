@@ -15,7 +15,7 @@ from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import read_network
 from dashpot.model.shipped import SUFFIXES, spec_folder
 from dashpot.text.document import Document
-from dashpot.text.form import Form, read_items, read_number, read_text
+from dashpot.text.form import Form, read_choice, read_items, read_number, read_text
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import InputError, Place, Problem, nearest
 
@@ -103,26 +103,21 @@ class _Reader:
     def _model(self, node: Node, before: list[str]) -> ModelPlan | None:
         if isinstance(node, Scalar):
             network = self._network(read_text(node))
-            return self._new(network, self._stages, None, before, node.place)
+            return self._new(ModelPlan(network, self._stages) if network else None, before, node.place)
         form = Form(node, self._problems, "the model")
         word = form.text("network")
         start_from = form.choice("start_from", before, None)
         stages = self._read_stages(form, self._stages)
+        runs = _patterns(form, "runs", ("*",))
+        parts = form.take("parts", lambda below: _read_parts(below, before), {})
         form.close()
         network = self._network(word) if word else None
-        return self._new(network, stages, start_from, before, node.place)
+        plan = ModelPlan(network, stages, start_from, runs, parts) if network else None
+        return self._new(plan, before, node.place)
 
-    def _new(
-        self,
-        network: NetworkSpec | None,
-        stages: tuple[Stage, ...],
-        start_from: str | None,
-        before: list[str],
-        place: Place,
-    ) -> ModelPlan | None:
-        if network is None:
+    def _new(self, plan: ModelPlan | None, before: list[str], place: Place) -> ModelPlan | None:
+        if plan is None:
             return None
-        plan = ModelPlan(network, stages, start_from)
         if plan.name in before:
             self._problems.append(Problem(place, f"two models are called '{plan.name}'", "give one another name"))
         if not plan.stages:
@@ -149,7 +144,7 @@ class _Reader:
             form.close()
             return TakeStage(name, take) if name and take else None
         optimizer = form.text("optimizer", OWN_METHOD)
-        runs: Any = form.choice("runs", ("dynamic", "all"), "all")
+        runs: Any = form.choice("runs", ("dynamic", "slow", "all"), "all")
         stage = SearchStage(
             name=name or "",
             free=_patterns(form, "free", ("*",)),
@@ -190,6 +185,10 @@ def _patterns(form: Form, key: str, default: Any) -> Any:
         return tuple(map(read_text, [node] if isinstance(node, Scalar) else read_items(node)))
 
     return form.take(key, read, default)
+
+
+def _read_parts(node: Node, before: list[str]) -> dict[str, str]:
+    return {branch: read_choice(model, before) for branch, model in _entries(node, "branch: model").items()}
 
 
 def _read_weights(node: Node) -> dict[str, float]:

@@ -16,6 +16,7 @@ from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, measure_errors, prepare, silent
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split
 from dashpot.fit.identifiability import Identifiability, identifiability, unweighted
@@ -28,6 +29,7 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
+from dashpot.fit.study.parts import with_parts
 from dashpot.fit.study.patterns import chosen
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
@@ -42,9 +44,10 @@ SLOW = ("quasi_static", "hold")
 class ModelResult:
     """An identified model: the fit, how its stages went, and what the data tell about its numbers.
 
-    ``bootstrap`` holds the intervals in SI by path where the study asks for them.
+    ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them.
     """
 
+    setting: Setting
     fit: FitResult
     stages: tuple[StageResult, ...]
     known: Identifiability
@@ -108,6 +111,21 @@ def named(run: Run | ScoredRun, patterns: Iterable[str]) -> bool:
     return chosen(run.name, patterns) or bool(run.record and chosen(run.record, patterns))
 
 
+def restricted(setting: Setting, plan: ModelPlan) -> Setting:
+    """The setting with the runs alone that a model is about. InputError when there are none to train on."""
+    names = {run.name for run in setting.dataset.runs if named(run, plan.runs)}
+    split = setting.split
+    train = tuple(name for name in split.train if name in names)
+    if not train:
+        raise InputError.at(Place(plan.name), f"the runs {', '.join(plan.runs)} leave '{plan.name}' none to train on")
+    if len(names) == len(setting.dataset.runs):
+        return setting
+    dataset = setting.dataset.select(names)
+    held_out = tuple(name for name in split.held_out if name in names)
+    scored = {name: run for name, run in setting.scored.items() if name in names}
+    return Setting(dataset, scored, Split(train, held_out, split.reason), noise_floor(dataset))
+
+
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
     """What the numbers of a study depend on."""
     networks = [plan.network.text for plan in study.models]
@@ -138,9 +156,13 @@ class _Conduct:
     def models(self) -> Iterator[ModelResult]:
         """Every model; those identified before may be starting points."""
         done: dict[str, NetworkSpec] = {}
+        texts: dict[str, str] = {}
+        whole = self.setting
         for plan in self.study.models:
-            result = self._model(plan, done)
-            done[plan.name] = result.fit.fitted
+            self.setting = restricted(whole, plan)
+            network = with_parts(plan.network, plan.parts, texts, self.registry) if plan.parts else plan.network
+            result = self._model(replace(plan, network=network), done)
+            done[plan.name], texts[plan.name] = result.fit.fitted, result.fit.identified_text
             yield result
 
     def _model(self, plan: ModelPlan, done: Mapping[str, NetworkSpec]) -> ModelResult:
@@ -160,8 +182,9 @@ class _Conduct:
         self, plan: ModelPlan, number: int, stage: SearchStage, spec: NetworkSpec
     ) -> tuple[NetworkSpec, StageResult]:
         train = self.setting.train
+        slow = [run for run in train if run.kind in SLOW]
         dynamic = [run for run in train if run.kind not in SLOW]
-        runs = dynamic if stage.runs == "dynamic" and dynamic else train
+        runs = {"slow": slow, "dynamic": dynamic, "all": train}[stage.runs] or train
         label = f"{plan.name}-{number + 1}-{stage.name}"
         seed = zlib.crc32(label.encode()) ^ self.study.seed
         task = Task(runs, run_weights(self.study, runs), seed, self.jobs, self.registry.optimizers)
@@ -199,7 +222,7 @@ class _Conduct:
             history=_joined(stages),
         )
         told = identifiability(plain, coordinates, coordinates.start, noise)
-        return ModelResult(fit, stages, told, self._resampled(plan, objective, coordinates),
+        return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
                            self._profiles(plan, objective, coordinates))  # fmt: skip
 
     def _resampled(
