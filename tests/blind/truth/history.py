@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 from numba import njit
+from scipy.signal import fftconvolve
 
 from .form import Proportional, log_uniform
 from .friction import slide
@@ -140,15 +142,25 @@ class OgdenRoxburgh(Mullins):
 
 
 class Creeping(Proportional):
-    """Any of the forms; the size is a stiffness."""
+    """Any of the forms: a force that every change of deflection loses with time; the size is a stiffness."""
 
     kind = "creep"
     unit = "N/m"
 
+    @abstractmethod
+    def lost(self, time: np.ndarray) -> np.ndarray:
+        """What is lost of a unit step so long after it."""
+
+    def shape(self, motion: Motion) -> np.ndarray:
+        """The preload of the run was set at its start; every later change creeps as well."""
+        lost = self.lost(motion.time)
+        changes = np.diff(motion.displacement, prepend=0.0)
+        return -fftconvolve(changes, lost)[: changes.size]
+
 
 @dataclass(frozen=True)
 class Logarithm(Creeping):
-    """- x0 log10(1 + t / begin) after the preload x0 of the run was set at its start."""
+    """log10(1 + t / begin)."""
 
     begin: float
 
@@ -156,13 +168,13 @@ class Logarithm(Creeping):
     def draw(cls, rng: np.random.Generator) -> Self:
         return cls(log_uniform(rng, 0.02, 0.5))
 
-    def shape(self, motion: Motion) -> np.ndarray:
-        return -motion.displacement[0] * np.log10(1.0 + motion.time / self.begin)
+    def lost(self, time: np.ndarray) -> np.ndarray:
+        return np.log10(1.0 + time / self.begin)
 
 
 @dataclass(frozen=True)
 class PowerOfTime(Creeping):
-    """- x0 (t / second)^power."""
+    """(t / second)^power."""
 
     power: float
 
@@ -170,8 +182,8 @@ class PowerOfTime(Creeping):
     def draw(cls, rng: np.random.Generator) -> Self:
         return cls(rng.uniform(0.1, 0.35))
 
-    def shape(self, motion: Motion) -> np.ndarray:
-        return -motion.displacement[0] * motion.time**self.power
+    def lost(self, time: np.ndarray) -> np.ndarray:
+        return time**self.power
 
 
 PAYNE_FORMS = (PowerSpectrum, Fletcher)
