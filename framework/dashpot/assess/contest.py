@@ -152,6 +152,8 @@ def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, 
     gain = base.chi_square - model.chi_square
     price = (model.numbers - base.numbers) * np.log(samples)
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""
+    if suspect.mends and suspect.sign and np.any(model.mends[-1].strengths <= 0.0):
+        failure = "the refit turned its sign, which makes no sense for this cause"
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 
 
