@@ -8,42 +8,32 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 from truth import FACTOR_AT, SHARPNESS
-from workload import DT, KNOTS, Sweep
+from workload import DT, KNOTS
 
 Array = NDArray[np.float64]
 
 
-def euler_force(sweep: Sweep, numbers: Mapping[str, float]) -> Array:
-    """The force (samples,) of tire model 5, tables by straight lines."""
-    x, v, _ = sweep.path(sweep.time)
-    return euler(x, v, *euler_numbers(numbers), DT)
-
-
-def euler_numbers(numbers: Mapping[str, float]) -> tuple[Array, ...]:
-    """The numbers of a network in arrays."""
-    kinds = (("maxwell", ("stiffness", "relaxation_time")), ("prandtl", ("stiffness", "limit")))
-    rows = [np.array([[numbers[f"{name}_{k}.{key}"] for key in keys] for k in (1, 2, 3)]) for name, keys in kinds]
-    carcass = np.array([numbers[f"stiffness.stiffness[{k}]"] for k in range(KNOTS.size)])
-    factor = numbers["damping.damping"] * np.array([numbers[f"damping.scale[{k}]"] for k in range(FACTOR_AT.size)])
-    return (
-        KNOTS,
-        carcass,
-        FACTOR_AT,
-        factor,
-        *rows,
-        np.array([numbers["friction.stiffness"], numbers["friction.limit"]]),
-    )
+def euler_force(path: tuple[Array, Array], numbers: Mapping[str, float]) -> Array:
+    """The force (samples,) of tire model 5 along displacement and velocity, tables by straight lines."""
+    x, v = path
+    carcass = np.interp(x, KNOTS, [numbers[f"stiffness.stiffness[{k}]"] for k in range(KNOTS.size)])
+    factor = np.interp(x, FACTOR_AT, [numbers[f"damping.scale[{k}]"] for k in range(FACTOR_AT.size)])
+    kinds = (("maxwell", "relaxation_time"), ("prandtl", "limit"))
+    rows = [np.array([[numbers[f"{name}_{k}.stiffness"], numbers[f"{name}_{k}.{key}"]] for k in (1, 2, 3)])
+            for name, key in kinds]  # fmt: skip
+    dahl = np.array([numbers["friction.stiffness"], numbers["friction.limit"]])
+    return euler(x, carcass + numbers["damping.damping"] * factor * v, *rows, dahl, DT)
 
 
 @njit(error_model="numpy")
-def euler(x, v, knots, carcass, factor_at, factor, maxwell, prandtl, dahl, dt):  # noqa: ANN001, ANN201
+def euler(x, static, maxwell, prandtl, dahl, dt):  # noqa: ANN001, ANN201
     """The force along a sampled path; every law is as it stands in a textbook."""
     force = np.empty(x.size)
     relaxing, sliding, friction = np.zeros(3), np.zeros(3), 0.0
     for k in range(x.size):
         travel = x[k] - x[k - 1] if k else 0.0
         side = 1.0 if travel > 0.0 else -1.0
-        total = np.interp(x[k], knots, carcass) + np.interp(x[k], factor_at, factor) * v[k]
+        total = static[k]
         for i in range(3):
             relaxing[i] += maxwell[i, 0] * travel - dt * relaxing[i] / maxwell[i, 1]
             slope = SHARPNESS * prandtl[i, 0] * max(1.0 - side * sliding[i] / prandtl[i, 1], 0.0)

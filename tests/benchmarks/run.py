@@ -1,116 +1,191 @@
 """Timings, side by side in one run: ``python tests/benchmarks/run.py``. Never part of a passing or failing test.
 
-Machines are shared and noisy: medians of several rounds, and ratios, are what counts.
+Machines are shared and noisy: medians of processor time over several rounds, and ratios, are what counts.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import platform
-import subprocess
 import sys
-import tempfile
 import time
+from collections.abc import Iterator
+from dataclasses import replace
 from importlib.metadata import version
 from pathlib import Path
-from statistics import median
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 import numpy as np
-from ordinary import euler_nanoseconds
-from workload import LANES, lanes, network, runs
+from axle import AXLE, DT, AxleTask, axle, equations, excitation
+from measuring import Contestant, time_together
+from ordinary import euler_force
+from peers import Entry, forces, peers, runge_kutta_answer
+from starting import instructions, start_times
+from tire import tire_equations
+from truth import tire_force
+from workload import LANES, NETWORK, SWEEPS, Sweep, Task, lanes, network
 
-from dashpot.fit.search import run_search
+LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
+HARDEST = 8  # 5 mm around 10 mm
+RESULTS, PAGE = Path(__file__).parent / "results", Path(__file__).parent / "README.md"
+BEGIN, END = "<!-- written: results -->", "<!-- end: results -->"
+EXACT_PARTS = 64
+LIBRARIES = ("dashpot", "numpy", "numba", "llvmlite", "scipy", "numbalsoda", "scikit-sundae")
 
-GENERATIONS = 200
-NETWORKS = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5")
-
-
-def seconds_of(work, rounds: int) -> float:
-    """Median time of a call, after a first one that does not count."""
-    work()
-    times = []
-    for _ in range(rounds):
-        began = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - began)
-    return median(times)
-
-
-def nanoseconds(name: str, jobs: int, rounds: int, count: int = LANES) -> float:
-    """Time per lane and sample of scoring a block on all twelve sweeps."""
-    compiled, drives = network(name), runs()
-    rows = [compiled.prepare(drive) for drive in drives]
-    values, size = lanes(compiled, count), drives[0].samples
-    measured, weights = [np.zeros(size)] * len(rows), [np.ones(size)] * len(rows)
-    spent = seconds_of(lambda: compiled.score(rows, measured, weights, values, jobs), rounds)
-    return 1e9 * spent / (count * size * len(rows))
+Row = dict[str, str | float]
 
 
-def swarm_seconds(generations: int, jobs: int) -> float:
-    """Time of a particle swarm on the twelve sweeps, through the real optimizer."""
-    from dashpot.contract.optimizer import Space
-    from dashpot.contract.registry import load_registry
-
-    compiled, drives = network("tire_model_5"), runs()
-    rows = [compiled.prepare(drive) for drive in drives]
-    force = [compiled.simulate(row) for row in rows]
-    weights = [np.ones(drives[0].samples)] * len(rows)
-    free = np.array(["[" not in path for path in compiled.paths])
-
-    def losses(cube: np.ndarray) -> np.ndarray:
-        values = np.repeat(compiled.start[None], len(cube), axis=0)
-        values[:, free] *= np.exp(1.4 * (cube - 0.5))
-        return np.sqrt(np.mean(compiled.score(rows, force, weights, values, jobs), axis=0) / drives[0].samples)
-
-    space = Space(tuple(np.array(compiled.paths)[free]), np.full(int(free.sum()), 0.3))
-    method = load_registry().optimizers["pso"](particles=LANES, iterations=generations, stall=generations + 1)
-    began = time.perf_counter()
-    run_search(method, losses, losses, space, 1)
-    return time.perf_counter() - began
+def tire_rows(sweeps: tuple[Sweep, ...], rounds: int) -> Iterator[Row]:
+    """W1 and the ladder of networks, interleaved: ns per lane and sample."""
+    drives = tuple(sweep.drive() for sweep in sweeps)
+    hardest = replace(SWEEPS[HARDEST], seconds=sweeps[0].seconds)
+    numbers, path = dict(zip(network().paths, network().start.tolist(), strict=True)), hardest.path(hardest.time)[:2]
+    tasks = {f"{name}, {LANES} lanes": Task.of(network(name), drives) for name in LADDER}
+    tasks[f"{NETWORK}, {LANES} lanes, 2 threads"] = Task.of(network(), drives, jobs=2)
+    tasks[f"{NETWORK}, 1 lane"] = Task.of(network(), drives, 1)
+    field = [Contestant(name, task.score, task.units) for name, task in tasks.items()]
+    field.append(Contestant("explicit Euler, numba, scalar", lambda: euler_force(path, numbers), hardest.time.size))
+    error = {f"{NETWORK}, {LANES} lanes": tire_error(sweeps), "explicit Euler, numba, scalar":
+             rms(euler_force(path, numbers) - tire_force(hardest, numbers))}  # fmt: skip
+    yield from _rows(field, rounds, error)
 
 
-def start_seconds(code: str, cache: str, rounds: int) -> float:
-    """Median time that a fresh process needs for a piece of code, by its own clock."""
-    timed = f"import time; began = time.perf_counter()\n{code}\nprint(time.perf_counter() - began)"
-    environment = {**os.environ, "DASHPOT_CACHE": cache}
-    command = [sys.executable, "-c", timed]
-    folder = Path(__file__).parent
-    outputs = [subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True, check=True).stdout
-               for _ in range(rounds)]  # fmt: skip
-    return median(float(output.split()[-1]) for output in outputs)
+def axle_rows(seconds: float, rounds: int) -> Iterator[Row]:
+    """W2: ns per lane and sample."""
+    counts = {f"{LANES} lanes": (LANES, 1), "64 lanes": (64, 1), "64 lanes, 2 threads": (64, 2), "1 lane": (1, 1)}
+    tasks = {f"{AXLE}, {what}": AxleTask.of(seconds, *count) for what, count in counts.items()}
+    field = [Contestant(name, task.score, task.units) for name, task in tasks.items()]
+    yield from _rows(field, rounds, {f"{AXLE}, 64 lanes": axle_error(seconds)[0]})
+
+
+def _rows(field: list[Contestant], rounds: int, error: dict[str, float]) -> Iterator[Row]:
+    for name, timing in time_together(field, rounds).items():
+        # work of other threads is not in the time of this one
+        time_of = timing.clock if "threads" in name else timing.cpu
+        yield {"who": name, "ns": time_of, "clock_ns": timing.clock, "spread": timing.spread,
+               **({"error": error[name]} if name in error else {})}  # fmt: skip
+
+
+def tire_error(sweeps: tuple[Sweep, ...]) -> float:
+    """The error (rms, N) over some lanes and all sweeps against closed forms between exact reversals."""
+    compiled, values = network(), lanes(network(), 4)
+    misses = []
+    for sweep in sweeps:
+        found = compiled.simulate(compiled.prepare(sweep.drive()), values)
+        exact = [tire_force(sweep, dict(zip(compiled.paths, lane.tolist(), strict=True))) for lane in values]
+        misses.append(found - np.array(exact))
+    return rms(np.array(misses))
+
+
+def axle_error(seconds: float) -> tuple[float, float]:
+    """The error (rms, N) of the axle and of its truth: the same equations with very short Runge-Kutta steps."""
+    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds)
+    fine, finer = (forces(hand, times, runge_kutta_answer(hand, times, parts)) for parts in (32, EXACT_PARTS))
+    found = axle().solve(axle().prepare(excitation(seconds)))
+    return rms(found.force[0].T - finer), rms(fine - finer)
+
+
+def peer_rows(seconds: float) -> dict[str, list[Row]]:
+    """General integrators on one lane, at the accuracy of dashpot."""
+    sweep = replace(SWEEPS[HARDEST], seconds=seconds)
+    numbers = dict(zip(network().paths, network().start.tolist(), strict=True))
+    exact = tire_force(sweep, numbers)
+    goal = rms(network().simulate(network().prepare(sweep.drive())) - exact)
+    tire = [_row(entry) for entry in peers(tire_equations(sweep), exact[:, None], sweep.time, goal)]
+    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds)
+    truth = forces(hand, times, runge_kutta_answer(hand, times, EXACT_PARTS))
+    return {"W1": tire, "W2": [_row(entry) for entry in peers(hand, truth, times, axle_error(seconds)[0])]}
+
+
+def _row(entry: Entry) -> Row:
+    return {"who": f"{entry.who}, {entry.setting}", "ns": entry.nanoseconds, "error": entry.error}
+
+
+def rms(values: np.ndarray) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def measured(quick: bool, rounds: int, count: bool) -> dict:
+    """All of it."""
+    seconds, short = (3.0, 2.0) if quick else (30.0, 5.0)
+    sweeps = tuple(replace(sweep, seconds=seconds) for sweep in (SWEEPS[::5] if quick else SWEEPS))
+    others = peer_rows(short)
+    content = {
+        "machine": {"processor": processor(), "cores": os.cpu_count()}, "date": time.strftime("%Y-%m-%d"),
+        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
+        "seconds": seconds, "sweeps": len(sweeps), "rounds": rounds, "peer_seconds": short,
+        "W1": [*tire_rows(sweeps, rounds), *others["W1"]], "W2": [*axle_rows(seconds, rounds), *others["W2"]],
+        "start": start_times(1 if quick else rounds),
+    }  # fmt: skip
+    return {**content, "instructions": instructions()} if count else content
+
+
+def installed(name: str) -> str | None:
+    """The version of a library, None where it is not there."""
+    try:
+        return version(name)
+    except ImportError:
+        return None
+
+
+def processor() -> str:
+    """The kind of processor, with the widest vectors that it has."""
+    found = Path("/proc/cpuinfo")
+    text = found.read_text(encoding="utf-8") if found.exists() else ""
+    named = next((line.partition(":")[2].strip() for line in text.splitlines() if line.startswith("model name")), "")
+    wide = next((word for flag, word in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if flag in text), "")
+    return ", ".join(filter(None, [named or platform.machine(), wide]))
+
+
+def table(content: dict) -> str:
+    """The results as Markdown."""
+    versions = ", ".join(f"{name} {found}" for name, found in content["versions"].items())
+    lines = [f"{content['date']}, {content['machine']['processor']}, {content['machine']['cores']} cores; {versions}. "
+             f"W1: {content['sweeps']} sweeps of {content['seconds']:g} s, W2: one. Medians of {content['rounds']} "
+             f"rounds; integrators on {content['peer_seconds']:g} s of one run."]  # fmt: skip
+    for work, first in (("W1", f"{NETWORK}, {LANES} lanes"), ("W2", f"{AXLE}, 64 lanes")):
+        base = next(row["ns"] for row in content[work] if row["who"] == first)
+        lines += ["", f"| {work} | ns per lane and sample | ratio | error rms in N |", "| --- | ---: | ---: | ---: |"]
+        lines += [
+            f"| {row['who']} | {row['ns']:.3g} | {row['ns'] / base:.3g} | {_error(row)} |" for row in content[work]
+        ]
+    lines += ["", "| start | s |", "| --- | ---: |"]
+    lines += [f"| {what} | {seconds:.3g} |" for what, seconds in content["start"].items()]
+    if content.get("instructions"):
+        lines += ["", "| instructions per lane and sample, AVX2 | |", "| --- | ---: |"]
+        lines += [f"| {name} | {number:.0f} |" for name, number in content["instructions"].items()]
+    return "\n".join(lines)
+
+
+def _error(row: Row) -> str:
+    return f"{row['error']:.2g}" if "error" in row else ""
+
+
+def write(content: dict) -> None:
+    """Keep the results of this version, and the table in the README beside this file."""
+    RESULTS.mkdir(exist_ok=True)
+    text = json.dumps(content, indent=1) + "\n"
+    (RESULTS / f"{content['versions']['dashpot']}.json").write_text(text, encoding="utf-8")
+    before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+    PAGE.write_text(f"{before}{BEGIN}\n\n{table(content)}\n\n{END}{rest.partition(END)[2]}", encoding="utf-8")
 
 
 def main() -> None:
-    """Print the tables."""
+    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--full", action="store_true", help="run all 200 generations of the swarm")
+    parser.add_argument("--quick", action="store_true", help="short sweeps, few of them")
+    parser.add_argument("--instructions", action="store_true", help="count instructions with valgrind")
+    parser.add_argument("--write", action="store_true", help="keep the results and the table")
     options = parser.parse_args()
-    versions = ", ".join(f"{name} {version(name)}" for name in ("dashpot", "numpy", "numba", "scipy"))
-    print(
-        f"{platform.processor() or platform.machine()}, {os.cpu_count()} cores, {time.strftime('%Y-%m-%d')}, {versions}"
-    )
-    print(f"\nns per lane and sample, {LANES} lanes, 12 sweeps of 30 s at 1 kHz")
-    for name in NETWORKS:
-        print(f"  {name:14s} {nanoseconds(name, 1, options.rounds):7.2f}")
-    whole, two = nanoseconds("tire_model_5", 1, options.rounds), nanoseconds("tire_model_5", 2, options.rounds)
-    euler = euler_nanoseconds(options.rounds)
-    print(f"  tire_model_5 on two threads {two:.2f}, ratio {whole / two:.2f}")
-    print(f"  tire_model_5, a single lane {nanoseconds('tire_model_5', 1, 1, 1):.1f}")
-    print(f"  scalar explicit Euler of the same laws {euler:.1f}, ratio {euler / whole:.1f}; wrong by newtons")
-    generations = GENERATIONS if options.full else 10
-    swarm = swarm_seconds(generations, 2) * GENERATIONS / generations
-    how = "measured" if options.full else f"from {generations} generations"
-    print(f"\nparticle swarm {LANES} x {GENERATIONS} on these runs, two threads: {swarm:.0f} s ({how})")
-    with tempfile.TemporaryDirectory() as cold:
-        compiling = "from workload import network; network('tire_model_5')"
-        first = start_seconds(compiling, cold, 1)
-        again = start_seconds(compiling, cold, options.rounds)
-    print(f"tire_model_5 in a fresh process: cold {first:.1f} s, from the cache {again:.2f} s, imports included")
-    print(f"import dashpot: {start_seconds('import dashpot', '', options.rounds):.3f} s")
+    content = measured(options.quick, options.rounds, options.instructions)
+    print(table(content))
+    if options.write:
+        write(content)
 
 
 if __name__ == "__main__":
