@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from dashpot.data.run import Run
+    from dashpot.kernel.api import RunSolution
     from dashpot.model.network import NetworkSpec
 
 
@@ -66,21 +68,21 @@ def verb(
 def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool) -> None:
     """Write the force along every measured run."""
     from dashpot.data.excitation import Excitation
-    from dashpot.kernel.api import simulate_runs
+    from dashpot.kernel.api import forces_by_name, solve_runs
 
     measured = session.dataset(dataset)
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
-    forces = simulate_runs(network, measured, registry=session.registry)
+    solved = solve_runs(network, measured, registry=session.registry)
     if archive:
-        folder.write_bytes(output.name, npz_bytes(forces))
+        folder.write_bytes(output.name, npz_bytes(forces_by_name(solved)))
     else:
-        for name, force in forces.items():
-            folder.write(f"{name}.csv", csv_text(measured.run(name), force))
+        for name, solution in solved.items():
+            folder.write(f"{name}.csv", csv_text(measured.run(name), solution))
     if energy:
         write_energies(network, map(Excitation.of_run, measured.runs), folder, session.talk)
-    session.talk.say(f"simulated {len(forces)} runs: {output}")
+    session.talk.say(f"simulated {len(solved)} runs: {output}{told_error(solved)}")
 
 
 def measure_on(
@@ -105,10 +107,25 @@ def measure_on(
     session.talk.say(f"measured {len(runs)} runs: {output / 'dataset.yaml'}")
 
 
-def csv_text(run: Run, force: np.ndarray) -> str:
-    """A run's time (s), displacement (m) and simulated force (N), each as the shortest text that reads back alike."""
-    rows = zip(run.time.tolist(), run.displacement.tolist(), force.tolist(), strict=True)
-    return "\n".join(["time,displacement,force", "s,m,N", *(",".join(map(repr, row)) for row in rows)]) + "\n"
+def csv_text(run: Run, solution: RunSolution) -> str:
+    """Time (s), measured and simulated displacements (m) and simulated forces (N), as the shortest texts that read back
+    alike.
+    """
+    from dashpot.data.excitation import channel_at
+
+    columns = {"time": ("s", run.time)}
+    columns |= {name: ("m", values) for name, values in run.channels.items() if name.startswith("displacement")}
+    columns |= {channel_at("displacement", node): ("m", values) for node, values in solution.motion.items()}
+    columns |= {channel_at("force", node): ("N", values) for node, values in solution.force.items()}
+    rows = zip(*(values.tolist() for _, values in columns.values()), strict=True)
+    head = [",".join(columns), ",".join(unit for unit, _ in columns.values())]
+    return "\n".join([*head, *(",".join(map(repr, row)) for row in rows)]) + "\n"
+
+
+def told_error(solved: Mapping[str, RunSolution]) -> str:
+    """The largest estimated numerical error, where there is one."""
+    largest = max((error for solution in solved.values() for error in solution.error.values()), default=0.0)
+    return f"; estimated numerical error of the forces at most {largest:.2g} N rms" if largest else ""
 
 
 def npz_bytes(forces: dict[str, np.ndarray]) -> bytes:

@@ -55,7 +55,7 @@ class Excitation:
         Raises InputError for a node whose motion or load is not there.
         """
         motions = dict(self.motions)
-        if len(driven) == 1 and driven[0] not in motions and list(motions) == [""]:
+        if len(driven) == 1 and driven[0] not in motions and "" in motions:
             motions = {driven[0]: motions[""]}
         for quantity, known, nodes in (("displacement", motions, driven), ("force", self.loads, loaded)):
             for node in nodes:

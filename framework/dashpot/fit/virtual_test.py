@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from dashpot.contract.bench import Bench
 from dashpot.contract.measuring import Measuring
 from dashpot.contract.rig import PORT, PlannedRun, channel_at
 from dashpot.data.run import Run
+from dashpot.kernel.api import RunSolution, solve
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.observe import Observation
 from dashpot.kernel.system import CompiledSystem
@@ -29,32 +31,31 @@ def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0) -> list[Run]:
     network = compile_network(spec)
     measured: list[Run] = []
     for planned in bench.runs():
-        forces = forces_of(network, planned)
+        answer = answer_of(network, planned)
         for repeat in range(bench.measuring.repeats if planned.kind in DYNAMIC else 1):
             rng = np.random.default_rng([seed, len(measured)])
-            measured.append(_measured(planned, forces, bench.measuring, repeat, len(measured), rng))
+            measured.append(_measured(planned, answer, bench.measuring, repeat, len(measured), rng))
     return measured
 
 
-def forces_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun) -> dict[str, Array]:
-    """The force (n,) in N that each driven node feels, by node."""
-    rows = network.prepare(planned.excitation())
-    if isinstance(network, CompiledNetwork):
-        return {PORT: network.simulate(rows)}
-    forces = dict(zip(network.outputs, network.forces(rows)[0], strict=True))
-    return {PORT: forces.popitem()[1]} if list(planned.motion) == [PORT] else forces
+def answer_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun) -> RunSolution:
+    """The forces at the driven nodes and the motions of the free ones."""
+    found = solve(network, planned.excitation())
+    if list(planned.motion) == [PORT]:
+        return replace(found, force={PORT: next(iter(found.force.values()))})
+    return found
 
 
 def _measured(
     planned: PlannedRun,
-    forces: Mapping[str, Array],
+    answer: RunSolution,
     chain: Measuring,
     repeat: int,
     order: int,
     rng: np.random.Generator,
 ) -> Run:
     name = planned.name + (f"_{LETTERS[repeat - 1]}" if repeat else "")
-    channels = dict(_channels(planned, forces, chain, rng))
+    channels = dict(_channels(planned, answer, chain, rng))
     return Run(
         name=name,
         kind=planned.kind,
@@ -70,12 +71,13 @@ def _measured(
 
 
 def _channels(
-    planned: PlannedRun, forces: Mapping[str, Array], chain: Measuring, rng: np.random.Generator
+    planned: PlannedRun, answer: RunSolution, chain: Measuring, rng: np.random.Generator
 ) -> Iterator[tuple[str, Array]]:
-    for node, path in planned.motion.items():
+    moved = {node: path.displacement for node, path in planned.motion.items()} | dict(answer.motion)
+    for node, displacement in moved.items():
         jitter = chain.displacement_noise * rng.standard_normal(planned.samples)
-        yield channel_at("displacement", node), path.displacement + jitter
-    for node, force in forces.items():
+        yield channel_at("displacement", node), displacement + jitter
+    for node, force in answer.force.items():
         felt = force + carried_mass(chain) * planned.motion[node].acceleration
         shown = Observation(np.array([chain.gain]), np.array([chain.zero]), np.array([chain.delay]))
         noise = chain.force_noise * coloured_noise(rng, planned.samples, planned.sample_time, chain.noise_memory)

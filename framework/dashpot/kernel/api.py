@@ -69,6 +69,10 @@ def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
 
     Where a network has several driven nodes the names are ``run@node``.
     """
-    found = solve_runs(spec, dataset, registry=registry)
+    return forces_by_name(solve_runs(spec, dataset, registry=registry))
+
+
+def forces_by_name(found: Mapping[str, RunSolution]) -> dict[str, Array]:
+    """All forces, called ``run`` or, where there are several, ``run@node``."""
     return {f"{name}@{node}" if len(each.force) > 1 else name: force
             for name, each in found.items() for node, force in each.force.items()}  # fmt: skip

@@ -16,7 +16,9 @@ class Bench:
     runs = (SimpleNamespace(name="slow"), SimpleNamespace(name="odd[1]"), SimpleNamespace(name="file"))
 
     def run(self, name):
-        return SimpleNamespace(time=np.array([0.0, 0.1]), displacement=np.array([0.0, 1e-3]), name=name)
+        return SimpleNamespace(
+            name=name, time=np.array([0.0, 0.1]), channels={"displacement": np.array([0.0, 1e-3]), "force": np.zeros(2)}
+        )
 
 
 FORCES = {"slow": np.array([0.1, 1 / 3]), "odd[1]": np.array([-2.5, 1e-300]), "file": np.array([0.0, -0.0])}
@@ -27,7 +29,9 @@ def bench(monkeypatch, layers):
     monkeypatch.setitem(
         sys.modules, "dashpot.data.dataset", SimpleNamespace(read_dataset=lambda path, readers: Bench())
     )
-    api = SimpleNamespace(simulate_runs=lambda spec, dataset, *, registry: FORCES)
+    solved = {name: SimpleNamespace(force={"": force}, motion={"hub": force}, error={"": 0.25}) for name, force in
+              FORCES.items()}  # fmt: skip
+    api = SimpleNamespace(solve_runs=lambda spec, dataset, *, registry: solved, forces_by_name=lambda found: FORCES)
     monkeypatch.setitem(sys.modules, "dashpot.kernel.api", api)
 
 
@@ -35,7 +39,13 @@ def test_each_run_becomes_a_csv_file(call, tmp_path):
     assert call("simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / "out")[0] == 0
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"slow.csv", "odd[1].csv", "file.csv"}
     text = (tmp_path / "out" / "slow.csv").read_text()
-    assert text == "time,displacement,force\ns,m,N\n0.0,0.0,0.1\n0.1,0.001,0.3333333333333333\n"
+    head = "time,displacement,displacement@hub,force\ns,m,m,N\n"
+    assert text == head + "0.0,0.0,0.1,0.1\n0.1,0.001,0.3333333333333333,0.3333333333333333\n"
+
+
+def test_the_estimated_error_is_told(call, tmp_path):
+    told = call("simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / "out")[2]
+    assert "estimated numerical error of the forces at most 0.25 N rms" in told
 
 
 def test_an_archive_holds_the_forces_by_run_and_its_bytes_repeat(call, tmp_path):
