@@ -99,14 +99,15 @@ class Strut:
             return self.absorber(v), 0.0
         stiffness, damping = self.mount
         w, low, high = self.speed, -1e3, 1e3
-        for _ in range(200):
+        for number in range(200):
             value, slope = self.absorber.both(v - w)
             missing = value - stiffness * deflection - damping * w
             low, high = (w, high) if missing > 0.0 else (low, w)
             step = missing / (slope + damping)
             if abs(step) < 1e-14 + 1e-13 * abs(w):
                 break
-            w = w + step if low < w + step < high else 0.5 * (low + high)
+            newton = low < w + step < high and (number < 8 or number % 2)
+            w = w + step if newton else 0.5 * (low + high)
         else:
             raise AssertionError("the mount did not find its rate")
         self.speed = w
