@@ -10,13 +10,14 @@ from dashpot import load_registry
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.reading import read_network
 from dashpot.model.shipped import shipped_networks
+from dashpot.model.topology import topology_of
 
-INTEGRATED = {"spring", "damper", "maxwell", "dahl", "prandtl"}
+INTEGRATED = {"spring", "damper", "maxwell", "dahl", "prandtl", "hydro"}
 
 
 def _between_two_ends(name: str) -> bool:
     spec = read_network(name, load_registry().elements)
-    return bool(spec.data_curves()) and {branch.element.word for branch in spec.leaves()} <= INTEGRATED
+    return topology_of(spec).parallel and {branch.element.word for branch in spec.leaves()} <= INTEGRATED
 
 
 NAMES = tuple(filter(_between_two_ends, shipped_networks()))
@@ -39,16 +40,18 @@ class Dice:
 
 
 def filled(name: str, dice: Dice) -> NetworkSpec:
-    """A shipped network with random numbers, and a random rising table for the curve that comes from data."""
+    """A shipped network with random numbers, and a random rising table for the curve of its spring."""
     spec = read_network(name, load_registry().elements)
-    for path, curve in spec.data_curves().items():
-        spec = spec.with_curve(path, stiffness_table(curve, dice))
     words = {branch.name: branch.element.word for branch in spec.leaves()}
-    data = set(spec.data_curves())
+    tables = {path: curve for path, curve in spec.curves().items()
+              if curve.form == "table" and words[path.rpartition(".")[0]] == "spring"}  # fmt: skip
+    tables |= spec.data_curves()
+    for path, curve in tables.items():
+        spec = spec.with_curve(path, stiffness_table(curve, dice))
     numbers = {}
     for slot in spec.slots():
         name, _, key = slot.path.rpartition(".")
-        if slot.path.partition("[")[0] not in data:
+        if slot.path.partition("[")[0] not in tables:
             numbers[slot.path] = replace(slot.value, number=dice.number(words[name], key, slot.value.number))
     return spec.with_values(numbers)
 

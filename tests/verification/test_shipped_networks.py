@@ -56,6 +56,12 @@ def steepest(spec: NetworkSpec) -> float:
     return sum(slopes)
 
 
+def damping(spec: NetworkSpec) -> float:
+    """What the forces of all dampers can change per m/s."""
+    return sum(branch.curves["damping"].values[0].number * (max(table(branch.scale)[1]) if branch.scale else 1.0)
+               for branch in spec.leaves() if branch.element.word == "damper")  # fmt: skip
+
+
 @dataclass
 class Truth:
     """Forces with memory of all branches of all networks, along the cubic path and along the true motion."""
@@ -86,7 +92,8 @@ def table(curve) -> tuple[np.ndarray, np.ndarray]:
 
 
 def numbers(branch: Branch) -> tuple[float, ...]:
-    order = {"maxwell": ("stiffness", "relaxation_time")}.get(branch.element.word, ("stiffness", "limit"))
+    orders = {"maxwell": ("stiffness", "relaxation_time"), "hydro": ("fluid_mass", "stiffness", "damping")}
+    order = orders.get(branch.element.word, ("stiffness", "limit"))
     assert set(branch.values) == set(order)
     return tuple(branch.values[key].number for key in order)
 
@@ -127,4 +134,7 @@ def test_the_path_between_the_samples_costs_little_against_the_true_motion(name,
     largest = [np.max(np.abs(error)) for error in errors]
     state(f"{name}: largest error against the true sweep {largest[0]:.1e} N with its velocities, "
           f"{largest[1]:.1e} N from displacement samples alone")  # fmt: skip
-    assert max(largest) < 5e-4 + CUBIC_ERROR * steepest(truth.networks[name])
+    # the velocity of the spline is off by some um/s at the ends of the record, which the dampers feel
+    slip = np.max(np.abs(splined.velocity - truth.v))
+    assert max(largest) < 1e-4 + 1.01 * slip * damping(truth.networks[name]) + CUBIC_ERROR * steepest(
+        truth.networks[name])  # fmt: skip

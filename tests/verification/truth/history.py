@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from verification.truth.laws import dahl_slope, maxwell_rate, prandtl_slope
+from verification.truth.laws import dahl_slope, hydro_rates, maxwell_rate, prandtl_slope
 
 TOLERANCES = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-10}
 
@@ -19,27 +19,38 @@ class Histories:
     maxwells: list[tuple[float, ...]] = field(default_factory=list)
     dahls: list[tuple[float, ...]] = field(default_factory=list)
     prandtls: list[tuple[float, ...]] = field(default_factory=list)
+    hydros: list[tuple[float, ...]] = field(default_factory=list)
 
     def family(self, word: str) -> list[tuple[float, ...]]:
-        return {"maxwell": self.maxwells, "dahl": self.dahls, "prandtl": self.prandtls}[word]
+        return {"maxwell": self.maxwells, "dahl": self.dahls, "prandtl": self.prandtls, "hydro": self.hydros}[word]
 
     def ask(self, word: str, numbers: tuple[float, ...]) -> None:
         if numbers not in self.family(word):
             self.family(word).append(numbers)
 
     def place(self, word: str, numbers: tuple[float, ...]) -> int:
-        """Which of the integrated forces belongs to a branch."""
-        before = {"maxwell": 0, "dahl": len(self.maxwells), "prandtl": len(self.maxwells) + len(self.dahls)}
-        return before[word] + self.family(word).index(numbers)
+        """Which of the integrated forces belongs to a branch; behind that of a hydro element is its flow."""
+        first, second, third = self.ends
+        begin, width = {"maxwell": (0, 1), "dahl": (first, 1), "prandtl": (second, 1), "hydro": (third, 2)}[word]
+        return begin + width * self.family(word).index(numbers)
+
+    @property
+    def ends(self) -> tuple[int, int, int]:
+        """Where the forces of each family end."""
+        first = len(self.maxwells)
+        second = first + len(self.dahls)
+        return first, second, second + len(self.prandtls)
 
     @property
     def count(self) -> int:
-        return len(self.maxwells) + len(self.dahls) + len(self.prandtls)
+        return self.ends[-1] + 2 * len(self.hydros)
 
     def rate(self, velocity: Callable[[float], float], side: float) -> Callable[[float, np.ndarray], np.ndarray]:
         """dF/dt of all branches while the motion goes to one side."""
-        first, second = len(self.maxwells), len(self.maxwells) + len(self.dahls)
-        maxwells, dahls, prandtls = (np.array(family).T for family in (self.maxwells, self.dahls, self.prandtls))
+        first, second, third = self.ends
+        maxwells, dahls, prandtls, hydros = (
+            np.array(family).T for family in (self.maxwells, self.dahls, self.prandtls, self.hydros)
+        )
 
         def rate(time: float, force: np.ndarray) -> np.ndarray:
             v = velocity(time)
@@ -48,8 +59,10 @@ class Histories:
                 found[:first] = maxwell_rate(force[:first], v, *maxwells)
             if second > first:
                 found[first:second] = v * dahl_slope(force[first:second], side, *dahls)
-            if force.size > second:
-                found[second:] = v * prandtl_slope(force[second:], side, *prandtls)
+            if third > second:
+                found[second:third] = v * prandtl_slope(force[second:third], side, *prandtls)
+            if force.size > third:
+                found[third::2], found[third + 1 :: 2] = hydro_rates(force[third::2], force[third + 1 :: 2], v, *hydros)
             return found
 
         return rate
