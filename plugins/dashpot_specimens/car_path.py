@@ -16,7 +16,7 @@ def sweep(amplitude: float, start: float, stop: float, duration: float) -> np.nd
 
 
 def triangle(low: float, high: float, duration: float, loops: int = 2) -> np.ndarray:
-    """Slow loops between two positions in m, from zero and back to it, with corners rounded over a quarter second."""
+    """Slow loops between two positions in m, from near zero and back, all corners rounded over a quarter second."""
     period = duration / loops
     phase = np.arange(round(duration / STEP) + 1) * STEP / period % 1.0
     first = 0.5 * high / (high - low)

@@ -29,7 +29,7 @@ def test_every_folder_of_the_framework_is_a_layer():
     assert folders - {"testing"} <= set(RANK)
 
 
-@pytest.mark.parametrize("layer", RANK)
+@pytest.mark.parametrize("layer", sorted(RANK))
 def test_a_layer_imports_only_from_its_left(layer):
     wrong = [
         f"{at(path, line)} imports {name}"

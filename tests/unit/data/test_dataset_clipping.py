@@ -29,7 +29,7 @@ def rubber(displacement: np.ndarray) -> np.ndarray:
     return 900 * displacement + 2.0 * np.gradient(displacement, 1 / RATE)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", SEEDS, ids=range(len(SEEDS)))
 @pytest.mark.parametrize("noise", [0.0, 3.0])
 @pytest.mark.parametrize("step", [0.0, 0.5])
 @pytest.mark.parametrize(("stop", "share"), [(3.0, 0.97), (8.0, 0.95), (25.0, 0.8)])
@@ -51,7 +51,7 @@ def test_a_clipped_displacement_of_a_moving_run_is_told():
     assert "the displacement stays at exactly 9.5 mm, its maximum, for up to" in text
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", SEEDS, ids=range(len(SEEDS)))
 @pytest.mark.parametrize("frequency", [0.05, 0.3, 1.0, 5.0, 20.0])
 @pytest.mark.parametrize("levels", [50, 500, 5000])
 @pytest.mark.parametrize("noise", [0.0, 0.3, 2.0])
@@ -63,7 +63,7 @@ def test_the_digits_of_a_slow_signal_are_no_clipping(seed, frequency, levels, no
     assert told(digital, np.roll(digital, 7)) == []
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", SEEDS, ids=range(len(SEEDS)))
 def test_a_digital_sweep_and_random_motion_are_no_clipping(seed):
     rng = np.random.default_rng(seed)
     noise = np.convolve(rng.normal(size=TIME.size + 100), np.hanning(100), "same")[: TIME.size]

@@ -189,3 +189,43 @@ def test_a_preview_names_what_these_data_cannot_tell(study, tmp_path):
     [sentence] = twins.known.sentences
     # d F = 100 da + 200 db: a falls by twice the share by which b rises
     assert "damping of a and damping of b trade off: +10 %, -5 %" in sentence
+
+
+def test_a_model_uses_a_part_that_was_identified_before(study, tmp_path):
+    (tmp_path / "rig.yaml").write_text(
+        "format: dashpot-network/1\nname: rig\nnodes: {platform: driven, body: ground}\nbranches:\n"
+        "  pad: {use: one.yaml, fixed: true, between: [platform, body]}  # a pad\n"
+        "  oil: {element: damper, damping: {start: 900 N*s/m}, between: [platform, body]}\n"
+    )
+    result = run(study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+                       "  - {network: rig.yaml, parts: {pad: one}, stages: [{name: b}]}\n"))  # fmt: skip
+    first, second = numbers(result), numbers(result, 1)
+    assert second["pad.rubber.stiffness"] == pytest.approx(first["rubber.stiffness"], rel=1e-6)
+    assert second["oil.damping"] == pytest.approx(DAMPING, rel=0.05)
+    assert (
+        "pad: {use: one.yaml, fixed: true, between: [platform, body]}  # a pad" in result.models[1].fit.identified_text
+    )
+
+
+def test_a_part_has_to_be_a_model_above_and_a_branch_that_uses_one(study):
+    with pytest.raises(InputError, match="expected one of one, got 'two'"):
+        study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+              "  - {network: two.yaml, parts: {oil: two}, stages: [{name: b}]}\n")  # fmt: skip
+    made = study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+                 "  - {network: two.yaml, parts: {oil: one}, stages: [{name: b}]}\n")  # fmt: skip
+    with pytest.raises(InputError, match="no branch 'oil' uses another network"):
+        run(made)
+
+
+def test_a_model_is_fitted_to_its_own_runs(study):
+    other = Dataset("bench", (*DATA.runs, sine("soft", 4.0, spring=1e5)))
+    stages = "stages: [{name: a}]"
+    made = study(f"hold_out: f9\nmodels:\n  - {{network: one.yaml, runs: [f2, f9], {stages}}}\n"
+                 f"  - {{network: two.yaml, runs: soft, {stages}}}\n")  # fmt: skip
+    result = run(made, other)
+    assert set(result.models[0].fit.errors.per_run) == {"f2", "f9"} and set(result.models[1].fit.errors.per_run) == {
+        "soft"
+    }
+    assert numbers(result, 1)["rubber.stiffness"] == pytest.approx(1e5, rel=0.01)
+    with pytest.raises(InputError, match="the runs nothing leave 'one' none to train on"):
+        run(study(f"models: [{{network: one.yaml, runs: nothing, {stages}}}]\n"))
