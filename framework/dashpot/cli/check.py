@@ -27,7 +27,7 @@ def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
     the same, by their numbers.
 
     \b
-    Examples:
+    Example:
       dashpot check kelvin_voigt my_network.yaml
       dashpot check my_network.yaml --against axle_model_3
     """

@@ -189,15 +189,11 @@ def _simplify(operation: str, arguments: tuple[Node, ...]) -> Node | None:
             return arguments[1] if first.payload else arguments[2]
         return arguments[1] if arguments[1] is arguments[2] else None
     if operation == "multiply":
-        if _is(first, 0.0) or _is(second, 0.0):
-            return constant(0.0)
         return second if _is(first, 1.0) else first if _is(second, 1.0) else None
     if operation == "add":
         return second if _is(first, 0.0) else first if _is(second, 0.0) else None
     if operation == "subtract" and _is(second, 0.0):
         return first
-    if operation == "subtract" and first is second:
-        return constant(0.0)
     if operation == "negative" and first.operation == "negative":
         return first.arguments[0]
     if operation in ("divide", "power") and _is(second, 1.0):

@@ -43,8 +43,9 @@ class Fault(ABC):
 
 
 def some_runs(rng: np.random.Generator, count: int) -> tuple[int, ...]:
-    """One run, or two."""
-    chosen = rng.choice(np.arange(1, count - 1), size=int(rng.integers(1, 3)), replace=False)
+    """One run, or two, neither the first nor the last where there are others."""
+    inner = np.arange(1, count - 1) if count > 3 else np.arange(count - 1, count)
+    chosen = rng.choice(inner, size=min(int(rng.integers(1, 3)), inner.size), replace=False)
     return tuple(int(number) for number in chosen)
 
 

@@ -73,7 +73,7 @@ def test_multistart_gives_every_start_its_own_chance() -> None:
 
 
 def test_multistart_names_the_nearest_optimizer_when_it_knows_none_of_that_word() -> None:
-    with pytest.raises(ValueError, match="expected the word of an optimizer, got 'psso', did you mean 'pso'"):
+    with pytest.raises(ValueError, match="No such optimizer 'psso', did you mean 'pso'"):
         run(Multistart(of="psso"), bowl)
 
 

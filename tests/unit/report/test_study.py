@@ -6,7 +6,7 @@ from unit.report.report_samples import comparison, comparison_evidence
 
 from dashpot.report.page import render
 from dashpot.report.parts import Notice
-from dashpot.report.study import intervals_grid, stages_grid, study_page
+from dashpot.report.study import intervals_grid, masses_grid, stages_grid, study_page
 
 STAGE = {
     "name": "dynamics",
@@ -31,6 +31,7 @@ def model(row: dict) -> dict:
         "at_bound": ["a.k"],
         "identifiability": {"condition": 1234.5, "deviations": {}, "weak": ["a and b trade off"]},
         "stages": [STAGE],
+        "masses": [{"node": "wheel", "value": 40.0, "interval": [39.0, 41.5]}],
         "bootstrap": {"a.k": [1.8e5, 2.2e5]},
         "profiles": [PROFILE],
     }
@@ -39,6 +40,7 @@ def model(row: dict) -> dict:
 def study(amplitude: float | None = 5e-3) -> dict:
     content = comparison()
     header = {"name": "ladder", "about": "Two models.", "budget": 640, "amplitude": amplitude}
+    header["compared"] = [row["name"] for row in content["models"]]
     return {**content, "study": header, "models": [model(row) for row in content["models"]]}
 
 
@@ -67,3 +69,13 @@ def test_the_page_holds_the_stiffness_at_the_amplitude_of_the_study_only():
     assert any(title.startswith("Dynamic stiffness at") for title in titles[known[0]])
     assert not any(title.startswith("Dynamic stiffness at") for title in titles[0.123] + titles[None])
     assert "<title>Study ladder" in render(study_page(study(known[0]), evidence))
+
+
+def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told():
+    content = study()
+    assert [row["interval"] for row in masses_grid(content).rows] == ["39.00 to 41.50"] * len(content["models"])
+    content["models"][1]["masses"][0]["value"] = 44.0
+    names = [row["name"] for row in content["models"]]
+    told = [part.text for section in study_page(content, comparison_evidence()).sections for part in section.parts
+            if isinstance(part, Notice) and "depends on the structure" in part.text]  # fmt: skip
+    assert len(told) == 1 and f"44.00 kg with {names[1]}" in told[0]
