@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 @click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.")
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".')
 @click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
+@click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
+              help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
 @output_option("A folder; with --data also a file ending in .npz.")
 @switches("seed", "quiet", "force")
 def verb(
@@ -38,6 +40,7 @@ def verb(
     rig: str | None,
     settings: tuple[str, ...],
     energy: bool,
+    refine: int,
     output: Path,
     switches: Switches,
 ) -> None:
@@ -58,14 +61,14 @@ def verb(
     session = Session(switches)
     network = session.network(spec)
     if rig is not None:
-        return measure_on(rig, settings, network, output, session, energy)
+        return measure_on(rig, settings, network, output, session, energy, refine)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
-    return follow(dataset, network, output, session, energy)
+    return follow(dataset, network, output, session, energy, refine)
 
 
-def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool) -> None:
+def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool, refine: int) -> None:
     """Write the force along every measured run."""
     from dashpot.data.excitation import Excitation
     from dashpot.kernel.api import forces_by_name, solve_runs
@@ -74,7 +77,7 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
-    solved = solve_runs(network, measured, registry=session.registry)
+    solved = solve_runs(network, measured, refine=refine, registry=session.registry)
     if archive:
         folder.write_bytes(output.name, npz_bytes(forces_by_name(solved)))
     else:
@@ -86,7 +89,13 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
 
 
 def measure_on(
-    rig: str, settings: tuple[str, ...], network: NetworkSpec, output: Path, session: Session, energy: bool
+    rig: str,
+    settings: tuple[str, ...],
+    network: NetworkSpec,
+    output: Path,
+    session: Session,
+    energy: bool,
+    refine: int,
 ) -> None:
     """Write what a virtual rig measures as a dataset."""
     from dashpot.contract.bench import find_bench
@@ -97,7 +106,7 @@ def measure_on(
         bench = find_bench(rig, session.registry.rigs, dict(map(split_setting, settings)))
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    runs = virtual_test(network, bench, session.switches.seed)
+    runs = virtual_test(network, bench, session.switches.seed, refine)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     for name, text in files.items():

@@ -23,24 +23,26 @@ DYNAMIC = ("sweep", "harmonic", "random", "transient")
 LETTERS = "bcdefghijklmnopqrstuvwxyz"
 
 
-def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0) -> list[Run]:
+def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0, refine: int = 1) -> list[Run]:
     """Every run of the bench, measured on the network; the same seed gives the same noise.
+
+    ``refine`` is how many times as many steps as usual lie between two samples, where the motion of a node is unknown.
 
     InputError for a network that cannot be simulated, or that has not the nodes that the bench drives.
     """
     network = compile_network(spec)
     measured: list[Run] = []
     for planned in bench.runs():
-        answer = answer_of(network, planned)
+        answer = answer_of(network, planned, refine)
         for repeat in range(bench.measuring.repeats if planned.kind in DYNAMIC else 1):
             rng = np.random.default_rng([seed, len(measured)])
             measured.append(_measured(planned, answer, bench.measuring, repeat, len(measured), rng))
     return measured
 
 
-def answer_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun) -> RunSolution:
+def answer_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun, refine: int) -> RunSolution:
     """The forces at the driven nodes and the motions of the free ones."""
-    found = solve(network, planned.excitation())
+    found = solve(network, planned.excitation(), refine)
     if list(planned.motion) == [PORT]:
         return replace(found, force={PORT: next(iter(found.force.values()))})
     return found

@@ -33,27 +33,28 @@ class RunSolution:
     error: Mapping[str, float]
 
 
-def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
+def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int = 1,
                registry: Registry | None = None) -> dict[str, RunSolution]:  # fmt: skip
     """Forces and motions of a network along the motions of every run, by the name of the run.
 
     The forces are seen through the network's ``measurement`` (gain, offset, delay). A network given by file or shipped
-    name is read with the elements of ``registry``, by default the installed ones. Raises InputError for a network with
+    name is read with the elements of ``registry``, by default the installed ones. ``refine`` is how many times as many
+    steps as usual lie between two samples, where the motion of a node is unknown. Raises InputError for a network with
     mistakes or with a curve that has no numbers yet, for a run that lacks a motion, and for one that cannot be solved.
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
     network = compile_network(spec)
-    return {run.name: solve(network, Excitation.of_run(run)) for run in dataset.runs}
+    return {run.name: solve(network, Excitation.of_run(run), refine) for run in dataset.runs}
 
 
-def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation) -> RunSolution:
+def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int = 1) -> RunSolution:
     """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start)
     if isinstance(network, CompiledNetwork):
         force = network.simulate(network.prepare(excitation))
         return RunSolution({END: observation.see(force[None], excitation.dt)[0]}, {}, {END: 0.0})
-    found = network.solve(network.prepare(excitation))
+    found = network.solve(network.prepare(excitation, refine))
     if found.status[0] is not Status.GOOD:
         raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
                             f"{found.status[0].value}", "check the numbers with 'dashpot check'")  # fmt: skip
