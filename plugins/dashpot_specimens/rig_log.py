@@ -21,12 +21,17 @@ class Record:
 
 
 def add_noise(rng: np.random.Generator, displacement: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """1 um on the displacement; on the force 9 N, half of its power white, half remembered by 0.9 per sample."""
-    white, driven = rng.standard_normal((2, force.size))
-    driven[1:] *= np.sqrt(1 - 0.9**2)
-    coloured = lfilter([1.0], [1.0, -0.9], driven)
+    """1 um on the displacement, 9 N of coloured noise on the force."""
+    noise = coloured_noise(rng, force.size, 9.0)
     jitter = 1e-6 * rng.standard_normal(displacement.size)
-    return displacement + jitter, force + 9.0 * np.sqrt(0.5) * (white + coloured)
+    return displacement + jitter, force + noise
+
+
+def coloured_noise(rng: np.random.Generator, size: int, level: float) -> np.ndarray:
+    """Noise of standard deviation `level`, half of its power white, half remembered by 0.9 per sample."""
+    white, driven = rng.standard_normal((2, size))
+    driven[1:] *= np.sqrt(1 - 0.9**2)
+    return level * np.sqrt(0.5) * (white + lfilter([1.0], [1.0, -0.9], driven))
 
 
 def write_records(folder: Path, head: str, records: list[Record]) -> Path:

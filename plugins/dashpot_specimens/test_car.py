@@ -126,22 +126,13 @@ def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.rand
     import numpy as np
 
     from dashpot_specimens.car_laws import STEP
+    from dashpot_specimens.rig_log import coloured_noise
 
     size = len(next(iter(channels.values())))
-    noisy = {key: np.round(values + coloured(rng, size, 5.0), 1) if key[0] == "F" else
+    noisy = {key: np.round(values + coloured_noise(rng, size, 5.0), 1) if key[0] == "F" else
              np.round(1e3 * (values + 1e-6 * rng.standard_normal(size)), 4)
              for key, values in channels.items()}  # fmt: skip
     np.savez_compressed(path, t=np.arange(size) * every * STEP, **noisy)
-
-
-def coloured(rng: np.random.Generator, size: int, level: float) -> np.ndarray:
-    """Noise of standard deviation ``level``, half of its power white, half remembered by 0.9 per sample."""
-    import numpy as np
-    from scipy.signal import lfilter
-
-    white, driven = rng.standard_normal((2, size))
-    driven[1:] *= np.sqrt(1 - 0.9**2)
-    return level * np.sqrt(0.5) * (white + lfilter([1.0], [1.0, -0.9], driven))
 
 
 def random_car(rng: np.random.Generator, mount: bool) -> Car:

@@ -72,8 +72,3 @@ class Rig(ABC):
     @abstractmethod
     def runs(self) -> Sequence[PlannedRun]:
         """All runs, in the order in which they are measured; their names differ."""
-
-
-def channel_at(quantity: str, node: str) -> str:
-    """The name of a channel at a node: ``displacement@platform_left``, or ``displacement`` for the single port."""
-    return f"{quantity}@{node}" if node else quantity

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from dashpot.contract.bench import Bench
 from dashpot.contract.measuring import Measuring
-from dashpot.contract.rig import PORT, PlannedRun, channel_at
+from dashpot.contract.rig import PORT, PlannedRun
+from dashpot.data.excitation import channel_at
 from dashpot.data.run import Run
 from dashpot.kernel.api import RunSolution, solve
 from dashpot.kernel.network import CompiledNetwork, compile_network

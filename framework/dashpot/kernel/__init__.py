@@ -9,6 +9,7 @@ source  - the loops are printed as one self-contained file of numba code
 native  - the file is kept, content-addressed, and compiled once per machine
 columns - the drive of a run, as the kernel wants it
 block   - lanes that run together, and their memory
+compiled - what every compiled network is
 network - CompiledNetwork: simulate and score blocks of lanes
 
 Where a network has nodes whose motion is unknown, other stages take the place of the inner ones.

@@ -14,6 +14,7 @@ commit   the new motion, the new memory, what is measured
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import reduce
@@ -128,7 +129,7 @@ class Meter(Protocol):
         """Their values at the end of a step."""
 
 
-class Balance:
+class Balance(ABC):
     """The balance of forces at the unknown nodes."""
 
     def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
@@ -137,17 +138,17 @@ class Balance:
         self.forces = [self.along(edge, law.force) for edge, law in pairs]
         self.tangents = [self.along(edge, self.tangent(law.force)) for edge, law in pairs]
 
+    @abstractmethod
     def motion(self, edge: Edge) -> Mapping[str, Node]:
         """The motion of an edge: what stands for ``edge.old``, ``edge.new`` ..."""
-        raise NotImplementedError
 
+    @abstractmethod
     def tangent(self, force: Node) -> Node:
         """The change of a force with the new deflection."""
-        raise NotImplementedError
 
+    @abstractmethod
     def inertia(self, joint: str) -> tuple[Node, Node]:
         """The acceleration of a node and its change with the new position."""
-        raise NotImplementedError
 
     def load(self, joint: str) -> Node:
         """The force that is known to act on a node."""
@@ -158,9 +159,9 @@ class Balance:
         known = self.known(joint, "new")
         return self._next(joint) if known is None else known
 
+    @abstractmethod
     def velocity(self, joint: str) -> Node:
         """The velocity of a node at the end of the step."""
-        raise NotImplementedError
 
     def along(self, edge: Edge, law: Node) -> Node:
         """What a law says for the motion of its edge."""

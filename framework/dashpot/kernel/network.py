@@ -13,46 +13,27 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
-from dashpot.expr.interpret import interpret
-from dashpot.expr.node import Node, walk
 from dashpot.kernel.block import Block, aligned_copy
 from dashpot.kernel.columns import Rows, prepare_rows
-from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.compiled import Compiled, padded
 from dashpot.kernel.layout import Passes, score_row
 from dashpot.kernel.native import Native, load_native
-from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.settings import with_settings
 from dashpot.kernel.source import WIDTH, print_source
 from dashpot.kernel.system import CompiledSystem, compile_system
-from dashpot.kernel.tiers import Program, sort_tiers
+from dashpot.kernel.tiers import sort_tiers
 from dashpot.kernel.trace import refuse_missing_numbers, trace_network
 from dashpot.model.network import END, Characteristic, NetworkSpec
 from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
-VECTOR = 8
 
 
 @dataclass(frozen=True)
-class CompiledNetwork:
-    """A network that is constant: one per topology and number of knots, never per parameter value.
+class CompiledNetwork(Compiled):
+    """A compiled network all of whose elements see the motion of its driven end; see ``Compiled``."""
 
-    ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
-    """
-
-    spec: NetworkSpec
-    program: Program
     native: Native
-
-    @cached_property
-    def paths(self) -> tuple[str, ...]:
-        """The paths of the slots."""
-        return tuple(slot.path for slot in self.spec.slots())
-
-    @cached_property
-    def start(self) -> Array:
-        """The values of the file as a single lane (slots,)."""
-        return np.array([slot.value.number for slot in self.spec.slots()])
 
     @cached_property
     def curves(self) -> dict[str, Characteristic]:
@@ -64,19 +45,11 @@ class CompiledNetwork:
         """How many rows the workspace of a block has."""
         return Passes.of(self.program).rows
 
-    @cached_property
-    def _recipe(self) -> list[Node]:
-        return walk(self.program.constants)
-
     def prepare(self, motion: Drive | Excitation) -> Rows:
         """The part of the work that depends on the drive alone."""
         if isinstance(motion, Drive):
             return prepare_rows(self.program, self.curves, motion, {})
         return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], motion.settings)
-
-    def observation(self, values: Array) -> Observation:
-        """How the load cell sees each lane."""
-        return read_observation(self.paths, np.atleast_2d(values))
 
     def simulate(self, run: Rows, values: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
@@ -120,28 +93,10 @@ class CompiledNetwork:
         return [self._block(dt, first, lanes[first : first + WIDTH]) for first in range(0, lanes.shape[0], WIDTH)]
 
     def _block(self, dt: float, first: int, lanes: Array) -> Block:
-        count = lanes.shape[0]
-        width = -(-count // VECTOR) * VECTOR
-        padded = np.concatenate([lanes, np.repeat(lanes[-1:], width - count, axis=0)])
-        return Block(first, count, width, aligned_copy(self._tables(padded)), self._workspace(dt, padded))
-
-    def _workspace(self, dt: float, lanes: Array) -> Array:
-        space = np.zeros((self.rows, WIDTH))
-        known = {"dt": dt, **dict(zip(self.paths, lanes.T, strict=True))}
-        found = interpret(self.program.constants, known, nodes=self._recipe)
-        for row, constant in zip(space, found, strict=False):
-            row[: lanes.shape[0]] = constant
-        return space.ravel()
-
-    def _tables(self, lanes: Array) -> Array:
-        parts = []
-        for path in dict.fromkeys(look.curve for look in self.program.lookups):
-            numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
-            coefficients = cubic_coefficients(self.curves[path], lanes[:, numbers].T)
-            wide = np.zeros((*coefficients.shape[:2], WIDTH))
-            wide[..., : lanes.shape[0]] = coefficients
-            parts.append(wide.ravel())
-        return np.concatenate(parts) if parts else np.empty(0)
+        wide = padded(lanes)
+        curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}
+        workspace = self._fill(self.rows, dt, wide)
+        return Block(first, lanes.shape[0], wide.shape[0], aligned_copy(self._tabulate(curves, wide)), workspace)
 
 
 def _make(run: Rows) -> Hashable:

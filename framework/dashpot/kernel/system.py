@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive, refined_path
 from dashpot.data.excitation import Excitation
 from dashpot.expr.interpret import interpret
-from dashpot.expr.node import constant, walk
+from dashpot.expr.node import constant
 from dashpot.kernel.block import aligned_copy
-from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.compiled import Compiled, padded
 from dashpot.kernel.layout import Shelf
 from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, write_equations
 from dashpot.kernel.native import load_module
-from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.scheme import PAIR, alternate
 from dashpot.kernel.settings import with_settings
 from dashpot.kernel.source import SEGMENT, WIDTH
@@ -33,7 +32,6 @@ from dashpot.model.topology import Topology, topology_of
 
 Array = NDArray[np.float64]
 
-VECTOR = 8
 PAIRS = 1  # coarse steps in a sample, in pairs
 TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3
 
@@ -83,27 +81,12 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class CompiledSystem:
-    """A network with unknown nodes that is constant: one per topology and number of knots, never per parameter value.
+class CompiledSystem(Compiled):
+    """A compiled network with unknown nodes; see ``Compiled``."""
 
-    ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
-    """
-
-    spec: NetworkSpec
     topology: Topology
-    program: Program
     layouts: SystemLayouts
     native: ModuleType
-
-    @cached_property
-    def paths(self) -> tuple[str, ...]:
-        """The paths of the slots."""
-        return tuple(slot.path for slot in self.spec.slots())
-
-    @cached_property
-    def start(self) -> Array:
-        """The values of the file as a single lane (slots,)."""
-        return np.array([slot.value.number for slot in self.spec.slots()])
 
     @cached_property
     def outputs(self) -> tuple[str, ...]:
@@ -111,16 +94,8 @@ class CompiledSystem:
         return self.topology.held("driven")
 
     @cached_property
-    def _recipe(self) -> list:
-        return walk(self.program.constants)
-
-    @cached_property
     def _knots(self) -> Array:
         return np.array([at for curve in _tabulated(self.spec).values() for at in curve.at])
-
-    def observation(self, values: Array) -> Observation:
-        """How the load cells see each lane."""
-        return read_observation(self.paths, np.atleast_2d(values))
 
     def prepare(self, motion: Drive | Excitation, pairs: int = PAIRS) -> SystemRows:
         """The part of the work that depends on the excitation alone; ``pairs`` of coarse steps lie in a sample."""
@@ -210,40 +185,23 @@ class CompiledSystem:
 
     def _run(self, run: SystemRows, lanes: Array, out: Array, miss: Array,
              scoring: tuple[Array, Array] | None = None, space: Array | None = None) -> NDArray[np.int64]:  # fmt: skip
-        padded = _padded(lanes)
+        wide = padded(lanes)
         space = self._spaces(run, lanes) if space is None else space
         status = np.zeros(WIDTH, dtype=np.int64)
         measured, weight = scoring or (np.empty((0, 0)), np.empty((0, 0)))
+        tables = aligned_copy(self._tabulate(_tabulated(self.spec), wide))
         self.native.run(run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status,
-                        padded.shape[0], aligned_copy(self._tables(padded)), self._knots, measured, weight, out, miss,
-                        scoring is not None)  # fmt: skip
+                        wide.shape[0], tables, self._knots, measured, weight, out, miss, scoring is not None)  # fmt: skip
         return status[: lanes.shape[0]]
 
     def _spaces(self, run: SystemRows, lanes: Array) -> Array:
-        padded, step = _padded(lanes), run.excitation.dt / (PAIR * run.pairs)
-        return aligned_copy(np.concatenate([self._workspace(dt, padded) for dt in (step, 0.5 * step)]))
+        wide, step = padded(lanes), run.excitation.dt / (PAIR * run.pairs)
+        return aligned_copy(np.concatenate([self._fill(self.layouts.rows, dt, wide) for dt in (step, 0.5 * step)]))
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
         return with_settings(
             self.spec, np.atleast_2d(self.start if values is None else values), run.excitation.settings
         )
-
-    def _workspace(self, dt: float, lanes: Array) -> Array:
-        space = np.zeros((self.layouts.rows, WIDTH))
-        known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
-        for row, number in zip(space, interpret(self.program.constants, known, nodes=self._recipe), strict=False):
-            row[: lanes.shape[0]] = number
-        return space.ravel()
-
-    def _tables(self, lanes: Array) -> Array:
-        parts = [np.empty(0)]
-        for path, curve in _tabulated(self.spec).items():
-            numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
-            coefficients = cubic_coefficients(curve, lanes[:, numbers].T)
-            wide = np.zeros((*coefficients.shape[:2], WIDTH))
-            wide[..., : lanes.shape[0]] = coefficients
-            parts.append(wide.ravel())
-        return np.concatenate(parts)
 
     def _moved(self, excitation: Excitation, parts: int) -> Array:
         seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
@@ -290,7 +248,7 @@ def compile_system(spec: NetworkSpec, topology: Topology | None = None, meter: M
     program, passes = _sort(equations)
     layouts = SystemLayouts(program, equations, _shelves(spec), passes)
     source = print_system(layouts, topology.held("driven"), topology.unknown)
-    return CompiledSystem(spec, topology, program, layouts, load_module(source))
+    return CompiledSystem(spec, program, topology, layouts, load_module(source))
 
 
 def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
@@ -302,11 +260,6 @@ def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
     columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
     zero = constant(0.0)
     return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
-
-
-def _padded(lanes: Array) -> Array:
-    missing = -lanes.shape[0] % VECTOR
-    return np.concatenate([lanes, np.repeat(lanes[-1:], missing, axis=0)])
 
 
 def _blocks(lanes: Array) -> list[slice]:

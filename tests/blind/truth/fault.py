@@ -50,64 +50,51 @@ def some_runs(rng: np.random.Generator, count: int) -> tuple[int, ...]:
 
 
 @dataclass(frozen=True)
-class OneGain(Fault):
-    """Everything in proportion, the static force included."""
+class FaultOfRuns(Fault):
+    """A fault that some runs have, without parameters of its own."""
 
-    kind = "gain"
-    unit = "1"
     runs: tuple[int, ...]
 
     @classmethod
     def draw(cls, rng, count):
         return cls(some_runs(rng, count))
+
+
+class OneGain(FaultOfRuns):
+    """Everything in proportion, the static force included."""
+
+    kind = "gain"
+    unit = "1"
 
     def shape(self, force, number):
         return force
 
 
-@dataclass(frozen=True)
-class GrowingGain(Fault):
+class GrowingGain(FaultOfRuns):
     """A gain that grows by a fifth over the run."""
 
     kind = "gain"
     unit = "1"
-    runs: tuple[int, ...]
-
-    @classmethod
-    def draw(cls, rng, count):
-        return cls(some_runs(rng, count))
 
     def shape(self, force, number):
         return force * np.linspace(0.9, 1.1, force.size)
 
 
-@dataclass(frozen=True)
-class Zero(Fault):
+class Zero(FaultOfRuns):
     """A constant."""
 
     kind = "offset"
     unit = "N"
-    runs: tuple[int, ...]
-
-    @classmethod
-    def draw(cls, rng, count):
-        return cls(some_runs(rng, count))
 
     def shape(self, force, number):
         return np.ones(force.size)
 
 
-@dataclass(frozen=True)
-class Steady(Fault):
+class Steady(FaultOfRuns):
     """A zero that moves evenly."""
 
     kind = "drift"
     unit = "N/s"
-    runs: tuple[int, ...]
-
-    @classmethod
-    def draw(cls, rng, count):
-        return cls(some_runs(rng, count))
 
     def shape(self, force, number):
         return np.arange(force.size) / SAMPLING

@@ -1,0 +1,75 @@
+"""What every compiled network is: constant, with the slots of its file, run in blocks of lanes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.expr.interpret import interpret
+from dashpot.expr.node import Node, walk
+from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.source import WIDTH
+from dashpot.kernel.tiers import Program
+from dashpot.model.network import Characteristic, NetworkSpec
+
+Array = NDArray[np.float64]
+
+VECTOR = 8
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A network that is constant: one per topology and number of knots, never per parameter value.
+
+    ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
+    """
+
+    spec: NetworkSpec
+    program: Program
+
+    @cached_property
+    def paths(self) -> tuple[str, ...]:
+        """The paths of the slots."""
+        return tuple(slot.path for slot in self.spec.slots())
+
+    @cached_property
+    def start(self) -> Array:
+        """The values of the file as a single lane (slots,)."""
+        return np.array([slot.value.number for slot in self.spec.slots()])
+
+    def observation(self, values: Array) -> Observation:
+        """How the load cells see each lane."""
+        return read_observation(self.paths, np.atleast_2d(values))
+
+    @cached_property
+    def _recipe(self) -> list[Node]:
+        return walk(self.program.constants)
+
+    def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
+        # a workspace with the constants of the lanes in its first rows
+        space = np.zeros((rows, WIDTH))
+        known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
+        for row, number in zip(space, interpret(self.program.constants, known, nodes=self._recipe), strict=False):
+            row[: lanes.shape[0]] = number
+        return space.ravel()
+
+    def _tabulate(self, curves: Mapping[str, Characteristic], lanes: Array) -> Array:
+        parts = [np.empty(0)]
+        for path, curve in curves.items():
+            numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
+            coefficients = cubic_coefficients(curve, lanes[:, numbers].T)
+            wide = np.zeros((*coefficients.shape[:2], WIDTH))
+            wide[..., : lanes.shape[0]] = coefficients
+            parts.append(wide.ravel())
+        return np.concatenate(parts)
+
+
+def padded(lanes: Array) -> Array:
+    """The lanes, the last one repeated until they fill whole vectors."""
+    missing = -lanes.shape[0] % VECTOR
+    return np.concatenate([lanes, np.repeat(lanes[-1:], missing, axis=0)])
