@@ -190,8 +190,10 @@ class CompiledSystem(Compiled):
         status = np.zeros(WIDTH, dtype=np.int64)
         measured, weight = scoring or (np.empty((0, 0)), np.empty((0, 0)))
         tables = aligned_copy(self._tabulate(_tabulated(self.spec), wide))
-        self.native.run(run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status,
-                        wide.shape[0], tables, self._knots, measured, weight, out, miss, scoring is not None)  # fmt: skip
+        self.native.run(
+            run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status, wide.shape[0],
+            tables, self._knots, measured, weight, out, miss, scoring is not None,
+        )  # fmt: skip
         return status[: lanes.shape[0]]
 
     def _spaces(self, run: SystemRows, lanes: Array) -> Array:
