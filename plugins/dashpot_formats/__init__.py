@@ -1,7 +1,8 @@
 """The built-in readers of measurement files, one format per file.
 
-`delimited_text`, `delimited_layout` and `delimited_header` help `csv` to make out tables as rigs write them; `flatten`
-turns the variables of `mat` and `npz` files into columns.
+`delimited_text`, `delimited_layout`, `delimited_header`, `time_stamps` and `stated_sampling` help `csv` to make out
+tables as rigs write them, `unit_words` knows units in other spellings; `flatten` turns the variables of `mat` and `npz`
+files into columns.
 """
 
 from __future__ import annotations

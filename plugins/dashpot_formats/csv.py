@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 from pathlib import Path
@@ -22,20 +23,26 @@ from dashpot_formats.delimited_layout import (
 )
 from dashpot_formats.delimited_text import read_lines
 from dashpot_formats.option import check_options, get_option
+from dashpot_formats.stated_sampling import stated_sampling
+from dashpot_formats.time_stamps import is_stamp, seconds
+
+# lines above the table that are looked through for the sampling rate
+_LONGEST_HEADER = 10_000
 
 _DELIMITER_WORDS = {"tab": "\t", "\\t": "\t", "space": None, "spaces": None, " ": None, "whitespace": None}
 
 
 class Csv(Reader):
-    """Reads a text table; what the file does not make plain can be said under `file_options`.
+    """Reads a text table as rigs and measuring programs export it; what it does not make plain stands in `file_options`.
 
-    delimiter: `,` `;` `tab` `space` ...; decimal: `.` or `,`; encoding; skip_rows: lines to leave out at the top.
-    Columns are named by the line above the numbers, whose units may stand in brackets or in a line of their own;
-    without names they are called 1, 2, 3, ... A column may hold texts as long as nobody asks for it.
+    delimiter: `,` `;` `tab` `space` `|` ...; decimal: `.` or `,`; encoding; skip_rows: lines to leave out at the top.
+    Columns are named by a line above the numbers, whose units may stand in brackets or in a line of their own; without
+    names they are called 1, 2, 3, ... Dates and times of day become seconds since the first row. A sampling rate that
+    the lines above state is used where no time is declared. A column may hold texts as long as nobody asks for it.
     """
 
     word = "csv"
-    suffixes = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log")
+    suffixes = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log", ".lvm")
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
         check_options(options, ("delimiter", "decimal", "encoding", "skip_rows"))
@@ -78,7 +85,12 @@ def _read_table(lines: list[str], layout: Layout, header: Header) -> Table:
     names = [header.names[index] if index < len(header.names) else str(index + 1) for index in range(width)]
     columns = {name: _numbers(texts, layout.decimal) for name, texts in zip(names, cells, strict=False)}
     units = {name: unit for name, unit in zip(header.names, header.units, strict=False) if unit}
-    return Table(columns, units, lines=np.array(kept) + 1)
+    for name, texts in zip(names, cells, strict=False):
+        stamps = seconds(texts) if columns[name].dtype == object and is_stamp(texts[0]) else None
+        if stamps is not None:
+            columns[name], units[name] = stamps, "s"
+    above = lines[max(0, layout.first - _LONGEST_HEADER) : layout.first]
+    return Table(columns, units, stated_sampling(above), lines=np.array(kept) + 1)
 
 
 def _split_columns(rows: list[str], delimiter: str | None) -> list[Sequence[str]]:
@@ -106,7 +118,7 @@ def _numbers(texts: Sequence[str], decimal: str) -> np.ndarray:
     together = "\n".join(texts)
     if "_" not in together and not (decimal == "," and "." in together):
         try:
-            return np.array(together.replace(decimal, ".").split("\n"), dtype=float)
+            return np.array(_with_plain_signs(together, decimal).split("\n"), dtype=float)
         except ValueError:
             pass
     values = [_number(text, decimal) for text in texts]
@@ -114,8 +126,22 @@ def _numbers(texts: Sequence[str], decimal: str) -> np.ndarray:
     return np.array(values, dtype=object if mixed else float)
 
 
+def _with_plain_signs(text: str, decimal: str) -> str:
+    """Decimal points, and `E` before exponents, which Fortran writes as `D`."""
+    plain = text.replace(decimal, ".")
+    return re.sub(r"(?<=[0-9.])[dD](?=[-+]?[0-9])", "E", plain) if "D" in plain or "d" in plain else plain
+
+
 def _number(text: str, decimal: str) -> float | str:
     text = text.strip()
-    if is_number(text, decimal):
-        return float(text.replace(decimal, "."))
+    plain = _without_thousands(text, decimal)
+    if is_number(plain, decimal):
+        return float(_with_plain_signs(plain, decimal))
     return float("nan") if text.lower() in NO_VALUE else text
+
+
+def _without_thousands(text: str, decimal: str) -> str:
+    """`1.234,5` with a decimal comma is beyond doubt; `1.234` alone is not, and stays a text."""
+    group = re.escape("," if decimal == "." else ".")
+    written = re.fullmatch(rf"[-+]?[0-9]{{1,3}}({group}[0-9]{{3}})+{re.escape(decimal)}[0-9]+", text)
+    return re.sub(group, "", text) if written else text

@@ -8,12 +8,16 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dashpot.contract.reader import ReadingError
-from dashpot.text.quantity import is_unit
 from dashpot_formats.delimited_layout import DELIMITERS, Layout, is_comment, is_number, split_row, uncomment
+from dashpot_formats.unit_words import names_a_unit, plain_unit
 
 _BRACKETED = re.compile(r"(?P<name>.*\S)\s*[\[(<{](?P<unit>[^\[\](){}<>]*)[\])>}]")
 _FRACTION = re.compile(r"(?P<name>.*\S)\s+/\s+(?P<unit>\S+)|(?P<name2>.*\S)\s+in\s+(?P<unit2>\S+)")
 _LOOK_BACK = 30
+
+# what stands in the first cell of a line of units, and what a line of data types is made of
+_UNIT_LABELS = {"unit", "units", "einheit", "einheiten", "y_unit_label", "[unit]", "kanaleinheit", "channel unit"}
+_DATA_TYPES = re.compile(r"(u?int|float|real|double|single|byte|word|string|char|dt|ieee)[0-9]*", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -27,17 +31,33 @@ class Header:
 def read_header(lines: Sequence[str], layout: Layout) -> Header:
     """The header above the first row. Raises ReadingError when it clearly does not fit the rows."""
     above = list(_lines_above(lines, layout))
-    for index, (number, line) in enumerate(above):
-        cells = _split_names(line, layout)
-        if cells is None:
-            continue
-        higher = next(filter(None, (_split_names(other, layout) for _, other in above[index + 1 :])), None)
+    candidates = [(number, cells) for number, line in above if (cells := _split_names(line, layout))]
+    for index, (number, cells) in enumerate(candidates):
+        higher = candidates[index + 1][1] if index + 1 < len(candidates) else None
         if higher and _is_unit_row(cells):
-            return _header(higher, [cell.strip("[](){}<>") for cell in cells])
+            return _header(higher, _units_of(cells))
         _refuse_broken_row(cells, higher, layout, number)
-        return _header(*_names_with_units(cells))
+        return _names_above(cells, [other for _, other in candidates[index + 1 :]])
     _refuse_misfit(above, layout)
     return Header()
+
+
+def _names_above(nearest: Sequence[str], higher: Sequence[Sequence[str]]) -> Header:
+    """Names with their units in brackets; else the nearest line, and the units from a line above it."""
+    for cells in (nearest, *higher):
+        names, units = _names_with_units(cells)
+        if 2 * sum(map(bool, units)) >= len(cells):
+            return _header(names, units)
+    names, units = _names_with_units(nearest)
+    if not any(units):
+        labelled = [cells for cells in higher if _label(cells[0]) in _UNIT_LABELS]
+        rows = [cells for cells in higher[:1] if _is_unit_row(cells)] + labelled
+        units = _units_of(rows[0]) if rows else units
+    return _header(names, units)
+
+
+def _label(cell: str) -> str:
+    return cell.lower().rstrip(":")
 
 
 def _lines_above(lines: Sequence[str], layout: Layout) -> Iterator[tuple[int, str]]:
@@ -52,20 +72,36 @@ def _lines_above(lines: Sequence[str], layout: Layout) -> Iterator[tuple[int, st
 
 def _split_names(line: str, layout: Layout) -> list[str] | None:
     """The cells of a header line, None when it does not have one for every column."""
-    own = () if layout.delimiter is None else (layout.delimiter,)
     remark = is_comment(line, layout.delimiter)
+    text = uncomment(line) if remark else line
+    own = () if layout.delimiter is None else (layout.delimiter,)
     for delimiter in dict.fromkeys((*own, *DELIMITERS)):
-        cells = _split(uncomment(line) if remark else line, delimiter)
-        fits = len(cells) == layout.width or (
-            len(cells) > layout.width and delimiter == layout.delimiter and not remark
-        )
-        if fits and not all(is_number(cell, layout.decimal) for cell in cells):
-            return cells
+        for cells in _splittings(text, delimiter):
+            longer = len(cells) > layout.width and delimiter is not None and delimiter == layout.delimiter
+            if (len(cells) == layout.width or (longer and not remark)) and _are_names(cells, layout):
+                return cells
     return None
 
 
-def _split(line: str, delimiter: str | None) -> list[str]:
-    cells = _join_brackets(line.split()) if delimiter is None else split_row(line, delimiter)
+def _are_names(cells: Sequence[str], layout: Layout) -> bool:
+    alike = len(cells) > 1 and len(set(cells)) == 1
+    if alike or all(_DATA_TYPES.fullmatch(cell) for cell in cells):
+        return False
+    return not all(is_number(cell, layout.decimal) for cell in cells)
+
+
+def _splittings(text: str, delimiter: str | None) -> Iterator[list[str]]:
+    """The ways to take a header line apart. Between blanks a name may have blanks of its own."""
+    if delimiter is not None:
+        yield _without_empty_end(split_row(text, delimiter))
+        return
+    yield _join_brackets(text.split())
+    if '"' in text:
+        yield _without_empty_end(split_row(text.strip(), " "))
+    yield re.split(r"\s{2,}|\t", text.strip())
+
+
+def _without_empty_end(cells: list[str]) -> list[str]:
     while cells and not cells[-1]:
         cells.pop()
     return cells
@@ -75,17 +111,27 @@ def _join_brackets(words: list[str]) -> list[str]:
     """A bracketed unit belongs to the word before it: `F [N]` is one cell."""
     cells: list[str] = []
     for word in words:
-        if cells and word[0] in "[(" and word[-1] in "])":
+        if cells and _is_bracketed(word) and not _is_bracketed(cells[-1]):
             cells[-1] += " " + word
         else:
             cells.append(word)
     return cells
 
 
+def _is_bracketed(word: str) -> bool:
+    return word[0] in "[(" and word[-1] in "])"
+
+
 def _is_unit_row(cells: Sequence[str]) -> bool:
+    if _label(cells[0]) in _UNIT_LABELS:
+        return True
     filled = [cell for cell in cells if cell and cell != "-"]
-    known = [cell for cell in filled if cell[0] in "[(" or is_unit(cell)]
+    known = [cell for cell in filled if cell[0] in "[(" or names_a_unit(cell)]
     return len(known) > 0.5 * len(filled)
+
+
+def _units_of(cells: Sequence[str]) -> list[str]:
+    return ["" if _label(cell) in _UNIT_LABELS else plain_unit(cell) for cell in cells]
 
 
 def _names_with_units(cells: Sequence[str]) -> tuple[list[str], list[str]]:
@@ -96,10 +142,10 @@ def _names_with_units(cells: Sequence[str]) -> tuple[list[str], list[str]]:
 def _name_and_unit(cell: str) -> tuple[str, str]:
     match = _BRACKETED.fullmatch(cell)
     if match:
-        return match["name"], match["unit"].strip()
+        return match["name"], plain_unit(match["unit"])
     match = _FRACTION.fullmatch(cell)
     name, unit = (match["name"] or match["name2"], match["unit"] or match["unit2"]) if match else (cell, "")
-    return (name, unit) if unit and is_unit(unit) else (cell, "")
+    return (name, plain_unit(unit)) if unit and names_a_unit(unit) else (cell, "")
 
 
 def _header(names: Sequence[str], units: Sequence[str]) -> Header:
@@ -107,7 +153,7 @@ def _header(names: Sequence[str], units: Sequence[str]) -> Header:
     distinct = [
         name if name and count[name] == 1 else f"{name} (column {index})".strip() for index, name in enumerate(names, 1)
     ]
-    return Header(tuple(distinct), tuple(unit if unit != "-" else "" for unit in units))
+    return Header(tuple(distinct), tuple(units))
 
 
 def _refuse_broken_row(cells: Sequence[str], higher: list[str] | None, layout: Layout, line: int) -> None:

@@ -11,17 +11,18 @@ from dataclasses import dataclass
 from dashpot.contract.reader import ReadingError
 
 # in the order of preference where several read a file alike; None stands for any white space
-DELIMITERS: tuple[str | None, ...] = ("\t", ";", ",", None)
+DELIMITERS: tuple[str | None, ...] = ("\t", ";", ",", "|", None)
 DECIMALS = (".", ",")
 
 _NUMBER = {
-    ".": re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"),
-    ",": re.compile(r"[-+]?([0-9]+|[0-9]*,[0-9]+)([eE][-+]?[0-9]+)?"),
+    ".": re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eEdD][-+]?[0-9]+)?"),
+    ",": re.compile(r"[-+]?([0-9]+|[0-9]*,[0-9]+)([eEdD][-+]?[0-9]+)?"),
 }
 # what stands where there is no number
 NO_VALUE = {"", "nan", "na", "n/a", "inf", "-inf", "+inf", "null"}
 _COMMENT_SIGNS = ("#", "%", "//", "!", ";")
 _SAMPLE = 60
+_ROWS_ON_END = 3
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,7 @@ def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals
     if not sample:
         raise ReadingError("it holds no rows", "check that this is the file of the measurement")
     delimiter, decimal = max(choices, key=lambda choice: _score(sample, *choice))
+    sample = _wider(sample, _filled_lines(lines)[-_SAMPLE:], delimiter, decimal)
     rows = [split_row(line, delimiter) for line in sample if not is_comment(line, delimiter)]
     if not any(is_number(cell, decimal) for row in rows for cell in row):
         raise ReadingError("it holds no table of numbers", "check that this is the file of the measurement")
@@ -81,11 +83,25 @@ def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals
     return Layout(delimiter, decimal, _first_row(lines, delimiter, decimal, columns), width)
 
 
+def _filled_lines(lines: Sequence[str]) -> list[str]:
+    return [line for line in lines if line.strip()]
+
+
 def _sample(lines: Sequence[str]) -> list[str]:
-    """Lines spread over the second half of the file, where headers are past."""
-    filled = [line for line in lines if line.strip()]
+    """Lines spread over the second half of the file, where headers are past, and its last ones."""
+    filled = _filled_lines(lines)
     half = filled[len(filled) // 2 :]
-    return half[:: max(1, len(half) // _SAMPLE)]
+    return half[:: max(1, len(half) // _SAMPLE)] + filled[-_SAMPLE // 2 :]
+
+
+def _wider(sample: Sequence[str], last: Sequence[str], delimiter: str | None, decimal: str) -> Sequence[str]:
+    """The last lines alone where they hold more numbers a line: the header is longer than the table."""
+
+    def numbers(lines: Sequence[str]) -> float:
+        counts = [sum(is_number(cell, decimal) for cell in split_row(line, delimiter)) for line in lines]
+        return sorted(counts)[len(counts) // 2]
+
+    return last if numbers(last) > numbers(sample) else sample
 
 
 def _score(sample: Sequence[str], delimiter: str | None, decimal: str) -> float:
@@ -108,11 +124,25 @@ def _filled(row: list[str]) -> int:
 
 
 def _first_row(lines: Sequence[str], delimiter: str | None, decimal: str, columns: list[int]) -> int:
+    """The first line with numbers in most columns, or the first of three rows on end, gaps and all."""
+    sparse: list[int] = []
     for index, line in enumerate(lines):
-        if line.strip() and not is_comment(line, delimiter):
-            row = split_row(line, delimiter)
-            cells = [row[column] if column < len(row) else "" for column in columns]
-            values = [is_number(cell, decimal) for cell in cells]
-            if any(values) and all(good or cell.lower() in NO_VALUE for good, cell in zip(values, cells, strict=True)):
-                return index
+        if not line.strip() or is_comment(line, delimiter):
+            continue
+        count = _count_numbers(split_row(line, delimiter), decimal, columns)
+        if 2 * count > len(columns):
+            return sparse[0] if sparse else index
+        sparse = [*sparse, index] if count else []
+        if len(sparse) == _ROWS_ON_END:
+            return sparse[0]
+    if sparse:
+        return sparse[0]
     raise ReadingError("no row holds numbers in all its columns", "name 'delimiter' and 'decimal' under file_options")
+
+
+def _count_numbers(row: Sequence[str], decimal: str, columns: list[int]) -> int:
+    """How many of these columns hold numbers; 0 when one holds something else than a number or nothing."""
+    cells = [row[column] if column < len(row) else "" for column in columns]
+    numbers = [is_number(cell, decimal) for cell in cells]
+    sound = all(good or cell.lower() in NO_VALUE for good, cell in zip(numbers, cells, strict=True))
+    return sum(numbers) if sound else 0

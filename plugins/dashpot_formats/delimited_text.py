@@ -39,9 +39,22 @@ def _guess(raw: bytes) -> str:
     for mark, encoding in _MARKS:
         if raw.startswith(mark):
             return _decode(raw, encoding)
+    unmarked = _wide_characters(raw[:4096])
+    if unmarked:
+        return _decode(raw, unmarked)
     if b"\0" in raw[:4096]:
         raise ReadingError("it is a binary file, expected a text table", "say its format with 'reader: ...'")
     try:
         return raw.decode("utf-8")
     except UnicodeDecodeError:
         return raw.decode("cp1252", errors="replace")
+
+
+def _wide_characters(start: bytes) -> str | None:
+    """UTF-16 without a byte order mark: nearly every second byte is zero, and no other."""
+    if len(start) < 8:
+        return None
+    first, second = start[0::2], start[1::2]
+    if second.count(0) > 0.8 * len(second) and not first.count(0):
+        return "utf-16-le"
+    return "utf-16-be" if first.count(0) > 0.8 * len(first) and not second.count(0) else None
