@@ -3,9 +3,25 @@
 ``shell``     the group of verbs           ``outcome``   from what happened to the exit code
 ``switches``  options shared by verbs      ``session``   plugins, networks, datasets and optimizers named by the user
 ``output``    files, nothing overwritten   ``results``   the files and texts of a comparison and of a diagnosis
-``talk``      what is said where           ``columns`` ``progress``   how it looks
+``talk``      what is said where           ``columns`` ``progress`` ``pace``   how it looks
 """
 
-from dashpot.cli.shell import main
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+INTERRUPTED = 3
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; 0 done, 1 the input is wrong, 2 usage, 3 interrupted, 70 a fault of dashpot itself."""
+    try:
+        from dashpot.cli.shell import run
+    except KeyboardInterrupt:
+        sys.stderr.write("interrupted; nothing was begun\n")
+        return INTERRUPTED
+    return run(arguments)
+
 
 __all__ = ["main"]

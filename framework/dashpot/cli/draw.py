@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from glob import escape
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -19,7 +20,7 @@ WRITTEN = (".svg", ".txt")
 @click.argument("spec")
 @output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", required=False)
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
-@switches("quiet", "force")
+@switches("json", "quiet", "force")
 def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> None:
     """Draw the schematic of a network: springs, dashpots, sliders, masses, names and values.
 
@@ -35,14 +36,23 @@ def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> Non
     session = Session(switches)
     network = session.network(spec)
     if output is None:
-        click.echo(text_for_terminal(network, plain), nl=False)
-        return
+        text = text_for_terminal(network, plain)
+        if switches.json:
+            return session.talk.result("", content_of(network, None, text))
+        return click.echo(text, nl=False)
     folder = session.claim(output.parent, escape(output.name))
-    folder.write(output.name, content_of(network, output.suffix, plain))
-    session.talk.say(f"drawn: {output}")
+    text = drawing(network, output.suffix, plain)
+    folder.write(output.name, text)
+    session.talk.result(f"drawn: {output}", content_of(network, output, text))
 
 
-def content_of(network: NetworkSpec, suffix: str, plain: bool) -> str:
+def content_of(network: NetworkSpec, output: Path | None, text: str) -> dict[str, Any]:
+    """What ``--json`` tells: the drawing, and the file that it is in."""
+    file = str(output) if output else None
+    return {"format": "dashpot-drawing/1", "network": network.name, "file": file, "drawing": text}
+
+
+def drawing(network: NetworkSpec, suffix: str, plain: bool) -> str:
     """The content of a file with this ending."""
     from dashpot.report.schematic.svg import svg
     from dashpot.report.schematic.terminal import text_drawing

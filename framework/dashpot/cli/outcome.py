@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import traceback
 from collections.abc import Callable
 from enum import IntEnum
@@ -37,12 +38,20 @@ def exit_code_of(work: Callable[[], object]) -> int:
     except (click.Abort, KeyboardInterrupt):
         _tell("interrupted; what was done is kept")
         return ExitCode.INTERRUPTED
+    except BrokenPipeError:
+        return _end_of_reader()
     except OSError as error:
         _tell(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         return ExitCode.WRONG_INPUT
     except Exception as error:
         return _fault(error)
     return result if isinstance(result, int) else ExitCode.DONE
+
+
+def _end_of_reader() -> ExitCode:
+    # whoever read our output (`| head`) has enough; without this Python complains when it closes standard output
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return ExitCode.DONE
 
 
 def _fault(error: Exception) -> ExitCode:

@@ -46,7 +46,8 @@ class Session:
         """The dataset at ``path``; what is wrong with single runs is warned of."""
         from dashpot.data.dataset import read_dataset
 
-        dataset = read_dataset(path, {word: reader() for word, reader in self.registry.formats.items()})
+        with self.watch(f"reading {path}"):
+            dataset = read_dataset(path, {word: reader() for word, reader in self.registry.formats.items()})
         for problem in dataset.problems:
             self.talk.warn(str(problem))
         return dataset
@@ -57,9 +58,13 @@ class Session:
         folder.claim(*patterns)
         return folder
 
+    def watch(self, what: str, parts: int = 1) -> ProgressBar:
+        """The progress of what is done in a ``with`` block; ``what`` says it as long as nobody else does."""
+        return ProgressBar(self.switches.quiet, parts, what)
+
     def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
         """Do the work of a verb on a network (or several) and a dataset, showing its progress."""
-        with ProgressBar(self.switches.quiet) as progress:
+        with self.watch("compiling", len(subject) if isinstance(subject, list) else 1) as progress:
             return work(
                 subject,
                 dataset,

@@ -49,6 +49,6 @@ def dashpot() -> None:
     """
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; 0 done, 1 the input is wrong, 2 usage, 3 interrupted, 70 a fault of dashpot itself."""
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; its exit code."""
     return exit_code_of(lambda: dashpot.main(args=arguments, prog_name="dashpot", standalone_mode=False))

@@ -6,7 +6,7 @@ import io
 from collections.abc import Mapping
 from glob import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from zipfile import ZipFile, ZipInfo
 
 import click
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
 @output_option("A folder; with --data also a file ending in .npz.")
-@switches("seed", "quiet", "force")
+@switches("seed", "json", "quiet", "force")
 def verb(
     spec: str,
     dataset: str | None,
@@ -77,7 +77,8 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
-    solved = solve_runs(network, measured, refine=refine, registry=session.registry)
+    with session.watch("compiling") as progress:
+        solved = solve_runs(network, measured, refine=refine, registry=session.registry, progress=progress)
     if archive:
         folder.write_bytes(output.name, npz_bytes(forces_by_name(solved)))
     else:
@@ -85,7 +86,8 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
             folder.write(f"{name}.csv", csv_text(measured.run(name), solution))
     if energy:
         write_energies(network, map(Excitation.of_run, measured.runs), folder, session.talk)
-    session.talk.say(f"simulated {len(solved)} runs: {output}{told_error(solved)}")
+    told = f"simulated {len(solved)} runs: {output}{told_error(solved)}"
+    session.talk.result(told, content_of(network, list(solved), output, largest_error(solved)))
 
 
 def measure_on(
@@ -106,14 +108,23 @@ def measure_on(
         bench = find_bench(rig, session.registry.rigs, dict(map(split_setting, settings)))
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    runs = virtual_test(network, bench, session.switches.seed, refine)
+    with session.watch("compiling") as progress:
+        runs = virtual_test(network, bench, session.switches.seed, refine, progress)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     for name, text in files.items():
         folder.write(name, text)
     if energy:
         write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
-    session.talk.say(f"measured {len(runs)} runs: {output / 'dataset.yaml'}")
+    dataset = output / "dataset.yaml"
+    names = [run.name for run in runs]
+    session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset))
+
+
+def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None = None) -> dict[str, Any]:
+    """What ``--json`` tells: the network, its runs and where they are; ``error`` is the numerical one in N."""
+    return {"format": "dashpot-simulation/1", "network": network.name, "runs": runs, "output": str(output),
+            "numerical_error": error}  # fmt: skip
 
 
 def csv_text(run: Run, solution: RunSolution) -> str:
@@ -131,9 +142,14 @@ def csv_text(run: Run, solution: RunSolution) -> str:
     return "\n".join([*head, *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
+def largest_error(solved: Mapping[str, RunSolution]) -> float:
+    """The largest estimated numerical error of a force in N, 0 where there is none."""
+    return max((error for solution in solved.values() for error in solution.error.values()), default=0.0)
+
+
 def told_error(solved: Mapping[str, RunSolution]) -> str:
-    """The largest estimated numerical error, where there is one."""
-    largest = max((error for solution in solved.values() for error in solution.error.values()), default=0.0)
+    """The largest estimated numerical error in words, where there is one."""
+    largest = largest_error(solved)
     return f"; estimated numerical error of the forces at most {largest:.2g} N rms" if largest else ""
 
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from dashpot.cli.progress import ProgressBar
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, output_option, switches
 
@@ -67,7 +66,8 @@ def preview(planned: StudySpec, measured: Dataset, session: Session) -> None:
     from dashpot.assess.study import preview_content, preview_text
     from dashpot.fit.study.preview import preview_study
 
-    previews = preview_study(planned, measured, session.switches.jobs)
+    with session.watch("looking at the data"):
+        previews = preview_study(planned, measured, session.switches.jobs)
     session.talk.result(preview_text(previews), preview_content(planned.name, previews))
 
 
@@ -79,7 +79,7 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
     records = folder.path / RECORDS
     if session.switches.force:
         Checkpoint(records).discard()
-    with ProgressBar(session.switches.quiet) as progress:
+    with session.watch("compiling") as progress:
         result = run_study(
             planned,
             measured,

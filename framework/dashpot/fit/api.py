@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -39,6 +40,7 @@ Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
 OWN_METHOD = "gauss_newton"
+POLISH_STEPS = 40
 
 
 def silent(*_: Any, **__: Any) -> None:
@@ -107,7 +109,9 @@ def fit_prepared(
     objective = Objective(compile_network(corrected), setting.train, jobs)
     coordinates = search_coordinates(corrected)
     watch.stage("polish", 0.0)
-    polished = refine(objective, coordinates, coordinates.start, watch=lambda loss: watch.stage("polish", None, loss))
+    polished = refine(
+        objective, coordinates, coordinates.start, POLISH_STEPS, watch=watch.steps("polish", POLISH_STEPS)
+    )
     known = assess_uncertainty(objective, coordinates, polished.point)
     fitted = with_point(corrected, coordinates, polished.point)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
@@ -184,3 +188,8 @@ class _Watch:
 
     def stage(self, what: str, done: float | None, loss: float | None = None) -> None:
         self.progress(f"{self.name}: {what}", done, loss, self.floor)
+
+    def steps(self, what: str, most: int) -> Callable[[float], None]:
+        """Hears of the loss after each step of a stage that takes ``most`` of them at the longest."""
+        numbers = itertools.count(1)
+        return lambda loss: self.stage(what, next(numbers) / most, loss)

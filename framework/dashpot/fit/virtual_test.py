@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -24,16 +24,26 @@ DYNAMIC = ("sweep", "harmonic", "random", "transient")
 LETTERS = "bcdefghijklmnopqrstuvwxyz"
 
 
-def virtual_test(spec: NetworkSpec, bench: Bench, seed: int = 0, refine: int = 1) -> list[Run]:
+def virtual_test(
+    spec: NetworkSpec,
+    bench: Bench,
+    seed: int = 0,
+    refine: int = 1,
+    progress: Callable[[str, float], None] | None = None,
+) -> list[Run]:
     """Every run of the bench, measured on the network; the same seed gives the same noise.
 
-    ``refine`` is how many times as many steps as usual lie between two samples, where the motion of a node is unknown.
+    ``refine`` is how many times as many steps as usual lie between two samples, where the motion of a node is unknown;
+    ``progress`` hears of each planned run, by name and with the share of those before it.
 
     InputError for a network that cannot be simulated, or that has not the nodes that the bench drives.
     """
     network = compile_network(spec)
     measured: list[Run] = []
-    for planned in bench.runs():
+    planned_runs = bench.runs()
+    for number, planned in enumerate(planned_runs):
+        if progress:
+            progress(planned.name, number / len(planned_runs))
         answer = answer_of(network, planned, refine)
         for repeat in range(bench.measuring.repeats if planned.kind in DYNAMIC else 1):
             rng = np.random.default_rng([seed, len(measured)])

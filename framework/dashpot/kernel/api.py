@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,19 +33,25 @@ class RunSolution:
     error: Mapping[str, float]
 
 
-def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int = 1,
-               registry: Registry | None = None) -> dict[str, RunSolution]:  # fmt: skip
+def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int = 1, registry: Registry | None = None,
+               progress: Callable[[str, float], None] | None = None) -> dict[str, RunSolution]:  # fmt: skip
     """Forces and motions of a network along the motions of every run, by the name of the run.
 
     The forces are seen through the network's ``measurement`` (gain, offset, delay). A network given by file or shipped
     name is read with the elements of ``registry``, by default the installed ones. ``refine`` is how many times as many
-    steps as usual lie between two samples, where the motion of a node is unknown. Raises InputError for a network with
-    mistakes or with a curve that has no numbers yet, for a run that lacks a motion, and for one that cannot be solved.
+    steps as usual lie between two samples, where the motion of a node is unknown; ``progress`` hears of each run, by
+    name and with the share of those before it. Raises InputError for a network with mistakes or with a curve that has
+    no numbers yet, for a run that lacks a motion, and for one that cannot be solved.
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
     network = compile_network(spec)
-    return {run.name: solve(network, Excitation.of_run(run), refine) for run in dataset.runs}
+    found = {}
+    for number, run in enumerate(dataset.runs):
+        if progress:
+            progress(run.name, number / len(dataset.runs))
+        found[run.name] = solve(network, Excitation.of_run(run), refine)
+    return found
 
 
 def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int = 1) -> RunSolution:

@@ -32,7 +32,8 @@ def test_a_drawing_can_be_kept_as_text(call, tmp_path):
 
 
 def test_a_terminal_without_line_characters_gets_ascii(monkeypatch):
-    from dashpot import load_registry, read_network
+    from dashpot.contract.registry import load_registry
+    from dashpot.model.reading import read_network
 
     spec = read_network("gehmann", load_registry().elements)
     monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(io.BytesIO(), encoding="ascii"))

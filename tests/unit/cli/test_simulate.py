@@ -32,7 +32,7 @@ def bench(monkeypatch, layers):
     solved = {name: SimpleNamespace(force={"": force}, motion={"hub": force}, error={"": 0.25}) for name, force in
               FORCES.items()}  # fmt: skip
     api = SimpleNamespace(
-        solve_runs=lambda spec, dataset, *, refine, registry: solved, forces_by_name=lambda found: FORCES
+        solve_runs=lambda spec, dataset, *, refine, registry, progress: solved, forces_by_name=lambda found: FORCES
     )
     monkeypatch.setitem(sys.modules, "dashpot.kernel.api", api)
 
