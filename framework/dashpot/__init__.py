@@ -1,21 +1,25 @@
 """dashpot: rheological models as networks of small laws, fitted to measurements, with what is missing named.
 
+In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, then ``fit``, ``compare`` or ``diagnose``; all answers
+show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure`` run a model. Studies are
+``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
+
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen`` or ``Rig`` and mark its hook with
-``hookimpl``. Use the parts from Python with ``load_registry``, ``read_network``, ``read_dataset``, ``simulate_runs``,
-``energy_balance``, ``fit_network``, ``read_study``, ``run_study``, ``virtual_test``, ``compare`` and ``diagnose``.
+``hookimpl``.
+
 Everything is imported on first use: ``import dashpot`` costs nothing.
 """
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from dashpot.assess.compare import compare as compare
-    from dashpot.assess.diagnose import diagnose as diagnose
     from dashpot.contract.cause import Cause as Cause
     from dashpot.contract.cause import Suspect as Suspect
     from dashpot.contract.cause import View as View
@@ -32,12 +36,8 @@ if TYPE_CHECKING:
     from dashpot.contract.rig import PrescribedPath as PrescribedPath
     from dashpot.contract.rig import Rig as Rig
     from dashpot.contract.specimen import Specimen as Specimen
-    from dashpot.data.dataset import read_dataset as read_dataset
-    from dashpot.fit.api import fit_network as fit_network
     from dashpot.fit.study.reading import read_study as read_study
     from dashpot.fit.study.run import run_study as run_study
-    from dashpot.fit.virtual_test import virtual_test as virtual_test
-    from dashpot.kernel.api import simulate_runs as simulate_runs
     from dashpot.kernel.energy import energy_balance as energy_balance
     from dashpot.model.element import Curve as Curve
     from dashpot.model.element import Element as Element
@@ -48,35 +48,55 @@ if TYPE_CHECKING:
     from dashpot.model.picture import Parallel as Parallel
     from dashpot.model.picture import Series as Series
     from dashpot.model.picture import Symbol as Symbol
-    from dashpot.model.reading import read_network as read_network
+    from dashpot.notebook.comparison import Comparison as Comparison
+    from dashpot.notebook.data import Data as Data
+    from dashpot.notebook.diagnosis import Diagnosis as Diagnosis
+    from dashpot.notebook.fit import Fit as Fit
+    from dashpot.notebook.listing import Listing as Listing
+    from dashpot.notebook.model import Model as Model
+    from dashpot.notebook.verbs import compare as compare
+    from dashpot.notebook.verbs import declare as declare
+    from dashpot.notebook.verbs import diagnose as diagnose
+    from dashpot.notebook.verbs import fit as fit
+    from dashpot.notebook.verbs import load as load
+    from dashpot.notebook.verbs import load_dataset as load_dataset
+    from dashpot.notebook.verbs import measure as measure
+    from dashpot.notebook.verbs import simulate as simulate
+    from dashpot.notebook.verbs import write_dataset as write_dataset
 
 _HOMES = {
-    "dashpot.model.element": ("Curve", "Element", "Motion", "Parameter", "Response", "State"),
+    "dashpot.notebook.verbs": (
+        *("load", "declare", "load_dataset", "simulate", "measure", "write_dataset"),
+        *("fit", "compare", "diagnose"),
+    ),
+    "dashpot.notebook.model": ("Model",),
+    "dashpot.notebook.data": ("Data",),
+    "dashpot.notebook.fit": ("Fit",),
+    "dashpot.notebook.comparison": ("Comparison",),
+    "dashpot.notebook.diagnosis": ("Diagnosis",),
+    "dashpot.notebook.listing": ("Listing",),
+    "dashpot.kernel.energy": ("energy_balance",),
+    "dashpot.fit.study.reading": ("read_study",),
+    "dashpot.fit.study.run": ("run_study",),
+    "dashpot.model.element": ("Element", "Parameter", "Curve", "State", "Motion", "Response"),
     "dashpot.model.picture": ("Parallel", "Series", "Symbol"),
-    "dashpot.model.reading": ("read_network",),
-    "dashpot.data.dataset": ("read_dataset",),
     "dashpot.contract.hooks": ("hookimpl",),
     "dashpot.contract.registry": ("load_registry",),
     "dashpot.contract.optimizer": ("Optimizer", "Search", "Space"),
     "dashpot.contract.reader": ("Reader", "ReadingError", "Table"),
     "dashpot.contract.cause": ("Cause", "Suspect", "View", "added_branch"),
     "dashpot.contract.specimen": ("Specimen",),
-    "dashpot.contract.rig": ("PlannedRun", "PrescribedPath", "Rig"),
-    "dashpot.kernel.api": ("simulate_runs",),
-    "dashpot.kernel.energy": ("energy_balance",),
-    "dashpot.fit.api": ("fit_network",),
-    "dashpot.fit.study.reading": ("read_study",),
-    "dashpot.fit.study.run": ("run_study",),
-    "dashpot.fit.virtual_test": ("virtual_test",),
-    "dashpot.assess.compare": ("compare",),
-    "dashpot.assess.diagnose": ("diagnose",),
+    "dashpot.contract.rig": ("Rig", "PlannedRun", "PrescribedPath"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+_LAYER = "fit"  # the one name that is both a layer and a verb
 
 __all__ = ["__version__", *_HOME_OF]
 
 
 def __getattr__(name: str) -> Any:
+    if name == _LAYER:
+        return import_module(f"dashpot.{_LAYER}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'dashpot' has no attribute {name!r}")
     return getattr(import_module(_HOME_OF[name]), name)
@@ -84,3 +104,32 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted(__all__)
+
+
+class _CallableLayer(ModuleType):
+    """A layer of the framework that, called, is the verb of its name."""
+
+    def __call__(self, *arguments: Any, **options: Any) -> Any:
+        return _verb()(*arguments, **options)
+
+    @property
+    def __signature__(self) -> Any:
+        from inspect import signature
+
+        return signature(_verb())
+
+
+class _Package(ModuleType):
+    """The package; importing makes ``dashpot.fit`` its attribute, and this makes it one that can be called."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == _LAYER:
+            value.__class__ = _CallableLayer
+        super().__setattr__(name, value)
+
+
+def _verb() -> Any:
+    return getattr(import_module(_HOME_OF[_LAYER]), _LAYER)
+
+
+sys.modules[__name__].__class__ = _Package

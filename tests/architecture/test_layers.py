@@ -17,7 +17,7 @@ LAYERS = (
     {"fit"},
     {"assess"},
     {"report"},
-    {"cli"},
+    {"cli", "notebook"},
 )
 # words of channels and of result files (the gain of a cause), which some causes have for their names, too
 ORDINARY_WORDS = {"gain", "offset", "delay", "drift", "clipping"}

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dashpot import load_registry, read_dataset
+from dashpot import load_registry
 from dashpot.cli import main
+from dashpot.data.dataset import read_dataset
 
 from .conftest import ROOT, Installation, install
 
@@ -191,8 +192,9 @@ def test_the_python_lines_run(tmp_path, monkeypatch, capsys, seed):
     exec(blocks("python")[0], found)
     assert "RMSE" in capsys.readouterr().out
     assert found["forces"]["r0"].shape == (2000,)
-    assert [model["name"] for model in found["table"]["models"]] == ["spring", "kelvin_voigt"]
-    assert found["verdict"]["causes"][0]["cause"] == "viscous_damping"
+    assert [fit.declared.name for fit in found["comparison"].fits] == ["spring", "kelvin_voigt"]
+    assert found["diagnosis"].named[0].cause.word == "viscous_damping"
+    assert (tmp_path / "kelvin_voigt_fitted.yaml").is_file()
 
 
 # --- the plugin ----------------------------------------------------------------------------------------------------

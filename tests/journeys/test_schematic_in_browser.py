@@ -11,7 +11,8 @@ from itertools import combinations
 
 import pytest
 
-from dashpot import load_registry, read_network
+from dashpot import load_registry
+from dashpot.model.reading import read_network
 from dashpot.report.schematic.svg import svg
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (pip install playwright)")

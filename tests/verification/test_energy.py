@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from verification.shipped import KNOTS
 
-from dashpot import load_registry, read_network
+from dashpot import load_registry
 from dashpot.data.drive import Drive, drive_from_path, drive_from_samples
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.energy import EnergyBalance, EnergyCounter
 from dashpot.model.network import Characteristic, NetworkSpec, Value
-from dashpot.model.reading import parse_network
+from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
 from dashpot.testing import draw_sizes, draw_specimens, random_drive
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from unit.kernel.networks import network
 
-from dashpot import simulate_runs
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
+from dashpot.kernel.api import simulate_runs
 from dashpot.text.problem import InputError
 
 DT = 1e-3

@@ -6,7 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from dashpot import load_registry, read_dataset
+from dashpot import load_registry
+from dashpot.data.dataset import read_dataset
 from dashpot_specimens.car_laws import GRAVITY, STEP, Car, CarTire, drive_car, tire_force
 from dashpot_specimens.car_path import sweep, triangle
 from dashpot_specimens.test_car import CarOnRig, measure_car, random_car

@@ -10,9 +10,9 @@ from unit.report.schematic.drawn import Drawn
 from unit.report.schematic.networks import KINDS, LOADED, TEXTS, jointed, two_ended
 from unit.report.schematic.rules import ends_of_network, misdrawn, outside, overlaps
 
-from dashpot import load_registry, read_network
+from dashpot import load_registry
 from dashpot.model.network import Branch, Group, NetworkSpec
-from dashpot.model.reading import parse_network
+from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.svg import svg
 

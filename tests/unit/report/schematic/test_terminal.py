@@ -6,8 +6,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from unit.report.schematic.networks import TEXTS, jointed, two_ended
 
-from dashpot import load_registry, read_network
-from dashpot.model.reading import parse_network
+from dashpot import load_registry
+from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.sizes import columns
 from dashpot.report.schematic.terminal import text_drawing

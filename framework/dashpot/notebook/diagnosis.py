@@ -1,0 +1,94 @@
+"""A diagnosis that shows itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from dashpot.assess.diagnosis import Diagnosis as PlainDiagnosis
+from dashpot.contract.registry import load_registry
+from dashpot.model.reading import parse_network
+from dashpot.notebook.cell import cell
+from dashpot.notebook.listing import Listing
+from dashpot.notebook.model import Model
+from dashpot.notebook.plots import PLOTS, interactive, plot
+from dashpot.notebook.promoted import promoted
+from dashpot.report.diagnosis import VERDICTS, diagnosis_page
+from dashpot.report.figures import gain_intervals
+from dashpot.report.grids import cause_grid, misfit_grid
+from dashpot.report.headline import headline
+from dashpot.report.page import write_page
+from dashpot.report.parts import Code, Notice, Part
+from dashpot.report.patch import diff
+from dashpot.report.schematic.svg import svg
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from plotly.graph_objects import Figure as PlotlyFigure
+
+
+class Diagnosis(PlainDiagnosis):
+    """What a network gets wrong, and why. In a notebook it shows the answer, the causes, and what they change.
+
+    Examples:
+        >>> diagnosis = dp.diagnose("kelvin_voigt", "mount")
+        >>> diagnosis.verdict
+        'explained'
+        >>> [named.cause.word for named in diagnosis.named]
+        ['friction']
+        >>> [branch.element.word for branch in diagnosis.extended.leaves()][-1]
+        'dahl'
+    """
+
+    @property
+    def headline(self) -> str:
+        """The answer in a sentence."""
+        return headline(self.as_dict())
+
+    def table(self) -> Listing:
+        """The causes: evidence, expected and realised gain, numbers, rivals."""
+        return Listing.of(cause_grid(self.as_dict()))
+
+    def misfits(self) -> Listing:
+        """What the network gets wrong before any cause is named, and where."""
+        return Listing.of(misfit_grid(self.as_dict()))
+
+    def to_pandas(self) -> DataFrame:
+        """The table of causes as a pandas frame."""
+        return self.table().to_pandas()
+
+    def plot(self, what: str = "gains") -> PlotlyFigure:
+        """Draw ``gains``, or what a fit draws, before and after. ValueError for another name."""
+        if what == "gains":
+            return interactive(gain_intervals(self.as_dict()["causes"]))
+        return plot(what, self._evidence, ("gains", *PLOTS))
+
+    @cached_property
+    def extended(self) -> Model | None:
+        """The network with the accepted causes, ready to be simulated and saved; None where none was accepted."""
+        if self.extended_text is None:
+            return None
+        return promoted(Model, parse_network(self.extended_text, load_registry().elements, self.model.file))
+
+    def report(self, path: str | Path) -> Path:
+        """Write the report, one HTML file that needs nothing else; the path."""
+        schematic = {(self.extended_name or self.model.name).removesuffix(".yaml"): svg(self.final)}
+        return write_page(path, diagnosis_page(self.as_dict(), {**self._evidence, "schematic": schematic}))  # type: ignore[typeddict-item]
+
+    @cached_property
+    def _evidence(self) -> dict[str, Any]:
+        return self.evidence()
+
+    def _parts(self) -> Iterator[Part]:
+        content, patch = self.as_dict(), self.patch()
+        yield Notice(*VERDICTS[self.verdict])
+        if content["causes"]:
+            yield cause_grid(content)
+        if patch:
+            changes = [line for line in diff(patch["before"], patch["after"]).splitlines() if line[:1] in "+-"]
+            yield Code(f"{patch['before_name']} → {patch['after_name']}", "\n".join(changes), "diff")
+
+    def _repr_html_(self) -> str:
+        return cell(self.headline, *self._parts())

@@ -1,0 +1,82 @@
+"""A fit that shows itself."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from dashpot.assess.compare import Comparison as PlainComparison
+from dashpot.contract.registry import load_registry
+from dashpot.fit.api import prepare
+from dashpot.fit.result import FitResult
+from dashpot.model.reading import parse_network
+from dashpot.notebook.cell import cell
+from dashpot.notebook.listing import Listing
+from dashpot.notebook.model import Model
+from dashpot.notebook.numbers import numbers_grid
+from dashpot.notebook.plots import plot
+from dashpot.notebook.promoted import promoted
+from dashpot.report.grids import comparison_grid
+from dashpot.report.parts import Grid, Notice
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from plotly.graph_objects import Figure as PlotlyFigure
+
+
+class Fit(FitResult):
+    """A network with the numbers that were found. In a notebook it shows its errors and its numbers with intervals.
+
+    Examples:
+        >>> fit = dp.fit("kelvin_voigt", "mount")
+        >>> fit.errors.held_out > fit.noise_floor.value
+        True
+        >>> fit.at_bound
+        ()
+        >>> fit.model.name
+        'kelvin_voigt'
+    """
+
+    def table(self) -> Listing:
+        """Every number with its 95 % interval, the bounds of the search, and what is to be said of it."""
+        remarks = {slot.path: "found" for slot in self.fitted.slots() if slot.value.searched}
+        remarks |= dict.fromkeys(self.at_bound, "found at the end of its range")
+        remarks |= dict.fromkeys(self.idle, "without influence on these data")
+        return Listing.of(numbers_grid(self.fitted, remarks))
+
+    def to_pandas(self) -> DataFrame:
+        """The same as a pandas frame."""
+        return self.table().to_pandas()
+
+    def plot(self, what: str = "stiffness") -> PlotlyFigure:
+        """Draw measurement and fit: ``stiffness``, ``loops``, ``residuals``, ``harmonics``, ``misfit`` or ``history``.
+
+        ValueError for another name, and for a stiffness where nothing oscillates.
+        """
+        return plot(what, self._evidence)
+
+    @cached_property
+    def model(self) -> Model:
+        """The identified network: it has the numbers, and can be simulated, fitted again and saved."""
+        own = {branch.element.word: branch.element for branch in self.fitted.leaves()}
+        elements = {**load_registry().elements, **own}
+        return promoted(Model, parse_network(self.identified_text, elements, self.declared.file))
+
+    def save(self, path: str | Path) -> Path:
+        """Write the identified network as YAML; the path."""
+        return self.model.save(path)
+
+    @cached_property
+    def _comparison(self) -> PlainComparison:
+        return PlainComparison(prepare(self.dataset, self.seed), (self,), {}, self.seed)
+
+    @cached_property
+    def _evidence(self) -> dict[str, Any]:
+        return self._comparison.evidence()
+
+    def _repr_html_(self) -> str:
+        errors = comparison_grid(self._comparison.as_dict())
+        ending: list[Notice | str] = [f"Ended because: {self.ending}."]
+        numbers: Grid = self.table()
+        return cell(f"{self.declared.name} on {self.dataset.name}", errors, numbers, *ending)

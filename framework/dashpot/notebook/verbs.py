@@ -1,0 +1,209 @@
+"""What one calls in a notebook. A model may be given by name, a dataset by its path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from dashpot.assess.compare import compare as compare_networks
+from dashpot.assess.diagnose import diagnose as diagnose_network
+from dashpot.contract.bench import find_bench
+from dashpot.contract.registry import Registry, load_registry
+from dashpot.data.dataset import Dataset, read_dataset
+from dashpot.data.writing import dataset_files
+from dashpot.fit.api import fit_network
+from dashpot.fit.result import FitResult
+from dashpot.fit.virtual_test import virtual_test
+from dashpot.kernel.api import forces_by_name, solve_runs
+from dashpot.model.network import NetworkSpec
+from dashpot.model.reading import parse_network, read_network
+from dashpot.notebook.comparison import Comparison
+from dashpot.notebook.data import Data
+from dashpot.notebook.diagnosis import Diagnosis
+from dashpot.notebook.fit import Fit
+from dashpot.notebook.model import Model
+from dashpot.notebook.promoted import promoted
+
+if TYPE_CHECKING:
+    import numpy as np
+
+AnyModel = NetworkSpec | str | Path
+AnyData = Dataset | str | Path
+
+
+def load(name: str | Path, *, registry: Registry | None = None) -> Model:
+    """The network in a file, or the shipped one of that name. InputError with every mistake of the file.
+
+    Examples:
+        >>> model = dp.load("kelvin_voigt")
+        >>> model.name, len(model.leaves())
+        ('kelvin_voigt', 2)
+    """
+    return promoted(Model, read_network(name, (registry or load_registry()).elements))
+
+
+def declare(text: str, *, registry: Registry | None = None) -> Model:
+    """The network that a YAML text declares. InputError with every mistake of the text.
+
+    Examples:
+        >>> mount = dp.declare('''
+        ... format: dashpot-network/1
+        ... name: mount
+        ... branches:
+        ...   rubber: {element: spring, stiffness: 220 N/mm}
+        ...   damping: {element: damper, damping: {start: 0.5 N*s/mm}}
+        ... ''')
+        >>> [slot.path for slot in mount.slots() if slot.value.searched]
+        ['damping.damping']
+    """
+    return promoted(Model, parse_network(text, (registry or load_registry()).elements))
+
+
+def load_dataset(path: str | Path, *, registry: Registry | None = None) -> Data:
+    """The dataset of a folder, of its ``dataset.yaml``, or of a single file with a sidecar.
+
+    Runs with a fault are set aside and told of in ``problems``. InputError when no run is left.
+
+    Examples:
+        >>> data = dp.load_dataset("mount")
+        >>> len(data.runs), len(data.problems)
+        (9, 0)
+    """
+    readers = {word: reader() for word, reader in (registry or load_registry()).formats.items()}
+    return promoted(Data, read_dataset(path, readers))
+
+
+def simulate(model: AnyModel, data: AnyData, *, refine: int = 1,
+             registry: Registry | None = None) -> dict[str, np.ndarray]:  # fmt: skip
+    """The force (n,) in N along the motion of every run, as the load cell would show it, by the name of the run.
+
+    A run with several driven nodes has an entry ``run@node`` for each. ``refine`` is how many times as many steps as
+    usual lie between two samples, where nodes are free to move. InputError for a model whose curves have no numbers
+    yet, and for a run that lacks a motion.
+
+    Examples:
+        >>> forces = dp.simulate("kelvin_voigt", "mount")
+        >>> forces["a05_p3"].shape
+        (2001,)
+    """
+    return forces_by_name(solve_runs(_model(model, registry), _data(data, registry), refine=refine))
+
+
+def measure(model: AnyModel, rig: str, *, seed: int = 0, registry: Registry | None = None, **options: object) -> Data:
+    """The model on a virtual test rig: a test procedure with its options, or a bench, shipped or as a file.
+
+    Options are texts as on the command line (``depth="20 mm"``). The same seed gives the same noise. InputError for an
+    unknown rig or a model whose curves have no numbers yet, ValueError for options that do not fit.
+
+    Examples:
+        >>> loop = dp.measure("kelvin_voigt", "triangle", depth="2 mm", loops=1)
+        >>> loop.runs[0].kind
+        'quasi_static'
+    """
+    found, spec = registry or load_registry(), _model(model, registry)
+    bench = find_bench(rig, found.rigs, {key: str(value) for key, value in options.items()})
+    return Data(f"{spec.name} on {bench.name} (virtual)", tuple(virtual_test(spec, bench, seed)))
+
+
+def write_dataset(data: Dataset, folder: str | Path) -> Path:
+    """Write the runs as CSV files with their ``dataset.yaml``; the path of the latter.
+
+    Examples:
+        >>> loop = dp.measure("kelvin_voigt", "triangle", depth="2 mm", loops=1)
+        >>> path = dp.write_dataset(loop, "loop")
+        >>> dp.load_dataset(path).name
+        'kelvin_voigt on triangle (virtual)'
+    """
+    target = Path(folder)
+    target.mkdir(parents=True, exist_ok=True)
+    for name, text in dataset_files(data.name, data.runs).items():
+        (target / name).write_text(text, encoding="utf-8")
+    return target / "dataset.yaml"
+
+
+def fit(
+    model: AnyModel,
+    data: AnyData,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry | None = None,
+) -> Fit:
+    """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
+
+    ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
+    starts. InputError for a model that does not compile.
+
+    Examples:
+        >>> fit = dp.fit("kelvin_voigt", "mount", seed=1)
+        >>> print(fit.summary())  # doctest: +ELLIPSIS
+        kelvin_voigt: RMSE ... N on training runs, ... N on held-out runs
+        ...
+    """
+    found = registry or load_registry()
+    return _shown_fit(fit_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options,
+                                  seed=seed, jobs=jobs, registry=found))  # fmt: skip
+
+
+def compare(
+    models: Sequence[AnyModel],
+    data: AnyData,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry | None = None,
+) -> Comparison:
+    """Fit every model on the same training runs and judge it on all runs, next to the noise floor.
+
+    Examples:
+        >>> comparison = dp.compare(["spring", "kelvin_voigt"], "mount")
+        >>> spring, voigt = comparison.fits
+        >>> voigt.errors.held_out < spring.errors.held_out
+        True
+    """
+    found = registry or load_registry()
+    compared = compare_networks([_model(model, found) for model in models], _data(data, found), optimizer=optimizer,
+                                options=options, seed=seed, jobs=jobs, registry=found)  # fmt: skip
+    return promoted(Comparison, compared, fits=tuple(map(_shown_fit, compared.fits)))
+
+
+def diagnose(
+    model: AnyModel,
+    data: AnyData,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry | None = None,
+) -> Diagnosis:
+    """What a model gets wrong, the cause by name, the extended model, and what it gains on held-out runs.
+
+    InputError for a model that does not compile on these data.
+
+    Examples:
+        >>> diagnosis = dp.diagnose("kelvin_voigt", "mount")
+        >>> print(diagnosis.headline)  # doctest: +ELLIPSIS
+        The simulation misses the measured force by ... N...
+    """
+    found = registry or load_registry()
+    made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options, seed=seed,
+                            jobs=jobs, registry=found)  # fmt: skip
+    return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
+
+
+def _model(model: AnyModel, registry: Registry | None) -> NetworkSpec:
+    return model if isinstance(model, NetworkSpec) else load(model, registry=registry)
+
+
+def _data(data: AnyData, registry: Registry | None) -> Dataset:
+    return data if isinstance(data, Dataset) else load_dataset(data, registry=registry)
+
+
+def _shown_fit(found: FitResult) -> Fit:
+    return promoted(Fit, found, dataset=promoted(Data, found.dataset))
