@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Problem
@@ -15,9 +16,13 @@ if TYPE_CHECKING:
 
 
 @click.command("check")
-@click.argument("specs", nargs=-1, required=True, metavar="SPEC...")
+@click.argument("specs", nargs=-1, required=True, metavar="SPEC...", shell_complete=complete.networks)
 @click.option(
-    "--against", "other", metavar="SPEC", help="Tell what each SPEC has more, less or different than this one."
+    "--against",
+    "other",
+    metavar="SPEC",
+    help="Tell what each SPEC has more, less or different than this one.",
+    shell_complete=complete.networks,
 )
 @switches("json", "quiet")
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:

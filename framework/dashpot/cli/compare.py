@@ -6,14 +6,16 @@ from pathlib import Path
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.results import COMPARISON_FILES, comparison_text, write_comparison
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
 
 @click.command("compare")
-@click.argument("specs", nargs=-1, required=True, metavar="SPEC...")
-@click.option("--data", "dataset", metavar="DATASET", required=True, help="The measured runs.")
+@click.argument("specs", nargs=-1, required=True, metavar="SPEC...", shell_complete=complete.networks)
+@click.option("--data", "dataset", metavar="DATASET", required=True, help="The measured runs.",
+              shell_complete=complete.datasets)  # fmt: skip
 @output_option("Folder for compare.json, compare.csv and report.html.")
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force")

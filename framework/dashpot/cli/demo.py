@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.results import (
     COMPARISON_FILES,
     comparison_text,
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 
 
 @click.command("demo")
-@click.option("--specimen", metavar="NAME", help="See `dashpot list specimens`.")
+@click.option("--specimen", metavar="NAME", help="See `dashpot list specimens`.",
+              shell_complete=complete.installed("specimens"))  # fmt: skip
 @output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
 @switches("seed", "jobs", "json", "quiet", "force")
 def verb(specimen: str | None, output: Path, switches: Switches) -> None:

@@ -6,14 +6,15 @@ from pathlib import Path
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.results import diagnosis_files, diagnosis_text, write_diagnosis
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
 
 @click.command("diagnose")
-@click.argument("spec")
-@click.argument("dataset")
+@click.argument("spec", shell_complete=complete.networks)
+@click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force")

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, output_option, switches
 from dashpot.model.network import NetworkSpec
@@ -17,7 +18,7 @@ WRITTEN = (".svg", ".txt")
 
 
 @click.command("draw")
-@click.argument("spec")
+@click.argument("spec", shell_complete=complete.networks)
 @output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", required=False)
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @switches("json", "quiet", "force")

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
 
 @click.command("fit")
-@click.argument("spec")
-@click.argument("dataset")
+@click.argument("spec", shell_complete=complete.networks)
+@click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for the identified network NAME.yaml and fit.json.")
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force")

@@ -11,6 +11,7 @@ import click
 
 from dashpot import __version__
 from dashpot.cli.columns import in_columns
+from dashpot.cli.complete import beginning
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.contract.origin import Origin
@@ -48,7 +49,8 @@ class Entry:
 
 
 @click.command("list")
-@click.argument("kind", required=False, metavar="[KIND]")
+@click.argument("kind", required=False, metavar="[KIND]",
+                shell_complete=lambda _, __, typed: beginning(KINDS, typed))  # fmt: skip
 @switches("json")
 def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed: each thing with the distribution and the plugin that brought it.

@@ -12,7 +12,7 @@ from dashpot import __version__
 from dashpot.cli.outcome import exit_code_of
 from dashpot.text.problem import nearest
 
-VERBS = ("demo", "list", "check", "draw", "simulate", "fit", "compare", "diagnose", "study")
+VERBS = ("demo", "list", "check", "draw", "simulate", "fit", "compare", "diagnose", "study", "completion")
 
 
 class Verbs(click.Group):

@@ -11,6 +11,7 @@ from zipfile import ZipFile, ZipInfo
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.energy import FILE as ENERGIES
 from dashpot.cli.energy import write_energies
 from dashpot.cli.session import Session, split_setting
@@ -25,10 +26,13 @@ if TYPE_CHECKING:
 
 
 @click.command("simulate")
-@click.argument("spec")
-@click.option("--data", "dataset", metavar="DATASET", help="Measured runs that give the motion.")
-@click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.")
-@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".')
+@click.argument("spec", shell_complete=complete.networks)
+@click.option("--data", "dataset", metavar="DATASET", help="Measured runs that give the motion.",
+              shell_complete=complete.datasets)  # fmt: skip
+@click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.",
+              shell_complete=complete.rigs)  # fmt: skip
+@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".',
+              shell_complete=complete.settings)  # fmt: skip
 @click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, output_option, switches
 
@@ -22,8 +23,9 @@ RECORDS = "checkpoint"
 
 
 @click.command("study")
-@click.argument("study")
-@click.option("--data", "dataset", metavar="DATASET", help="Other measured runs than those that the study names.")
+@click.argument("study", shell_complete=complete.studies)
+@click.option("--data", "dataset", metavar="DATASET", help="Other measured runs than those that the study names.",
+              shell_complete=complete.datasets)  # fmt: skip
 @click.option("--dry-run", is_flag=True, help="Only say what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
 @switches("jobs", "json", "quiet", "force")

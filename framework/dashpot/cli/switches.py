@@ -11,6 +11,8 @@ from typing import Any
 
 import click
 
+from dashpot.cli import complete
+
 
 @dataclass(frozen=True)
 class Switches:
@@ -66,9 +68,19 @@ def switches(*names: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
 def optimizer_options(verb: Callable[..., Any]) -> Callable[..., Any]:
     """``--optimizer NAME`` and ``--set KEY=VALUE`` (any number of times)."""
     settings = click.option(
-        "--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the optimizer, e.g. iterations=50."
+        "--set",
+        "settings",
+        metavar="KEY=VALUE",
+        multiple=True,
+        help="An option of the optimizer, e.g. iterations=50.",
+        shell_complete=complete.settings,
     )
-    optimizer = click.option("--optimizer", metavar="NAME", help="See `dashpot list optimizers`.")
+    optimizer = click.option(
+        "--optimizer",
+        metavar="NAME",
+        help="See `dashpot list optimizers`.",
+        shell_complete=complete.installed("optimizers"),
+    )
     return optimizer(settings(verb))
 
 
