@@ -1,8 +1,11 @@
 """The built-in readers of measurement files, one format per file.
 
-`delimited_text`, `delimited_layout`, `delimited_header`, `time_stamps` and `stated_sampling` help `csv` to make out
-tables as rigs write them, `unit_words` knows units in other spellings; `flatten` turns the variables of `mat` and `npz`
-files into columns.
+- `delimited_text`, `delimited_layout`, `delimited_header`, `time_stamps` and `stated_sampling` help `csv` to make out
+  tables as rigs write them; `rpc_header` belongs to `rpc`, `tydex_channel` to `tydex`.
+- `apart` lets libraries of native code read in a process of their own, whose other side is `serve`; `extra` says how to
+  install an optional one.
+- `unit_words` knows units in other spellings, `distinct` makes names unique, `flatten` turns the variables of `mat` and
+  `npz` files into columns, `option` reads what stands under `file_options`.
 """
 
 from __future__ import annotations
@@ -18,6 +21,10 @@ def dashpot_formats() -> list[type]:
     from dashpot_formats.csv import Csv
     from dashpot_formats.json_matrix import JsonMatrix
     from dashpot_formats.mat import Mat
+    from dashpot_formats.mdf import Mdf
     from dashpot_formats.npz import Npz
+    from dashpot_formats.rpc import Rpc
+    from dashpot_formats.tdms import Tdms
+    from dashpot_formats.tydex import Tydex
 
-    return [Csv, Mat, Npz, JsonMatrix]
+    return [Csv, JsonMatrix, Mat, Mdf, Npz, Rpc, Tdms, Tydex]

@@ -33,7 +33,7 @@ _DELIMITER_WORDS = {"tab": "\t", "\\t": "\t", "space": None, "spaces": None, " "
 
 
 class Csv(Reader):
-    """Reads a text table as rigs and measuring programs export it; what it does not make plain stands in `file_options`.
+    """Reads a text table as measuring programs export it; what it does not make plain goes under `file_options`.
 
     delimiter: `,` `;` `tab` `space` `|` ...; decimal: `.` or `,`; encoding; skip_rows: lines to leave out at the top.
     Columns are named by a line above the numbers, whose units may stand in brackets or in a line of their own; without

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dashpot.contract.reader import ReadingError
 from dashpot_formats.delimited_layout import DELIMITERS, Layout, is_comment, is_number, split_row, uncomment
+from dashpot_formats.distinct import distinct
 from dashpot_formats.unit_words import names_a_unit, plain_unit
 
 _BRACKETED = re.compile(r"(?P<name>.*\S)\s*[\[(<{](?P<unit>[^\[\](){}<>]*)[\])>}]")
@@ -149,11 +149,7 @@ def _name_and_unit(cell: str) -> tuple[str, str]:
 
 
 def _header(names: Sequence[str], units: Sequence[str]) -> Header:
-    count = Counter(names)
-    distinct = [
-        name if name and count[name] == 1 else f"{name} (column {index})".strip() for index, name in enumerate(names, 1)
-    ]
-    return Header(tuple(distinct), tuple(units))
+    return Header(tuple(distinct(names, "column")), tuple(units))
 
 
 def _refuse_broken_row(cells: Sequence[str], higher: list[str] | None, layout: Layout, line: int) -> None:

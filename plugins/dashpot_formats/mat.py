@@ -1,4 +1,4 @@
-"""MATLAB files: version 5 to 7 with scipy, 7.3 (which is HDF5) with h5py."""
+"""MATLAB files: version 4 to 7 with scipy, 7.3 (which is HDF5) with h5py; both in a process of their own."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from dashpot.contract.reader import Reader, ReadingError, Table
+from dashpot_formats.apart import read_apart
+from dashpot_formats.extra import require
 from dashpot_formats.flatten import choose_variable, columns_of, numbered_columns
 from dashpot_formats.option import check_options, get_option
 
@@ -28,7 +30,7 @@ class Mat(Reader):
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
         check_options(options, ("variable", "transpose"))
-        variables = _read_hdf5(path) if _is_hdf5(path) else _read_version_5(path)
+        variables = _read_variables(path)
         name = get_option(options, "variable", str, None)
         if name is not None:
             matrix = choose_variable(variables, name)
@@ -39,6 +41,13 @@ class Mat(Reader):
         return Table(columns)
 
 
+def _read_variables(path: Path) -> Mapping[str, np.ndarray]:
+    if not _is_hdf5(path):
+        return read_apart(read_version_5, path, "MATLAB file").arrays
+    require("h5py", "matlab73", "MATLAB 7.3 files")
+    return read_apart(read_hdf5, path, "MATLAB 7.3 file").arrays
+
+
 def _is_hdf5(path: Path) -> bool:
     """MATLAB puts 512 bytes of its own before the HDF5 signature."""
     with path.open("rb") as stream:
@@ -46,34 +55,28 @@ def _is_hdf5(path: Path) -> bool:
     return head.startswith(_HDF5) or head[512:] == _HDF5
 
 
-def _read_version_5(path: Path) -> dict[str, np.ndarray]:
+def read_version_5(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """The arrays of numbers in a file of version 4 to 7, fields of structs as `struct.field`."""
     from scipy.io import loadmat
 
-    try:
-        content = loadmat(path, simplify_cells=True)
-    except Exception as error:
-        # a damaged file makes scipy raise whatever its parser stumbles over, from OSError to zlib.error
-        raise ReadingError(f"it is not a sound MATLAB file: {error}", "save it again with 'save -v7'") from error
-    return _flat({key: value for key, value in content.items() if not key.startswith("__")})
+    content = loadmat(path, simplify_cells=True)
+    return _flat({key: value for key, value in content.items() if not key.startswith("__")}), {}
 
 
 def _flat(content: Mapping[str, Any], above: str = "", depth: int = 0) -> dict[str, np.ndarray]:
     variables: dict[str, np.ndarray] = {}
     for key, value in content.items():
-        if isinstance(value, np.ndarray):
+        if isinstance(value, np.ndarray) and value.dtype.kind in "iuf":
             variables[above + key] = value
         elif isinstance(value, dict) and depth < _DEEPEST:
             variables.update(_flat(value, f"{above}{key}.", depth + 1))
     return variables
 
 
-def _read_hdf5(path: Path) -> dict[str, np.ndarray]:
-    try:
-        import h5py
-    except ImportError:
-        raise ReadingError(
-            "MATLAB 7.3 files need the package h5py", "pip install 'dashpot[matlab73]', or save it with 'save -v7'"
-        ) from None
+def read_hdf5(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """The arrays of numbers in a file of version 7.3, those in groups as `group.name`."""
+    import h5py
+
     variables: dict[str, np.ndarray] = {}
 
     def keep(name: str, item: Any) -> None:
@@ -82,9 +85,6 @@ def _read_hdf5(path: Path) -> dict[str, np.ndarray]:
             if item.attrs.get("MATLAB_class", b"double") not in (b"char", b"cell", b"logical"):
                 variables[name.replace("/", ".")] = item[()].T
 
-    try:
-        with h5py.File(path, "r") as file:
-            file.visititems(keep)
-    except OSError as error:
-        raise ReadingError(f"it is not a sound MATLAB 7.3 file: {error}", "save it again") from None
-    return variables
+    with h5py.File(path, "r") as file:
+        file.visititems(keep)
+    return variables, {}

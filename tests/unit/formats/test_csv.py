@@ -59,7 +59,7 @@ def test_delimiter_and_decimal_sign_are_found(tmp_path, delimiter, decimal, name
         ("Prüfer: Meier\nDatum;01.02.2024\n\n\nt;x;F\ns;mm;kN\n\n", ["t", "x", "F"], {"t": "s", "x": "mm", "F": "kN"}),
         ('"t";"x";"F"\n', ["t", "x", "F"], {}),
         ("x;x;F\n", ["x (column 1)", "x (column 2)", "F"], {}),
-        ("t;;F\n", ["t", "(column 2)", "F"], {}),
+        ("t;;F\n", ["t", "column 2", "F"], {}),
         ("# made 2024; by; hand; today\n% t\n// x\n! y\n", ["1", "2", "3"], {}),
     ],
 )
