@@ -73,7 +73,12 @@ class _Process:
         """The answer. Raises EOFError or OSError when the process ends over it, TimeoutError when it is too slow."""
         assert self._process.stdin and self._process.stdout
         late = threading.Event()
-        timer = threading.Timer(seconds, lambda: (late.set(), self._process.kill()))
+
+        def stop() -> None:
+            late.set()
+            self._process.kill()
+
+        timer = threading.Timer(seconds, stop)
         timer.start()
         try:
             self._process.stdin.write(json.dumps(request).encode() + b"\n")

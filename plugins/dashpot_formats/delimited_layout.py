@@ -74,8 +74,8 @@ def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals
     if not sample:
         raise ReadingError("it holds no rows", "check that this is the file of the measurement")
     delimiter, decimal = max(choices, key=lambda choice: _score(sample, *choice))
-    sample = _wider(sample, _filled_lines(lines)[-_SAMPLE:], delimiter, decimal)
-    rows = [split_row(line, delimiter) for line in sample if not is_comment(line, delimiter)]
+    wider = _wider(sample, _filled_lines(lines)[-_SAMPLE:], delimiter, decimal)
+    rows = [split_row(line, delimiter) for line in wider if not is_comment(line, delimiter)]
     if not any(is_number(cell, decimal) for row in rows for cell in row):
         raise ReadingError("it holds no table of numbers", "check that this is the file of the measurement")
     columns = _number_columns(rows, decimal)

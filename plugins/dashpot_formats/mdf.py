@@ -78,7 +78,7 @@ def read_mdf(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     with MDF(path) as file:
         for index, group in enumerate(file.groups):
             clock = file.masters_db.get(index)
-            places = [place for place in range(len(group.channels)) if place != clock]
+            places = [place for place in range(len(group.channels)) if place != clock]  # type: ignore[attr-defined]
             # left to itself the library would cut invalid samples out, and the channels would no longer fit their clock
             signals = [file.get(group=index, index=place, ignore_invalidation_bits=True) for place in places]
             measured = [(signal, values) for signal in signals if (values := _numbers(signal)) is not None]

@@ -48,8 +48,13 @@ def _load(path: Path) -> np.ndarray | dict[str, np.ndarray]:
             return content
         with content:
             return dict(content)
-    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        raise ReadingError(f"it is not a sound file of numpy arrays: {error}", "save plain arrays of numbers") from None
+    except ReadingError:
+        raise
+    except Exception as error:
+        # a damaged archive makes zipfile, zlib and numpy raise whatever they stumble over
+        told = " ".join(str(error).split()) or type(error).__name__
+        message = f"it is not a sound file of numpy arrays: {told[:200]}"
+        raise ReadingError(message, "save plain arrays of numbers") from error
 
 
 def _refuse_bomb(path: Path) -> None:

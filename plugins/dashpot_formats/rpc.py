@@ -88,7 +88,9 @@ class _Layout:
         numbers = np.frombuffer(content, self.number, needed)
         body = numbers[:whole].reshape(groups, self.channels, self.group).swapaxes(0, 1).reshape(self.channels, -1)
         tail = numbers[whole:].reshape(self.channels, -1)[:, :rest]
-        return np.concatenate([body, tail], axis=1).astype(float)
+        with np.errstate(invalid="ignore"):
+            # a signalling NaN becomes an ordinary one
+            return np.concatenate([body, tail], axis=1).astype(float)
 
 
 def _scales(header: RpcHeader, layout: _Layout) -> np.ndarray:

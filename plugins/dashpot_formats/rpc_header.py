@@ -25,7 +25,7 @@ class RpcHeader:
         """The header at the beginning of a file. Raises ReadingError when there is none."""
         first = [_record(content, index) for index in range(len(_FIRST))]
         if tuple(key for key, _ in first) != _FIRST:
-            message = f"expected the keywords {', '.join(_FIRST)} at its beginning, got '{_printable(first[0][0])}'"
+            message = f"expected the keywords {', '.join(_FIRST)} at its beginning, got '{first[0][0][:40]}'"
             raise ReadingError(message, _HINT)
         start = cls(dict(first), 0)
         size = start.whole("NUM_HEADER_BLOCKS") * _BLOCK
@@ -45,7 +45,7 @@ class RpcHeader:
         """What the value stands for. Raises ReadingError when it is none of those known."""
         value = self.text(key, default)
         if value not in known:
-            raise ReadingError(f"expected {key} as {' or '.join(known)}, got '{_printable(value)}'", _HINT)
+            raise ReadingError(f"expected {key} as {' or '.join(known)}, got '{value[:40]}'", _HINT)
         return known[value]
 
     def whole(self, key: str, default: int | None = None, largest: int = 2**40) -> int:
@@ -63,7 +63,7 @@ class RpcHeader:
         except ValueError:
             value = math.nan
         if not math.isfinite(value) or (smallest is not None and value < smallest):
-            raise ReadingError(f"expected a number after {key}, got '{_printable(text)}'", _HINT)
+            raise ReadingError(f"expected a number after {key}, got '{text[:40]}'", _HINT)
         return value
 
 
@@ -74,7 +74,3 @@ def _record(content: bytes, index: int) -> tuple[str, str]:
 
 def _text(raw: bytes) -> str:
     return raw.partition(b"\0")[0].decode("cp1252", errors="replace").strip()
-
-
-def _printable(text: str) -> str:
-    return "".join(sign if sign.isprintable() else "?" for sign in text[:40])

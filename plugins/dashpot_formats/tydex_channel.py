@@ -37,7 +37,7 @@ def read_channel(text: str, line: int) -> TydexChannel:
 
 
 def _keeps_columns(text: str) -> bool:
-    """Whether the line reaches the unit, which is no number, and no word lies across the beginning of unit or factor."""
+    """Whether the line reaches the unit, which is no number, and no word lies across its beginning or its end."""
     padded = text.ljust(_END)
     whole = all(padded[place - 1] == " " or padded[place] == " " for place in (_UNIT, _FACTOR))
     return len(text.rstrip()) > _UNIT and whole and not _numbers(text[_UNIT:_FACTOR])

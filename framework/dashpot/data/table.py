@@ -13,11 +13,14 @@ from dashpot.text.problem import nearest
 
 
 class ReadingError(Exception):
-    """A measurement file cannot be read: what was expected and got, what to do, and the line if there is one."""
+    """A measurement file cannot be read: what was expected and got, what to do, and the line if there is one.
+
+    What the message quotes from the file is made printable.
+    """
 
     def __init__(self, message: str, hint: str = "", line: int | None = None):
-        super().__init__(message)
-        self.message = message
+        self.message = "".join(sign if sign.isprintable() else "?" for sign in message)
+        super().__init__(self.message)
         self.hint = hint
         self.line = line
 

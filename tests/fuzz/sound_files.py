@@ -1,0 +1,150 @@
+"""Sound files of every format, small, in the variants that their readers tell apart."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from pathlib import Path
+
+import numpy as np
+
+TIME = np.arange(48) / 100
+WAY, FORCE = 3 * np.sin(20 * TIME), 800 * np.sin(20 * TIME + 0.3)
+TABLE = np.column_stack([TIME, WAY, FORCE])
+
+
+def sound_files(word: str, folder: Path) -> list[bytes]:
+    """The contents of some sound files. ImportError when a library that writes them is missing."""
+    return _WRITERS[word](folder)
+
+
+def _csv(folder: Path) -> list[bytes]:
+    def rows(delimiter: str, decimal: str = ".") -> str:
+        return "".join(delimiter.join(f"{x:.5g}".replace(".", decimal) for x in row) + "\n" for row in TABLE)
+
+    stamps = "".join(f"12.03.2024 10:11:{t:06.3f};{x:.4g}\n" for t, x in zip(TIME, WAY, strict=True))
+    return [
+        ("Prüfstand\nt;x;F\ns;mm;N\n" + rows(";", ",")).encode("cp1252"),
+        ('# remark\n"Time [s]","Way [mm]","Force [N]"\n' + rows(",")).encode(),
+        ("t\tx\tF\n" + rows("\t")).encode("utf-16"),
+        ("   t   x   F\n" + rows("   ")).encode(),
+        ("when;x\n" + stamps).encode(),
+        b"Sample Rate: 100\n" + rows(";").encode(),
+    ]
+
+
+def _json(folder: Path) -> list[bytes]:
+    named = {"t": TIME.tolist(), "F": FORCE.tolist()}
+    return [json.dumps(content).encode() for content in (TABLE.tolist(), {"data": TABLE.tolist()}, named)]
+
+
+def _npz(folder: Path) -> list[bytes]:
+    contents = []
+    for save in (np.savez, np.savez_compressed):
+        stream = io.BytesIO()
+        save(stream, t=TIME, F=FORCE.astype("f4"), m=TABLE)
+        contents.append(stream.getvalue())
+    stream = io.BytesIO()
+    np.save(stream, TABLE)
+    return [*contents, stream.getvalue()]
+
+
+def _mat(folder: Path) -> list[bytes]:
+    from scipy.io import savemat
+
+    contents = []
+    variables = {"t": TIME, "s": {"F": FORCE, "n": "text"}, "c": np.array(["a", 1], dtype=object), "m": TABLE}
+    for options in ({}, {"do_compression": True}, {"format": "4"}):
+        stream = io.BytesIO()
+        savemat(stream, {"t": TIME, "m": TABLE} if options.get("format") else variables, **options)
+        contents.append(stream.getvalue())
+    return [*contents, _hdf5(folder)]
+
+
+def _hdf5(folder: Path) -> bytes:
+    import h5py
+
+    path = folder / "sound.h5"
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, values in (("t", TIME), ("m", TABLE), ("s/F", FORCE)):
+            file.create_dataset(name, data=values.T, compression="gzip" if name == "m" else None)
+            file[name].attrs["MATLAB_class"] = np.bytes_("double")
+    content = path.read_bytes()
+    return b"MATLAB 7.3 MAT-file".ljust(512) + content[512:]
+
+
+def _rpc(folder: Path) -> list[bytes]:
+    return [_rpc_file(order, kind) for order in "<>" for kind in "hf"]
+
+
+def _rpc_file(order: str, kind: str) -> bytes:
+    values = {
+        "FORMAT": {"<": "BINARY_IEEE_LITTLE_END", ">": "BINARY_IEEE_BIG_END"}[order],
+        "NUM_HEADER_BLOCKS": 5,
+        "NUM_PARAMS": 19,
+        "FILE_TYPE": "TIME_HISTORY",
+        "DELTA_T": 0.01,
+        "DATA_TYPE": {"h": "SHORT_INTEGER", "f": "FLOATING_POINT"}[kind],
+        "CHANNELS": 3,
+        "PTS_PER_FRAME": 8,
+        "PTS_PER_GROUP": 16,
+        "FRAMES": 6,
+    }
+    for number, name in enumerate(("Time", "Way", "Force"), 1):
+        values |= {f"DESC.CHAN_{number}": name, f"UNITS.CHAN_{number}": "mm", f"SCALE.CHAN_{number}": 0.1}
+    header = b"".join(struct.pack("32s96s", key.encode(), str(value).encode()) for key, value in values.items())
+    numbers = TABLE.T.reshape(3, 3, 16).swapaxes(0, 1).astype(order + {"h": "i2", "f": "f4"}[kind])
+    return header.ljust(5 * 512, b"\0") + numbers.tobytes()
+
+
+def _tydex(folder: Path) -> list[bytes]:
+    head = "**HEADER\nRELEASE   Release of TYDEX-Format                 1.3\n**MEASURCHANNELS\n"
+    names = (("RUNTIME", "Running time", "s"), ("DISTGRND", "Distance", "mm"), ("FZW", "Vertical force", "N"))
+    channels = "".join(f"{name:<10}{remark:<30}{unit:<10}{1.0:<10}\n" for name, remark, unit in names)
+    forms = ("{:>10.4g}", "{:g} ")
+    rows = ["".join("".join(form.format(x) for x in row) + "\n" for row in TABLE) for form in forms]
+    return [(head + channels + "**MEASURDATA\n" + text + "**END\n").encode() for text in rows]
+
+
+def _tdms(folder: Path) -> list[bytes]:
+    from nptdms import ChannelObject, TdmsWriter
+
+    path = folder / "sound.tdms"
+    with TdmsWriter(path) as writer:
+        for _ in range(2):
+            channels = [
+                ChannelObject("rig", "Force", FORCE, {"wf_increment": 0.01, "unit_string": "N"}),
+                ChannelObject("rig", "Way", (100 * WAY).astype("i2"), {"unit_string": "mm"}),
+                ChannelObject("rig", "note", ["a", "b"], {}),
+            ]
+            writer.write_segment(channels)
+    return [path.read_bytes()]
+
+
+def _mdf(folder: Path) -> list[bytes]:
+    from asammdf import MDF, Signal
+
+    contents = []
+    for compression in (0, 1, 2):
+        path = folder / f"sound{compression}.mf4"
+        with MDF(version="4.10") as file:
+            way = Signal((100 * WAY).astype("i2"), TIME, name="Way", unit="mm", conversion={"a": 0.01, "b": 0.0})
+            file.append([Signal(FORCE, TIME, name="Force", unit="N"), way])
+            file.append([Signal(WAY[:9], TIME[:9], name="Heat", unit="°C")])
+            file.save(path, overwrite=True, compression=compression)
+        contents.append(path.read_bytes())
+    return contents
+
+
+_WRITERS = {
+    "csv": _csv,
+    "json": _json,
+    "mat": _mat,
+    "mdf": _mdf,
+    "npz": _npz,
+    "rpc": _rpc,
+    "tdms": _tdms,
+    "tydex": _tydex,
+}
+WORDS = tuple(_WRITERS)
