@@ -10,6 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from dashpot.contract.optimizer import Optimizer, Space
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.replay import Answers, Block, Evaluate
 
 
@@ -74,6 +75,7 @@ class Limits:
         return self.target is not None and loss <= self.target
 
 
+@single_threaded_algebra
 def run_search(
     optimizer: Optimizer,
     evaluate_losses: Evaluate,
