@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
+from keyword import iskeyword
 from typing import Any
 
 import click
@@ -12,7 +13,20 @@ from dashpot import __version__
 from dashpot.cli.outcome import exit_code_of
 from dashpot.text.problem import nearest
 
-VERBS = ("demo", "list", "check", "draw", "simulate", "fit", "compare", "diagnose", "study", "completion")
+VERBS = (
+    "demo",
+    "list",
+    "import",
+    "check",
+    "draw",
+    "simulate",
+    "fit",
+    "compare",
+    "diagnose",
+    "study",
+    "schema",
+    "completion",
+)
 
 
 class Verbs(click.Group):
@@ -24,7 +38,9 @@ class Verbs(click.Group):
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The verb's command, imported now."""
-        return import_module(f"dashpot.cli.{cmd_name}").verb if cmd_name in VERBS else None
+        # a module cannot be called after a keyword of the language
+        module = f"dashpot.cli.{cmd_name}{'_' * iskeyword(cmd_name)}"
+        return import_module(module).verb if cmd_name in VERBS else None
 
     def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[Any, ...]:
         """As click does, with the nearest verb for one that is unknown."""

@@ -99,7 +99,15 @@ def made_from(form: Form, made: type[Made]) -> Made | None:
 def option_text(node: Node) -> str:
     """The text of an option: a scalar as written, a list with commas. ValueError for anything else."""
     if isinstance(node, Sequence):
-        return ", ".join(option_text(item) for item in node.items)
+        return ", ".join(_item_text(item) for item in node.items)
     if isinstance(node, Scalar) and node.value is not None:
         return node.written
     raise ValueError(f"expected a number, a text or a list, got {node.describe()}")
+
+
+def _item_text(node: Node) -> str:
+    text = "" if isinstance(node, Sequence) else option_text(node)
+    if not text or "," in text:
+        raise ValueError(f"expected a list of single numbers or texts, got in it {node.describe()}; "
+                         "the decimal sign is a point")  # fmt: skip
+    return text

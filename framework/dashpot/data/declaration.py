@@ -17,6 +17,13 @@ from dashpot.text.quantity import measure
 
 SETTING_UNITS = {"amplitude": "m", "preload": "m", "start": "Hz", "stop": "Hz", "frequency": "Hz", "added_mass": "kg"}
 
+SENSOR_KEYS = {
+    "gain": "largest error of the factor",
+    "zero": "largest error of the zero, in the unit of the channel",
+    "delay": "largest delay",
+    "noise": "root mean square of the noise, in the unit of the channel",
+}
+
 # what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
 ACCEPTABLE = ("clipping", "units")
 
@@ -156,8 +163,8 @@ def _read_sensors(form: Form) -> dict[str, dict[str, float]]:
 
 def _read_sensor(form: Form, channel: str) -> dict[str, float]:
     unit = unit_of_channel(channel) or "1"
-    units = {"gain": "1", "zero": unit, "delay": "s", "noise": unit}
-    read = {key: form.quantity(key, unit, None) for key, unit in units.items()}
+    units = {"gain": "1", "delay": "s"}
+    read = {key: form.quantity(key, units.get(key, unit), None) for key in SENSOR_KEYS}
     form.close()
     return {key: value for key, value in read.items() if value is not None}
 

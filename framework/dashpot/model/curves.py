@@ -114,6 +114,8 @@ def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float
 
 def _read_column(entry: Node, curve: Curve, reading: Reading, role: Role) -> list[Value | None]:
     kind = Kind(curve.value[1], curve.bounds, "log") if curve is FACTOR else Kind(curve.value[1], UNBOUNDED, "linear")
+    if isinstance(entry, Sequence) and not entry.items:
+        reading.complain(entry.place, f"expected a list of {curve.value[0]}, got an empty one")
     if isinstance(entry, Sequence):
         values = [read_value(item, kind, reading) for item in entry.items]
     else:

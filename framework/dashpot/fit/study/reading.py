@@ -21,6 +21,8 @@ from dashpot.text.problem import InputError, Place, Problem, nearest
 
 FORMAT = "dashpot-study/1"
 BUDGET = 20_000
+TAKEN = ("curves", "ends")
+STAGE_RUNS = ("dynamic", "slow", "all")
 
 
 def shipped_studies() -> dict[str, Path]:
@@ -94,7 +96,7 @@ class _Reader:
     def models(self) -> tuple[ModelPlan, ...]:
         """The models in the order of the file, each after the one it starts from."""
         plans: list[ModelPlan] = []
-        for node in self._form.take("models", read_items) or ():
+        for node in self._form.take("models", _read_models) or ():
             plan = self._model(node, [plan.name for plan in plans])
             if plan:
                 plans.append(plan)
@@ -140,11 +142,11 @@ class _Reader:
     def _stage(self, form: Form) -> Stage | None:
         name = form.text("name")
         if "take" in form:
-            take: Any = form.choice("take", ("curves", "ends"))
+            take: Any = form.choice("take", TAKEN)
             form.close()
             return TakeStage(name, take) if name and take else None
         optimizer = form.text("optimizer", OWN_METHOD)
-        runs: Any = form.choice("runs", ("dynamic", "slow", "all"), "all")
+        runs: Any = form.choice("runs", STAGE_RUNS, "all")
         stage = SearchStage(
             name=name or "",
             free=_patterns(form, "free", ("*",)),
@@ -171,6 +173,14 @@ class _Reader:
             form.complain("optimizer", f"{form.what}: {error}")
             return {}
         return options
+
+
+def _read_models(node: Node) -> tuple[Node, ...]:
+    items = read_items(node)
+    for item in items:
+        if isinstance(item, Scalar):
+            read_text(item)
+    return items
 
 
 def _at_least_one(form: Form, key: str, default: int) -> int:

@@ -1,0 +1,108 @@
+"""The JSON schema of a dataset file, and of the file that stands beside a single measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.declaration import ACCEPTABLE, SENSOR_KEYS, SETTING_UNITS
+from dashpot.data.description import FORMAT
+from dashpot.data.run import KINDS
+from dashpot.text import schema as s
+from dashpot.text.schema import Schema
+
+NEEDED = ("file", "kind", "channels")
+
+
+def dataset_schema(readers: Collection[str]) -> Schema:
+    """The schema of a dataset file; ``readers`` are the formats that can be read."""
+    head = {
+        "format": s.choice((FORMAT,)),
+        "name": s.text("the name of the dataset"),
+        "allow_outside": s.flag("measured files may lie outside the folder of the dataset"),
+    }
+    many = s.mapping(
+        {**head, "sensors": _sensors(), "defaults": s.part("defaults"), "runs": {"type": "array"}}, ("format", "runs")
+    )
+    many |= {
+        "if": {"required": ["defaults"]},
+        "then": {"properties": {"runs": s.items(s.part("partial_run"))}, "allOf": [_said(key) for key in NEEDED]},
+        "else": {"properties": {"runs": s.items(s.part("run"))}},
+    }
+    alone = s.mapping({**head, **_run_keys(readers, "channels")}, ("format", "kind", "channels"))
+    keys = _run_keys(readers, "partial_channels")
+    parts = {
+        "run": s.mapping(_run_keys(readers, "channels"), NEEDED),
+        "partial_run": s.mapping(keys),
+        "defaults": s.mapping(keys, about="for every run that does not say it itself"),
+        "channels": _channels("column"),
+        "partial_channels": _channels(),
+    }
+    about = "Measured runs and what their files hold. Without 'runs': the only run, beside whose file this text stands."
+    return s.document("dataset", about, s.by_key({"runs": many}, alone), parts)
+
+
+def _said(key: str) -> Schema:
+    """What every run needs stands under the defaults or under each run."""
+    each = {"properties": {"runs": {"items": {"required": [key]}}}}
+    return {"if": {"properties": {"defaults": {"required": [key]}}}, "else": each}
+
+
+def _run_keys(readers: Collection[str], channels: str) -> dict[str, Schema]:
+    return {
+        "name": s.text("by default that of the file"),
+        "file": s.text("in the folder of the dataset or below it"),
+        "kind": s.choice(KINDS, "what kind of test it is"),
+        "channels": s.part(channels, "which column is what"),
+        "sampling": s.quantity("Hz", "in place of a time channel"),
+        "settings": _settings(),
+        "repeats": s.text("the run that this one repeats"),
+        "held_out": s.flag("keep it out of every fit"),
+        "sensors": _sensors(),
+        "rows": {"type": "array", "items": [s.integer(minimum=1), {"type": ["integer", "null"]}], "minItems": 2,
+                 "maxItems": 2, "description": "[first, last] from 1; null: to the end"},
+        "start": s.quantity("s", "from this time on"),
+        "stop": s.quantity("s", "up to this time"),
+        "decimate": s.integer("every n-th sample after a low-pass", minimum=1, maximum=1000),
+        "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
+        "file_options": {"type": "object", "description": "what the reader should know"},
+        "accept": s.items(s.choice(ACCEPTABLE), "what is known and harmless"),
+    }  # fmt: skip
+
+
+def _settings() -> Schema:
+    known = {key: s.quantity(unit, "of the test") for key, unit in SETTING_UNITS.items()}
+    return {"type": "object", "properties": known, "additionalProperties": s.text(),
+            "description": "of the test; any others may be added"}  # fmt: skip
+
+
+def _sensors() -> Schema:
+    return s.named(s.mapping({key: s.quantity("", about) for key, about in SENSOR_KEYS.items()}),
+                   "the data sheet of each channel: an error within it is ordinary")  # fmt: skip
+
+
+def _channels(*required: str) -> Schema:
+    known = {name: _channel(unit, required) for name, unit in CHANNEL_UNITS.items()}
+    found = {"type": "object", "properties": {"sampling": s.quantity("Hz", "in place of a time channel"), **known},
+             "additionalProperties": _channel("", required)}  # fmt: skip
+    if not required:
+        return found
+    at_nodes = {"not": {"propertyNames": {"pattern": "^[^@]*$"}}}
+    return {**found, "anyOf": [{"required": ["displacement", "force"]}, at_nodes]}
+
+
+def _channel(unit: str, required: Collection[str]) -> Schema:
+    column = {**s.text(), "description": "its name in the file, or its number from 1"}
+    keys = {
+        "column": column,
+        "unit": s.text("that of the file" + (f", of the kind of {unit}" if unit else "")),
+        "sign": {"enum": [1, -1]},
+        "gain": s.quantity("1", "value = sign * gain * number - offset"),
+        "offset": s.quantity(unit, "value = sign * gain * number - offset"),
+        "delay": s.quantity("s", "by how much the channel is late"),
+    }
+    return {
+        "if": {"type": "object"},
+        "then": s.mapping(keys, required),
+        "else": column,
+    }
