@@ -13,11 +13,11 @@ from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
 from dashpot.kernel.curves import segment_of
 from dashpot.kernel.events import after_the_one_before, follow
-from dashpot.kernel.source import SEGMENT
 from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic
 
 Array = NDArray[np.float64]
+NEVER = -1  # where the kernel need not look for a turning point any more
 REST = ("velocity_old", "velocity_new", "acceleration")
 
 
@@ -47,16 +47,16 @@ def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: 
     for number, look in enumerate(program.lookups):
         argument = np.broadcast_to(interpret([look.argument], samples)[0], (drive.samples,))
         segment, local[:, number] = segment_of(curves[look.curve], argument)
-        index[:, number] = bases[look.curve] + SEGMENT * segment
-    return Rows(drive, columns, index, local, drive.turn_step, turn_columns, settings)
+        index[:, number] = bases[look.curve] + segment
+    return Rows(drive, columns, index, local, np.append(drive.turn_step, NEVER), turn_columns, settings)
 
 
 def table_bases(program: Program, curves: Mapping[str, Characteristic]) -> dict[str, int]:
-    """Where each curve's coefficients begin in the tables of a block."""
+    """The first segment of each curve in the tables of a group."""
     bases, size = {}, 0
     for curve in dict.fromkeys(look.curve for look in program.lookups):
         bases[curve] = size
-        size += SEGMENT * (len(curves[curve].at) + 1)
+        size += len(curves[curve].at) + 1
     return bases
 
 

@@ -13,13 +13,10 @@ from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node, walk
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.observe import Observation, read_observation
-from dashpot.kernel.source import WIDTH
 from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
-
-VECTOR = 8
 
 
 @dataclass(frozen=True)
@@ -51,25 +48,17 @@ class Compiled:
         return walk(self.program.constants)
 
     def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
-        # a workspace with the constants of the lanes in its first rows
-        space = np.zeros((rows, WIDTH))
+        # a workspace (rows, lanes) with the constants of the lanes in its first rows
+        space = np.zeros((rows, lanes.shape[0]))
         known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
         for row, number in zip(space, interpret(self.program.constants, known, nodes=self._recipe), strict=False):
-            row[: lanes.shape[0]] = number
-        return space.ravel()
+            row[:] = number
+        return space
 
     def _tabulate(self, curves: Mapping[str, Characteristic], lanes: Array) -> Array:
-        parts = [np.empty(0)]
+        # coefficients (segments, 4, lanes) of one curve after the other
+        parts = [np.empty((0, 4, lanes.shape[0]))]
         for path, curve in curves.items():
             numbers = [number for number, slot in enumerate(self.paths) if slot.startswith(f"{path}[")]
-            coefficients = cubic_coefficients(curve, lanes[:, numbers].T)
-            wide = np.zeros((*coefficients.shape[:2], WIDTH))
-            wide[..., : lanes.shape[0]] = coefficients
-            parts.append(wide.ravel())
+            parts.append(cubic_coefficients(curve, lanes[:, numbers].T))
         return np.concatenate(parts)
-
-
-def padded(lanes: Array) -> Array:
-    """The lanes, the last one repeated until they fill whole vectors."""
-    missing = -lanes.shape[0] % VECTOR
-    return np.concatenate([lanes, np.repeat(lanes[-1:], missing, axis=0)])

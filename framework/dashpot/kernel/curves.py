@@ -29,16 +29,38 @@ def cubic_coefficients(curve: Characteristic, values: Array) -> Array:
     Outside the knots a characteristic goes on linearly and a factor (unit 1) stays as it is. A lane with a value that
     is not finite has NaN throughout.
     """
-    from scipy.interpolate import PchipInterpolator
-
-    at = np.asarray(curve.at)
-    sound = np.isfinite(values).all(axis=0)
-    cubic = PchipInterpolator(at, np.where(sound, values, 0.0), axis=0)
-    inside = cubic.c[::-1].transpose(1, 0, 2)
-    slopes = cubic(at[[0, -1]], 1) * (0.0 if curve.curve.value[1] == "1" else 1.0)
+    at, sound = np.asarray(curve.at)[:, None], np.isfinite(values).all(axis=0)
+    heights, width = np.where(sound, values, 0.0), np.diff(at, axis=0)
+    rise = np.diff(heights, axis=0) / width
+    slope = monotone_slopes(width, rise)
+    bend = (3.0 * rise - 2.0 * slope[:-1] - slope[1:]) / width
+    twist = (slope[:-1] + slope[1:] - 2.0 * rise) / width**2
+    inside = np.stack([heights[:-1], slope[:-1], bend, twist], axis=1)
     ends = np.zeros((2, 4, values.shape[1]))
-    ends[:, 0], ends[:, 1] = values[[0, -1]], slopes
+    ends[:, 0], ends[:, 1] = heights[[0, -1]], slope[[0, -1]] * (0.0 if curve.curve.value[1] == "1" else 1.0)
     return np.where(sound, np.concatenate([ends[:1], inside, ends[1:]]), np.nan)
+
+
+def monotone_slopes(width: Array, rise: Array) -> Array:
+    """Slopes (knots, lanes) at the knots of the monotone cubic of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5
+    (1984) 300), from the ``width`` (segments, 1) and the mean slope ``rise`` (segments, lanes) of each segment.
+    """
+    if len(rise) == 1:
+        return np.repeat(rise, 2, axis=0)
+    left, right = 2.0 * width[1:] + width[:-1], width[1:] + 2.0 * width[:-1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mean = (left + right) / (left / rise[:-1] + right / rise[1:])
+    inner = np.where(rise[:-1] * rise[1:] > 0.0, mean, 0.0)
+    first, last = _end_slope(width[:2], rise[:2]), _end_slope(width[:-3:-1], rise[:-3:-1])
+    return np.concatenate([first[None], inner, last[None]])
+
+
+def _end_slope(width: Array, rise: Array) -> Array:
+    # through three points, as long as the curve stays monotone
+    slope = ((2.0 * width[0] + width[1]) * rise[0] - width[0] * rise[1]) / (width[0] + width[1])
+    slope = np.where(np.sign(slope) == np.sign(rise[0]), slope, 0.0)
+    far = (np.sign(rise[0]) != np.sign(rise[1])) & (np.abs(slope) > 3.0 * np.abs(rise[0]))
+    return np.where(far, 3.0 * rise[0], slope)
 
 
 @dataclass(frozen=True, eq=False)

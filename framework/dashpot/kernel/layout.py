@@ -1,17 +1,17 @@
-"""Where the kernel finds what: names in the printed loops, rows in the workspace.
+"""Where the kernel finds what: rows of the workspace, columns of the drive, tables.
 
-A row holds one number of each lane. First come the constants of the lanes, then the states, the score, and what one
-stage of a pass hands to the next.
+A row holds one number of each lane of a group. First come the constants of the lanes, then the states, then the score.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from dashpot.expr.node import Node, symbol
-from dashpot.kernel.stages import cut_stages, kept_nodes, moments
+from dashpot.expr.node import Node
+from dashpot.kernel.stages import cut_stages
 from dashpot.kernel.tiers import Program
 
 # printed as it is, hoisted per lane, hoisted per sample, a memory, or computed in the loop
@@ -19,13 +19,13 @@ Kind = Literal["number", "lane", "drive", "state", "result"]
 
 
 def score_row(program: Program) -> int:
-    """The row that gathers the score."""
+    """The row that gathers the score, the last one."""
     return len(program.constants) + len(program.states)
 
 
 @dataclass(frozen=True)
 class Shelf:
-    """Where a curve's coefficients begin in the tables, and its knots among all knots."""
+    """Where a curve begins in the tables, by segments, and its knots among all knots."""
 
     base: int
     first: int
@@ -46,9 +46,10 @@ class Layout:
         self.states = {name: len(self.constants) + number for number, name in enumerate(program.states)}
         self.lookups = {(look.curve, look.argument.serial): number for number, look in enumerate(program.lookups)}
         roots = [*([force] if force is not None else []), *updates.values()]
-        self.stages = cut_stages(self._results(roots), roots)
-        self.kept = self._house(score_row(program) + 1)
-        self.rows = 1 + max([score_row(program), *self.kept.values()])
+        results = self._results(roots)
+        self.stages = cut_stages(results)
+        self.driven = _unique(node for node in (*roots, *_arguments(results)) if self.kind(node) == "drive")
+        self.fused = self._fused(results, roots)
 
     def kind(self, node: Node) -> Kind:
         """What the loop has to do for a node."""
@@ -61,16 +62,8 @@ class Layout:
         return "state" if node.operation == "symbol" else "result"
 
     def row(self, node: Node) -> int:
-        """The row that holds a constant, a state or a kept result."""
-        kind = self.kind(node)
-        if kind == "lane":
-            return self.constants[node.serial]
-        return self.states[node.payload] if kind == "state" else self.kept[node.serial]
-
-    def moved(self) -> list[tuple[int, Node]]:
-        """The rows of states, and their new values, that have not found their place before the last loop."""
-        rows = [(self.states[name], node) for name, node in self.updates.items()]
-        return [(row, node) for row, node in rows if self.kept.get(node.serial) != row]
+        """The row that holds a constant or a state."""
+        return self.constants[node.serial] if node.serial in self.constants else self.states[node.payload]
 
     def _results(self, roots: Sequence[Node]) -> list[Node]:
         # arguments first
@@ -87,18 +80,20 @@ class Layout:
                 stack.extend((argument, False) for argument in reversed(node.arguments))
         return list(found.values())
 
-    def _house(self, free: int) -> dict[int, int]:
-        # a new state takes the place of the old one as soon as nobody reads that any more
-        made, read = moments(self.stages)
-        homes: dict[int, int] = {}
-        for name, node in self.updates.items():
-            if read.get(symbol(name).serial, -1) < made.get(node.serial, -1):
-                homes.setdefault(node.serial, self.states[name])
-        rows: dict[int, int] = {}
-        for serial in kept_nodes(self.stages):
-            rows[serial] = homes.get(serial, free)
-            free += serial not in homes
-        return rows
+    def _fused(self, results: Sequence[Node], roots: Sequence[Node]) -> dict[int, Node]:
+        """By serial of a sum or difference, the product among its arguments that nobody else needs."""
+        uses = Counter(node.serial for node in (*roots, *_arguments(results)))
+        return {node.serial: argument for node in results if node.operation in ("add", "subtract")
+                for argument in node.arguments if argument.operation == "multiply" and uses[argument.serial] == 1
+                and self.kind(argument) == "result"}  # fmt: skip
+
+
+def _arguments(nodes: Sequence[Node]) -> list[Node]:
+    return [argument for node in nodes if node.operation != "table" for argument in node.arguments]
+
+
+def _unique(nodes) -> tuple[Node, ...]:  # noqa: ANN001
+    return tuple({node.serial: node for node in nodes}.values())
 
 
 @dataclass(frozen=True)
@@ -118,8 +113,3 @@ class Passes:
             Layout(program, moved) if moved else None,
             Layout(program, program.updates, program.force),
         )
-
-    @property
-    def rows(self) -> int:
-        """How many rows the workspace needs."""
-        return max(layout.rows for layout in (self.correct, self.turn, self.step) if layout)

@@ -1,33 +1,46 @@
-"""Keeping and loading compiled networks.
+"""Compiling LLVM assembly, and keeping what comes out.
 
-numba cannot cache functions made from text, so the source is written to a file that carries its digest in its name and
-is never changed again; numba's own cache beside it holds the machine code, guarded by the versions of numba and the
-processor. Equal networks, whatever their numbers, share one file.
+The machine code is kept in a file that is named by the digest of everything it comes from: the text, the version of the
+compiler and the processor. Equal networks, whatever their numbers, share one file, and no file can be out of date.
 """
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
-import importlib.util
 import os
-import sys
 import tempfile
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
-from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from dashpot.text.problem import InputError, Place
 
+if TYPE_CHECKING:
+    from llvmlite.binding import TargetMachine
 
-@dataclass(frozen=True)
+EFFORT = 2
+DIGEST = hashlib.sha256().digest_size
+
+
+@dataclass(frozen=True, eq=False)
 class Native:
-    """The compiled functions of a network and the file they came from."""
+    """A function of a compiled text, the file that it came from, and what keeps it in memory."""
 
-    simulate: Any
-    score: Any
+    call: Any
     file: Path
+    keeper: Any
+
+    def __call__(self, *arguments: np.ndarray | int | None) -> None:
+        """Call it with arrays, by their address, and integers; None is no array."""
+        self.call(*(_place(argument) for argument in arguments))
+
+
+def _place(argument: np.ndarray | int | None) -> int | None:
+    return argument.ctypes.data if isinstance(argument, np.ndarray) else argument
 
 
 def cache_folder() -> Path:
@@ -39,55 +52,97 @@ def cache_folder() -> Path:
     return (Path(base) if base else Path.home() / ".cache") / "dashpot"
 
 
-def load_native(source: str) -> Native:
-    """The compiled functions of a source text, from the cache where they are known.
+def load_native(text: str, count: int) -> Native:
+    """The function ``run`` of a text, with ``count`` arguments, from the cache where it is known.
 
     Raises InputError when the cache folder cannot be written.
     """
-    return _native(source, str(cache_folder()))
+    return _native(text, count, str(cache_folder()), (stamp(), *processor()))
 
 
-def load_module(source: str) -> ModuleType:
-    """The compiled file of a source text, from the cache where it is known.
+def processor() -> tuple[str, str]:
+    """The name and the features of the processor to compile for; ``DASHPOT_PROCESSOR`` names another than this one."""
+    from llvmlite import binding
 
-    Raises InputError when the cache folder cannot be written.
-    """
-    return _load(source, str(cache_folder()))
+    given = os.environ.get("DASHPOT_PROCESSOR")
+    return (given, "") if given else (binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+
+
+def stamp() -> str:
+    """The versions of the compiler."""
+    import llvmlite
+    from llvmlite import binding
+
+    return f"llvmlite {llvmlite.__version__}, LLVM {'.'.join(map(str, binding.llvm_version_info))}, {EFFORT}"
 
 
 @lru_cache(maxsize=256)
-def _native(source: str, folder: str) -> Native:
-    module = _load(source, folder)
-    return Native(module.simulate, module.score, Path(str(module.__file__)))
+def _native(text: str, count: int, folder: str, maker: tuple[str, str, str]) -> Native:
+    from llvmlite import binding
+
+    recipe, target = "\n".join([*maker, text]), maker[1:]
+    file = Path(folder) / "kernels" / f"{hashlib.sha256(recipe.encode()).hexdigest()[:32]}.o"
+    code = _kept(file)
+    if code is None:
+        code = compiled(text, *target)
+        _keep(file, code)
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine(*target))
+    engine.add_object_file(binding.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    kind = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * count)
+    return Native(kind(engine.get_function_address("run")), file, engine)
 
 
-@lru_cache(maxsize=256)
-def _load(source: str, folder: str) -> ModuleType:
-    digest = hashlib.sha256(source.encode()).hexdigest()[:16]
-    name = f"network_{digest}"
-    file = Path(folder) / "kernels" / f"{name}.py"
-    _write_once(file, source)
-    return _import(name, file)
+def compiled(text: str, name: str, features: str) -> bytes:
+    """The machine code of a text."""
+    return _machine(name, features).emit_object(_module(text))
 
 
-def _import(name: str, file: Path) -> ModuleType:
-    found = importlib.util.spec_from_file_location(name, file)
-    if found is None or found.loader is None:
-        raise ImportError(f"{file} cannot be imported")
-    module = importlib.util.module_from_spec(found)
-    sys.modules[name] = module
-    found.loader.exec_module(module)
+def machine_text(text: str) -> str:
+    """The same for a reader."""
+    return _machine(*processor()).emit_assembly(_module(text))
+
+
+def _module(text: str) -> Any:
+    from llvmlite import binding
+
+    module = binding.parse_assembly(text)
+    module.verify()
     return module
 
 
-def _write_once(file: Path, text: str) -> None:
-    if file.is_file() and file.read_text(encoding="utf-8") == text:
-        return
+@cache
+def _ready() -> None:
+    from llvmlite import binding
+
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+
+
+def _machine(name: str, features: str) -> TargetMachine:
+    from llvmlite import binding
+
+    _ready()
+    target = binding.Target.from_default_triple()
+    return target.create_target_machine(cpu=name, features=features, opt=EFFORT, jit=True)
+
+
+def _kept(file: Path) -> bytes | None:
+    # the code is preceded by its digest: a damaged file is as good as none
+    try:
+        content = file.read_bytes()
+    except OSError:
+        return None
+    code = content[DIGEST:]
+    return code if hashlib.sha256(code).digest() == content[:DIGEST] else None
+
+
+def _keep(file: Path, code: bytes) -> None:
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
         handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(hashlib.sha256(code).digest() + code)
         os.replace(temporary, file)
     except OSError as error:
         message = f"compiled networks cannot be kept here: {error.strerror}"

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.block import Block, aligned_copy
+from dashpot.kernel.assembly import LANES
+from dashpot.kernel.block import Block, blocks_of
 from dashpot.kernel.columns import Rows, prepare_rows
-from dashpot.kernel.compiled import Compiled, padded
-from dashpot.kernel.layout import Passes, score_row
+from dashpot.kernel.compiled import Compiled
+from dashpot.kernel.layout import score_row
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.settings import with_settings
-from dashpot.kernel.source import WIDTH, print_source
+from dashpot.kernel.source import ARGUMENTS, print_source
 from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.kernel.tiers import sort_tiers
 from dashpot.kernel.trace import refuse_missing_numbers, trace_network
@@ -28,22 +29,27 @@ from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 
+SIDE_BY_SIDE = 2  # vectors in a group: enough that none waits for itself
+
 
 @dataclass(frozen=True)
 class CompiledNetwork(Compiled):
     """A compiled network all of whose elements see the motion of its driven end; see ``Compiled``."""
-
-    native: Native
 
     @cached_property
     def curves(self) -> dict[str, Characteristic]:
         """Every curve of the network by path."""
         return self.spec.curves()
 
+    def native(self, vectors: int) -> Native:
+        """The compiled code for groups of so many vectors of lanes."""
+        if vectors not in self._texts:
+            self._texts[vectors] = print_source(self.program, vectors)
+        return load_native(self._texts[vectors], len(ARGUMENTS))
+
     @cached_property
-    def rows(self) -> int:
-        """How many rows the workspace of a block has."""
-        return Passes.of(self.program).rows
+    def _texts(self) -> dict[int, str]:
+        return {}
 
     def prepare(self, motion: Drive | Excitation) -> Rows:
         """The part of the work that depends on the drive alone."""
@@ -55,9 +61,10 @@ class CompiledNetwork(Compiled):
         """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
         lanes = with_settings(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
         out = np.empty((lanes.shape[0], run.drive.samples))
-        for block in self._blocks(run.drive.dt, lanes):
-            buffer = np.empty((run.drive.samples, block.width))
-            self.native.simulate(*_arguments(run, block, block.fresh_workspace()), buffer)
+        code, width = self._group(lanes.shape[0])
+        for block in self._blocks(run.drive.dt, lanes, width):
+            buffer = np.empty((run.drive.samples, width))
+            code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer)
             out[block.place] = buffer.T[: block.count]
         return out[0] if values is None or np.ndim(values) == 1 else out
 
@@ -68,35 +75,34 @@ class CompiledNetwork(Compiled):
         A lane whose force is not finite scores NaN.
         """
         lanes = np.atleast_2d(values)
+        code, width = self._group(lanes.shape[0])
         blocks: dict[Hashable, list[Block]] = {}
         for run in runs:
             if _make(run) not in blocks:
-                blocks[_make(run)] = self._blocks(run.drive.dt, with_settings(self.spec, lanes, run.settings))
+                blocks[_make(run)] = self._blocks(run.drive.dt, with_settings(self.spec, lanes, run.settings), width)
 
         def work(run: Rows, target: Array, weight: Array) -> Array:
-            return self._score(run, target, weight, blocks[_make(run)], lanes.shape[0])
+            out = np.empty(lanes.shape[0])
+            aims = [np.ascontiguousarray(aim, dtype=float) for aim in (target, weight)]
+            for block in blocks[_make(run)]:
+                workspace = block.fresh_workspace()
+                code(*_arguments(run, block, workspace), *aims, None)
+                out[block.place] = workspace[-1, : block.count]
+            return out
 
         if jobs == 1:
             return np.array(list(map(work, runs, measured, weights)))
         with ThreadPoolExecutor(jobs) as pool:
             return np.array(list(pool.map(work, runs, measured, weights)))
 
-    def _score(self, run: Rows, measured: Array, weight: Array, blocks: Sequence[Block], count: int) -> Array:
-        out = np.empty(count)
-        for block in blocks:
-            workspace = block.fresh_workspace()
-            self.native.score(*_arguments(run, block, workspace), measured, weight)
-            out[block.place] = workspace[WIDTH * score_row(self.program) :][: block.count]
-        return out
+    def _group(self, count: int) -> tuple[Native, int]:
+        vectors = 1 if count <= LANES else SIDE_BY_SIDE
+        return self.native(vectors), vectors * LANES
 
-    def _blocks(self, dt: float, lanes: Array) -> list[Block]:
-        return [self._block(dt, first, lanes[first : first + WIDTH]) for first in range(0, lanes.shape[0], WIDTH)]
-
-    def _block(self, dt: float, first: int, lanes: Array) -> Block:
-        wide = padded(lanes)
+    def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}
-        workspace = self._fill(self.rows, dt, wide)
-        return Block(first, lanes.shape[0], wide.shape[0], aligned_copy(self._tabulate(curves, wide)), workspace)
+        workspace = self._fill(1 + score_row(self.program), dt, lanes)
+        return list(blocks_of(self._tabulate(curves, lanes), workspace, width))
 
 
 def _make(run: Rows) -> Hashable:
@@ -113,8 +119,9 @@ def compile_network(spec: NetworkSpec) -> CompiledNetwork | CompiledSystem:
     if not topology.parallel:
         return compile_system(spec, topology)
     program = sort_tiers(trace_network(spec))
-    return CompiledNetwork(spec, program, load_native(print_source(program)))
+    return CompiledNetwork(spec, program)
 
 
 def _arguments(run: Rows, block: Block, workspace: Array) -> tuple[Any, ...]:
-    return run.columns, run.index, run.local, run.turn_at, run.turn_columns, block.tables, workspace, block.width
+    return (run.columns, run.index, run.local, run.drive.samples, run.turn_at, run.turn_columns, block.tables,
+            workspace)  # fmt: skip

@@ -1,7 +1,7 @@
-"""Cutting a pass over the lanes into loops.
+"""The order of a pass: long functions that do not need each other side by side.
 
-A long function such as the exponential runs best in a loop of its own, where its coefficients stay in registers. So a
-pass is a chain of stages: a loop over lanes that computes arguments, then long functions on whole rows of lanes.
+The chain of operations of a long function such as the exponential leaves most of the processor idle; several of them
+together fill it. So a pass is a chain of stages: what is needed for arguments, then long functions, each kind at once.
 """
 
 from __future__ import annotations
@@ -11,63 +11,37 @@ from dataclasses import dataclass
 
 from dashpot.expr.node import Node
 
-LONG = frozenset({"exp", "log", "wrightomega", "lookup"})
+LONG = frozenset({"exp", "log", "wrightomega"})
 
 
 @dataclass(frozen=True)
 class Stage:
-    """A loop that computes ``nodes`` from what it ``reads``, and the long functions called after it."""
+    """``nodes``, arguments first, and the long functions computed after them."""
 
-    reads: tuple[Node, ...]
     nodes: tuple[Node, ...]
     calls: tuple[Node, ...]
 
+    @property
+    def kinds(self) -> dict[str, list[Node]]:
+        """The long functions by operation."""
+        found: dict[str, list[Node]] = {}
+        for node in self.calls:
+            found.setdefault(node.operation, []).append(node)
+        return found
 
-def cut_stages(nodes: Sequence[Node], roots: Sequence[Node]) -> tuple[Stage, ...]:
-    """The stages that compute ``nodes``, given arguments first, each once and as late as its users allow.
 
-    The last stage reads whatever ``roots`` it does not compute.
-    """
+def cut_stages(nodes: Sequence[Node]) -> tuple[Stage, ...]:
+    """The stages that compute ``nodes``, given arguments first, each once and as late as its users allow."""
     depth = _depths(nodes)
     last = max(depth.values(), default=0)
     at = _latest(nodes, depth, last)
-    stages = []
-    for number in range(last + 1):
-        own = tuple(node for node in nodes if node.operation not in LONG and at[node.serial] == number)
-        calls = tuple(node for node in nodes if node.operation in LONG and depth[node.serial] == number + 1)
-        stages.append(Stage(_reads(own, roots if number == last else ()), own, calls))
-    return tuple(stages)
-
-
-def kept_nodes(stages: Sequence[Stage]) -> dict[int, Node]:
-    """By serial, what must outlive the stage that computes it."""
-    computed = {node.serial for stage in stages for node in stage.nodes}
-    kept = {node.serial: node for stage in stages for node in stage.calls}
-    for stage in stages:
-        wanted = [*stage.reads, *(argument for call in stage.calls for argument in call.arguments)]
-        kept |= {node.serial: node for node in wanted if node.serial in computed}
-    return kept
-
-
-def moments(stages: Sequence[Stage]) -> tuple[Mapping[int, int], Mapping[int, int]]:
-    """When every node is made and when it is read for the last time, by serial.
-
-    Stage n reads at moment 3 n, writes at 3 n + 1 and calls its long functions at 3 n + 2.
-    """
-    made: dict[int, int] = {}
-    read: dict[int, int] = {}
-    for number, stage in enumerate(stages):
-        made |= {node.serial: 3 * number + 1 for node in stage.nodes}
-        made |= {node.serial: 3 * number + 2 for node in stage.calls}
-        read |= {node.serial: 3 * number for node in stage.reads}
-        read |= {argument.serial: 3 * number + 2 for call in stage.calls for argument in call.arguments}
-    return made, read
-
-
-def _reads(own: Sequence[Node], roots: Sequence[Node]) -> tuple[Node, ...]:
-    computed = {node.serial for node in own}
-    wanted = [argument for node in own if node.operation != "table" for argument in node.arguments]
-    return tuple({node.serial: node for node in (*wanted, *roots) if node.serial not in computed}.values())
+    return tuple(
+        Stage(
+            tuple(node for node in nodes if node.operation not in LONG and at[node.serial] == number),
+            tuple(node for node in nodes if node.operation in LONG and depth[node.serial] == number + 1),
+        )
+        for number in range(last + 1)
+    )
 
 
 def _depths(nodes: Sequence[Node]) -> dict[int, int]:

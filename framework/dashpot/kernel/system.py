@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +15,15 @@ from dashpot.data.drive import Drive, refined_path
 from dashpot.data.excitation import Excitation
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import constant
-from dashpot.kernel.block import aligned_copy
-from dashpot.kernel.compiled import Compiled, padded
+from dashpot.kernel.assembly import LANES
+from dashpot.kernel.block import Block, blocks_of
+from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.layout import Shelf
 from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, write_equations
-from dashpot.kernel.native import load_module
+from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.scheme import PAIR, alternate
 from dashpot.kernel.settings import with_settings
-from dashpot.kernel.source import SEGMENT, WIDTH
-from dashpot.kernel.system_source import UNBALANCED, UNSOLVED, SystemLayouts, print_system
+from dashpot.kernel.system_source import ARGUMENTS, UNBALANCED, UNSOLVED, SystemLayouts, print_system
 from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
 from dashpot.kernel.trace import refuse_missing_numbers
 from dashpot.model.network import Characteristic, NetworkSpec
@@ -32,6 +31,8 @@ from dashpot.model.topology import Topology, topology_of
 
 Array = NDArray[np.float64]
 
+VECTORS = 1  # of lanes in a group
+WIDTH = VECTORS * LANES
 PAIRS = 1  # coarse steps in a sample, in pairs
 TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3
 
@@ -50,7 +51,7 @@ _CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANC
 
 def status_of(code: int, answer: Array) -> Status:
     """How a lane ended, from the code of the kernel and what it answered."""
-    return _CODES[code] if np.isfinite(answer).all() else Status.NOT_FINITE
+    return _CODES[int(code)] if np.isfinite(answer).all() else Status.NOT_FINITE
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +87,7 @@ class CompiledSystem(Compiled):
 
     topology: Topology
     layouts: SystemLayouts
-    native: ModuleType
+    native: Native
 
     @cached_property
     def outputs(self) -> tuple[str, ...]:
@@ -114,13 +115,12 @@ class CompiledSystem(Compiled):
         lanes = self._lanes(run, values)
         samples, driven, unknown = run.excitation.samples, self.outputs, self.topology.unknown
         out = np.empty((lanes.shape[0], len(driven) + len(unknown), samples))
-        error, status = np.empty((lanes.shape[0], len(driven))), np.empty(lanes.shape[0], dtype=np.int64)
-        for block in _blocks(lanes):
-            answer, miss = np.empty((samples, out.shape[1], WIDTH)), np.zeros((out.shape[1], WIDTH))
-            status[block] = self._run(run, lanes[block], answer, miss)
-            count = lanes[block].shape[0]
-            out[block] = answer[:, :, :count].transpose(2, 1, 0)
-            error[block] = np.sqrt(miss[: len(driven), :count] / samples).T / 3.0
+        error, status = np.empty((lanes.shape[0], len(driven))), np.empty(lanes.shape[0])
+        for block in self._blocks(run, lanes):
+            answer, miss = np.empty((samples, out.shape[1], WIDTH)), np.zeros((len(driven), WIDTH))
+            status[block.place] = self._run(run, block, answer, miss)
+            out[block.place] = answer[:, :, : block.count].transpose(2, 1, 0)
+            error[block.place] = np.sqrt(miss[:, : block.count] / samples).T / 3.0
         force, motion = out[:, : len(driven)], out[:, len(driven) :]
         states = tuple(status_of(code, own) for code, own in zip(status, force, strict=True))
         return Solution(driven, unknown, force, motion, error, states)
@@ -139,19 +139,18 @@ class CompiledSystem(Compiled):
         force = self.forces(run, values)[:, self.number_of(end) if end else 0]
         return force[0] if values is None or np.ndim(values) == 1 else force
 
-    def last_rows(self, run: SystemRows, values: Array | None = None) -> tuple[dict[str, Array], NDArray[np.int64]]:
+    def last_rows(self, run: SystemRows, values: Array | None = None) -> tuple[dict[str, Array], Array]:
         """Every row of the workspace by name after the last sample, (2, lanes): long steps, short steps; and the codes.
 
         ``Equations`` names the rows.
         """
         lanes = self._lanes(run, values)
-        zeros = np.zeros((len(self.outputs), run.excitation.samples))
+        zeros = np.zeros((run.excitation.samples, len(self.outputs)))
         spaces, codes = [], []
-        for block in _blocks(lanes):
-            out, miss = np.zeros((1, len(self.outputs), WIDTH)), np.zeros((len(self.outputs), WIDTH))
-            space = self._spaces(run, lanes[block])
-            codes.append(self._run(run, lanes[block], out, miss, (zeros, zeros), space))
-            spaces.append(space.reshape(2, -1, WIDTH)[:, :, : lanes[block].shape[0]])
+        for block in self._blocks(run, lanes):
+            out, miss = np.zeros((2, len(self.outputs), WIDTH))
+            codes.append(self._run(run, block, out, miss, (zeros, zeros)))
+            spaces.append(block.workspace[..., : block.count])
         rows = np.concatenate(spaces, axis=2)
         return {name: rows[:, self.layouts.row(name)] for name in self.layouts.equations.rows}, np.concatenate(codes)
 
@@ -167,7 +166,8 @@ class CompiledSystem(Compiled):
         """
 
         def work(run: SystemRows, target: Array, weight: Array) -> Array:
-            return self._score(run, np.ascontiguousarray(target), np.ascontiguousarray(weight), values)
+            return self._score(run, *(np.ascontiguousarray(np.transpose(aim), dtype=float) for aim in (target, weight)),
+                               values)  # fmt: skip
 
         if jobs == 1:
             return np.array(list(map(work, runs, measured, weights)))
@@ -177,28 +177,26 @@ class CompiledSystem(Compiled):
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
         lanes = self._lanes(run, values)
         total = np.empty((len(self.outputs), lanes.shape[0]))
-        for block in _blocks(lanes):
-            out, miss = np.zeros((1, len(self.outputs), WIDTH)), np.zeros((len(self.outputs), WIDTH))
-            status = self._run(run, lanes[block], out, miss, (measured, weight))
-            total[:, block] = np.where(status, np.nan, out[0, :, : status.size])
+        for block in self._blocks(run, lanes):
+            out, miss = np.zeros((2, len(self.outputs), WIDTH))
+            status = self._run(run, block, out, miss, (measured, weight))
+            total[:, block.place] = np.where(status, np.nan, out[:, : block.count])
         return total
 
-    def _run(self, run: SystemRows, lanes: Array, out: Array, miss: Array,
-             scoring: tuple[Array, Array] | None = None, space: Array | None = None) -> NDArray[np.int64]:  # fmt: skip
-        wide = padded(lanes)
-        space = self._spaces(run, lanes) if space is None else space
-        status = np.zeros(WIDTH, dtype=np.int64)
-        measured, weight = scoring or (np.empty((0, 0)), np.empty((0, 0)))
-        tables = aligned_copy(self._tabulate(_tabulated(self.spec), wide))
-        self.native.run(
-            run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, space, status, wide.shape[0],
-            tables, self._knots, measured, weight, out, miss, scoring is not None,
+    def _run(self, run: SystemRows, block: Block, out: Array, miss: Array,
+             scoring: tuple[Array, Array] | None = None) -> Array:  # fmt: skip
+        status = np.zeros(WIDTH)
+        measured, weight = scoring or (None, None)
+        self.native(
+            run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, block.workspace, status,
+            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None),
         )  # fmt: skip
-        return status[: lanes.shape[0]]
+        return status[: block.count]
 
-    def _spaces(self, run: SystemRows, lanes: Array) -> Array:
-        wide, step = padded(lanes), run.excitation.dt / (PAIR * run.pairs)
-        return aligned_copy(np.concatenate([self._fill(self.layouts.rows, dt, wide) for dt in (step, 0.5 * step)]))
+    def _blocks(self, run: SystemRows, lanes: Array) -> Iterator[Block]:
+        step = run.excitation.dt / (PAIR * run.pairs)
+        workspace = np.stack([self._fill(self.layouts.rows, dt, lanes) for dt in (step, 0.5 * step)])
+        return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
         return with_settings(
@@ -249,8 +247,8 @@ def compile_system(spec: NetworkSpec, topology: Topology | None = None, meter: M
     equations = write_equations(topology, meter)
     program, passes = _sort(equations)
     layouts = SystemLayouts(program, equations, _shelves(spec), passes)
-    source = print_system(layouts, topology.held("driven"), topology.unknown)
-    return CompiledSystem(spec, program, topology, layouts, load_module(source))
+    text = print_system(layouts, topology.held("driven"), topology.unknown, VECTORS)
+    return CompiledSystem(spec, program, topology, layouts, load_native(text, len(ARGUMENTS)))
 
 
 def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
@@ -264,10 +262,6 @@ def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
     return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
 
 
-def _blocks(lanes: Array) -> list[slice]:
-    return [slice(first, first + WIDTH) for first in range(0, lanes.shape[0], WIDTH)]
-
-
 def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:
     return {path: curve for path, curve in spec.curves().items() if curve.form == "table"}
 
@@ -276,7 +270,7 @@ def _shelves(spec: NetworkSpec) -> dict[str, Shelf]:
     shelves, base, first = {}, 0, 0
     for path, curve in _tabulated(spec).items():
         shelves[path] = Shelf(base, first, len(curve.at))
-        base += SEGMENT * (len(curve.at) + 1)
+        base += len(curve.at) + 1
         first += len(curve.at)
     return shelves
 

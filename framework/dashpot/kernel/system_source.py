@@ -1,8 +1,8 @@
-"""Printing a network with unknown nodes as a self-contained file of numba code.
+"""Writing a network with unknown nodes as one self-contained text of LLVM assembly.
 
 The equilibrium is found first. Then every sample is reached twice, in few long steps and in twice as many short ones:
-their difference tells the error and takes its leading term away (Richardson). A step is a chain of passes over the
-lanes: predict, improve until every lane is done, commit.
+their difference tells the error and takes its leading term away (Richardson). A step is a chain of passes over a group
+of lanes: predict, improve until every lane is done, commit.
 """
 
 from __future__ import annotations
@@ -10,20 +10,21 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from dashpot.expr.node import Node
+from dashpot.kernel.assembly import LANES, Assembly, Bundle
 from dashpot.kernel.layout import Layout, Shelf
 from dashpot.kernel.mechanics import DONE, Equations, force_row, row_of
-from dashpot.kernel.prelude import PRELUDE
-from dashpot.kernel.source import WIDTH, indented, print_pass, renumbered
+from dashpot.kernel.passes import Arrays, Pass
+from dashpot.kernel.source import whole
 from dashpot.kernel.tiers import Program
 
 MOST_STEPS, MOST_STATIC_STEPS = 40, 400
 UNSOLVED, UNBALANCED = 1, 2
+THIRD = 0.3333333333333333
 
-_ARGUMENTS = ("still, coarse, fine, per, samples, space, status, lanes, tables, knots, measured, weight, out, miss, "
-              "scoring")  # fmt: skip
-_TYPES = ("float64[:,::1], float64[:,::1], float64[:,::1], int64, int64, float64[::1], int64[::1], int64, "
-          "float64[::1], float64[::1], float64[:,::1], float64[:,::1], float64[:,:,::1], float64[:,::1], "
-          "boolean")  # fmt: skip
+ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples", "ptr %space", "ptr %status",
+             "ptr %tables", "ptr %knots", "ptr %measured", "ptr %weight", "ptr %out", "ptr %miss",
+             "i64 %scoring")  # fmt: skip
+PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
 class SystemLayouts:
@@ -31,78 +32,136 @@ class SystemLayouts:
 
     def __init__(self, program: Program, equations: Equations, shelves: Mapping[str, Shelf],
                  passes: Mapping[str, Mapping[str, Node]]) -> None:  # fmt: skip
-        self.equations = equations
+        self.program, self.equations = program, equations
         self.layouts = {name: Layout(program, rows, shelves=shelves) for name, rows in passes.items()}
 
     @property
     def rows(self) -> int:
         """How many rows the workspace needs."""
-        return max(layout.rows for layout in self.layouts.values())
+        return len(self.program.constants) + len(self.program.states)
 
     def row(self, name: str) -> int:
         """The number of a row."""
         return next(iter(self.layouts.values())).states[name]
 
 
-def print_system(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequence[str]) -> str:
-    """The source file: the function ``run``.
+def print_system(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequence[str], vectors: int) -> str:
+    """The text for groups of so many ``vectors`` of lanes: the function ``run``.
 
     ``still`` (1, columns), ``coarse`` and ``fine`` (steps, columns) are what drives the steps, ``per`` is the number of
-    coarse steps in a sample, ``space`` is a workspace for each of the two, ``status`` (lanes,) stays 0 where all goes
-    well. Without ``scoring`` it fills ``out`` (samples, driven nodes then unknown nodes, lanes); with it, it adds
-    weight * (force - measured)^2 to the first of ``out``, the other two being (driven nodes, samples). ``miss`` (driven
-    nodes, lanes) gathers the squared differences of the forces of the two courses.
+    coarse steps in a sample, ``space`` (2, rows, lanes) is a workspace for each of the two, ``status`` (lanes,) stays 0
+    where all goes well. Without ``scoring`` it fills ``out`` (samples, driven nodes then unknown nodes, lanes); with
+    it, it adds weight * (force - measured)^2 to the first of ``out``, the other two being (samples, driven nodes).
+    ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses.
     """
-    forces = [layouts.row(force_row(joint)) for joint in driven]
-    places = [layouts.row(row_of(joint, "position")) for joint in unknown]
-    store = [line for number, row in enumerate([*forces, *places]) for line in _stored(number, row)]
-    score = [line for number, row in enumerate(forces) for line in _scored(number, row)] or ["pass"]
-    begin = [_call("start", "still"), *_newton(layouts, "settle", "still", MOST_STATIC_STEPS, UNBALANCED),
-             _call("rest", "still")]  # fmt: skip
-    step = [_call("predict", "columns"), *_newton(layouts, "improve", "columns", MOST_STEPS, UNSOLVED),
-            _call("commit", "columns")]  # fmt: skip
-    course = ["w = space[course * half : (course + 1) * half]", "columns, count = coarse, per", "if course == 1:",
-              "    columns, count = fine, 2 * per", "if k == 0:", "    j = 0", *indented(4, begin), "else:",
-              "    for j in range((k - 1) * count, k * count):", *indented(8, step)]  # fmt: skip
-    body = ["for course in range(2):", *indented(4, course), "if scoring:", *indented(4, score), "else:",
-            *indented(4, store)]  # fmt: skip
-    return renumbered("\n".join([
-        f'"""Network kernel: {len(driven)} driven nodes, {len(unknown)} unknown ones."""', PRELUDE,
-        *(_pass(layouts, name) for name in layouts.layouts),
-        f'@njit("void({_TYPES})", cache=True, **LOOP)', f"def run({_ARGUMENTS}):",
-        "    use_full_vectors()", "    lanes = lanes & -8", f"    half = {WIDTH * layouts.rows}",
-        "    for k in range(samples):", *indented(8, body),
-    ])) + "\n"  # fmt: skip
+    return whole("run", ARGUMENTS, _run(layouts, driven, unknown, vectors)) + "".join(
+        _pass(layouts.layouts[name], name, vectors) for name in layouts.layouts
+    )
 
 
-def _pass(layouts: SystemLayouts, name: str) -> str:
+def _run(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequence[str], vectors: int) -> Assembly:
+    a, width = Assembly(), LANES * vectors
+    a.do("%left = alloca i64")
+    halves = ["%space", a.address("%space", layouts.rows * width)]
+    finer = a.new("mul i64 %per, 2")
+    for space in halves:
+        _call(a, "start", "%still", space)
+        _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, layouts.row(DONE), vectors)
+        _call(a, "rest", "%still", space)
+    with a.loop(0, "%samples") as k:
+        with a.when(a.new(f"icmp sgt i64 {k}, 0")):
+            for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):
+                first = a.product(a.new(f"sub i64 {k}, 1"), count)
+                with a.loop(first, a.new(f"add i64 {first}, {count}")) as j:
+                    row = a.address(columns, a.product(j, len(layouts.program.columns)))
+                    _call(a, "predict", row, space)
+                    _newton(a, "improve", row, space, MOST_STEPS, UNSOLVED, layouts.row(DONE), vectors)
+                    _call(a, "commit", row, space)
+        writer = _Writer(a, halves, vectors, k)
+        forces = [layouts.row(force_row(joint)) for joint in driven]
+        places = [layouts.row(row_of(joint, "position")) for joint in unknown]
+        with a.when(a.new("icmp eq i64 %scoring, 0")):
+            writer.store([*forces, *places], len(driven))
+        with a.when(a.new("icmp ne i64 %scoring, 0")):
+            writer.score(forces)
+    a.do("ret void")
+    return a
+
+
+class _Writer:
+    """What is made of both courses at a sample."""
+
+    def __init__(self, a: Assembly, halves: Sequence[str], vectors: int, k: str) -> None:
+        self.a, self.halves, self.vectors, self.width, self.k = a, halves, vectors, LANES * vectors, k
+
+    def store(self, rows: Sequence[int], driven: int) -> None:
+        """Fill the next row of ``out``."""
+        first = self.a.product(self.k, len(rows))
+        for number, row in enumerate(rows):
+            best, gap = self._best(row)
+            place = self.a.product(self.a.new(f"add i64 {first}, {number}"), self.width)
+            self.a.store(best, self._places(self.a.address("%out", place)))
+            if number < driven:
+                self._add("%miss", number, gap, gap)
+
+    def score(self, rows: Sequence[int]) -> None:
+        """Add to the scores."""
+        first = self.a.product(self.k, len(rows))
+        for number, row in enumerate(rows):
+            best, gap = self._best(row)
+            place = self.a.new(f"add i64 {first}, {number}")
+            away = best - self.a.spread(self.a.scalar("%measured", place), self.vectors)
+            self._add("%out", number, away * self.a.spread(self.a.scalar("%weight", place), self.vectors), away)
+            self._add("%miss", number, gap, gap)
+
+    def _best(self, row: int) -> tuple[Bundle, Bundle]:
+        long, short = (self.a.load(self._places(half), row * self.width) for half in self.halves)
+        gap = short - long
+        return gap.times_plus(THIRD, short), gap
+
+    def _add(self, array: str, number: int, first: Bundle, second: Bundle) -> None:
+        places = self._places(array)
+        before = self.a.load(places, number * self.width)
+        self.a.store(first.times_plus(second, before), places, number * self.width)
+
+    def _places(self, base: str) -> list[str]:
+        return _places(self.a, base, self.vectors)
+
+
+def _places(a: Assembly, base: str, vectors: int) -> list[str]:
+    return [a.address(base, LANES * number) for number in range(vectors)]
+
+
+def _pass(layout: Layout, name: str, vectors: int) -> str:
     # a function of its own: the compiler's work grows faster than the length of a function
-    types = "void(float64[:,::1], int64, float64[::1], int64, float64[::1], float64[::1])"
-    lines = print_pass(layouts.layouts[name], "columns[j", []) or ["pass"]
-    return "\n".join([f'@njit("{types}", cache=True, **LOOP)', f"def {name}(columns, j, w, lanes, tables, knots):",
-                      "    use_full_vectors()", "    lanes = lanes & -8", *indented(4, lines)]) + "\n"  # fmt: skip
+    a = Assembly()
+    Pass(a, layout, Arrays("%columns", _places(a, "%w", vectors))).write()
+    a.do("ret void")
+    return a.function(f"internal void @{name}({', '.join(PASSED)})")
 
 
-def _call(name: str, columns: str) -> str:
-    return f"{name}({columns}, j, w, lanes, tables, knots)"
+def _call(a: Assembly, name: str, columns: str, space: str) -> None:
+    a.do(f"call void @{name}(ptr {columns}, ptr {space}, ptr %tables, ptr %knots)")
 
 
-def _newton(layouts: SystemLayouts, name: str, columns: str, most: int, failure: int) -> list[str]:
-    done = f"w[{WIDTH * layouts.row(DONE)} + l]"
-    count = ["left = 0.0", "for l in range(lanes):", f"    left += 1.0 - {done}", "if left == 0.0:", "    break"]
-    return ["left = 0.0", f"for i in range({most}):", *indented(4, [_call(name, columns), *count]),
-            "if left > 0.0:", "    for l in range(lanes):", f"        if {done} == 0.0:",
-            f"            status[l] = {failure}"]  # fmt: skip
+def _newton(a: Assembly, name: str, columns: str, space: str, most: int, failure: int, row: int, vectors: int) -> None:
+    """Steps until every lane is done, ``most`` of them at most; what is left then has failed."""
 
+    def undone() -> Bundle:
+        places = _places(a, space, vectors)
+        return a.load(places, row * LANES * vectors).compare("oeq", 0.0)
 
-def _stored(number: int, row: int) -> list[str]:
-    return ["for l in range(lanes):", f"    gap = space[half + {WIDTH * row} + l] - space[{WIDTH * row} + l]",
-            f"    out[k, {number}, l] = space[half + {WIDTH * row} + l] + gap * 0.3333333333333333",
-            f"    miss[{number}, l] += gap * gap"]  # fmt: skip
+    def going_on() -> str:
+        left = a.new("load i64, ptr %left")
+        some, allowed = a.any(undone()), a.new(f"icmp sgt i64 {left}, 0")
+        return a.new(f"and i1 {some}, {allowed}")
 
-
-def _scored(number: int, row: int) -> list[str]:
-    return [f"target, weigh = measured[{number}, k], weight[{number}, k]", "for l in range(lanes):",
-            f"    gap = space[half + {WIDTH * row} + l] - space[{WIDTH * row} + l]",
-            f"    away = space[half + {WIDTH * row} + l] + gap * 0.3333333333333333 - target",
-            f"    out[0, {number}, l] += weigh * (away * away)", f"    miss[{number}, l] += gap * gap"]  # fmt: skip
+    a.do(f"store i64 {most}, ptr %left")
+    with a.repeat(going_on):
+        _call(a, name, columns, space)
+        a.do(f"store i64 {a.new('sub i64 ' + a.new('load i64, ptr %left') + ', 1')}, ptr %left")
+    found = undone()
+    with a.when(a.any(found)):
+        places = _places(a, "%status", vectors)
+        failed = found.choose(float(failure), a.load(places))
+        a.store(failed, places)

@@ -8,10 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from unit.kernel.networks import compiled, network
+from unit.kernel.networks import compiled
 
+from dashpot.data.drive import drive_from_samples
+from dashpot.kernel import native
 from dashpot.kernel.native import cache_folder
 from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element, Parameter, Response
+from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import random_drive
 from dashpot.text.problem import InputError
 
@@ -21,7 +25,7 @@ ASK = """
 import sys
 sys.path[:0] = {path!r}
 from unit.kernel.networks import compiled
-print(compiled("it: {entry}").native.file, end="")
+print(compiled("it: {entry}").native(1).file, end="")
 """
 
 
@@ -49,31 +53,33 @@ def test_the_cache_lies_where_the_environment_says(monkeypatch):
 
 
 def test_networks_that_differ_in_numbers_and_names_share_one_file(folder):
-    files = {compiled(branches).native.file for branches in (DAMPER, OTHER)}
+    files = {compiled(branches).native(1).file for branches in (DAMPER, OTHER)}
     assert len(files) == 1
-    assert files == set((folder / "kernels").glob("*.py"))
-    assert compiled(DAMPER).native is compiled(OTHER).native
+    assert files == set((folder / "kernels").glob("*"))
+    assert compiled(DAMPER).native(1) is compiled(OTHER).native(1)
 
 
 def test_another_process_takes_the_machine_code_from_the_cache(folder):
     file = Path(compile_elsewhere("{element: damper, damping: 5}"))
-    kept = [file, *(folder / "kernels" / "__pycache__").glob("*.nb*")]
-    assert len(kept) > 1
-    stamps = {path: path.stat().st_mtime_ns for path in kept}
+    stamp = file.stat().st_mtime_ns
     assert compile_elsewhere("{element: damper, damping: 7}") == str(file)
-    assert {path: path.stat().st_mtime_ns for path in kept} == stamps
+    assert file.stat().st_mtime_ns == stamp and list(file.parent.iterdir()) == [file]
 
 
-def test_a_damaged_file_is_written_again(folder):
-    file = compiled("it: {element: inerter, inertance: 5}").native.file
-    text = file.read_text()
-    file.write_text("raise SystemExit('damaged')\n")
+DAMAGES = [lambda code: code[:-1], lambda code: b"", lambda code: code[:40] + b"!" + code[41:]]
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_file_is_written_again(folder, damage):
+    file = Path(compile_elsewhere("{element: inerter, inertance: 5}"))
+    code = file.read_bytes()
+    file.write_bytes(damage(code))
     assert compile_elsewhere("{element: inerter, inertance: 5}") == str(file)
-    assert file.read_text() == text
+    assert file.read_bytes() == code
 
 
 def test_no_half_written_file_stays_behind(folder):
-    compiled(DAMPER)
+    compiled(DAMPER).native(1)
     assert not list((folder / "kernels").glob("*.part"))
 
 
@@ -81,7 +87,7 @@ def test_a_folder_that_cannot_be_written_is_told_with_the_way_out(tmp_path, monk
     (tmp_path / "taken").write_text("a file, not a folder")
     monkeypatch.setenv("DASHPOT_CACHE", str(tmp_path / "taken"))
     with pytest.raises(InputError, match="compiled networks cannot be kept here: .* DASHPOT_CACHE name a folder"):
-        compile_network(network(DAMPER))
+        compiled(DAMPER).native(1)
 
 
 def test_a_compiled_network_answers_a_lane_and_a_block_alike(folder):
@@ -92,3 +98,55 @@ def test_a_compiled_network_answers_a_lane_and_a_block_alike(folder):
     assert found.simulate(run, found.start[None]).shape == (1, 50)
     with pytest.raises(ValueError, match="zip"):
         found.simulate(run, np.ones((2, 5)))
+
+
+class Law(Element):
+    """A law that is changed under the same name."""
+
+    word = "law"
+    stiffness = Parameter("N/m", "slope", bounds=(1.0, 1e9))
+    most = np.inf
+
+    def step(self, x, z, p, dt):
+        return Response(np.minimum(p.stiffness * x.new, self.most))
+
+
+def code_of_law() -> tuple[Path, np.ndarray]:
+    """The file of a network with the law as it is now, and the force at 3 mm and 2 N/mm."""
+    spec = NetworkSpec("n", Group("", "parallel", (Branch("it", Law, {"stiffness": Value(2e3, "N/m")}, {}),)))
+    found = compile_network(spec)
+    return found.native(1).file, found.simulate(found.prepare(drive_from_samples(1e-3, np.full(5, 3e-3))))
+
+
+def test_a_law_that_was_changed_is_compiled_again(folder, monkeypatch):
+    first, force = code_of_law()
+    assert force == pytest.approx(np.full(5, 6.0))
+    monkeypatch.setattr(Law, "most", 5.0)
+    second, force = code_of_law()
+    assert second != first and force == pytest.approx(np.full(5, 5.0))
+
+
+@pytest.mark.parametrize("change", ["llvmlite.__version__", "llvmlite.binding.llvm_version_info"])
+def test_another_version_of_the_compiler_compiles_again(folder, monkeypatch, change):
+    before = compiled(DAMPER).native(1).file
+    monkeypatch.setattr(change, (99, 9, 9) if "info" in change else "99.9")
+    assert compiled(DAMPER).native(1).file != before
+    assert len(list((folder / "kernels").iterdir())) == 2
+
+
+def test_another_processor_compiles_again(folder, monkeypatch):
+    before = compiled(DAMPER).native(1).file
+    monkeypatch.setenv("DASHPOT_PROCESSOR", "generic")
+    assert compiled(DAMPER).native(1).file != before
+
+
+def test_other_numbers_compile_nothing(folder, monkeypatch):
+    network_with_tables = "it: {{element: spring, stiffness: {{deflection: [0, {x}, 3 mm], force: [0, 5, {x}]}}}}"
+    drive = random_drive(np.random.default_rng(1), "sweep", 1e-3, 0.01, 50)
+    for lanes in (1, 9):
+        found = compiled(network_with_tables.format(x=1e-3))
+        found.simulate(found.prepare(drive), np.repeat(found.start[None], lanes, axis=0))
+    monkeypatch.setattr(native, "compiled", None)
+    for lanes in (1, 2, 9, 40):
+        found = compiled(network_with_tables.format(x=2e-3))
+        found.simulate(found.prepare(drive), np.repeat(found.start[None], lanes, axis=0))

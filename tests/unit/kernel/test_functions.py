@@ -1,51 +1,41 @@
-"""The functions that every kernel begins with, against numpy and scipy."""
+"""The long functions of a kernel against numpy and scipy."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 from scipy.special import wrightomega
 
-from dashpot.kernel.prelude import PRELUDE
+from dashpot.kernel import functions
+from dashpot.kernel.assembly import LANES, Assembly, Bundle
+from dashpot.kernel.native import load_native
+from dashpot.kernel.source import whole
 
-MAPPED = """
-@njit("void(float64[::1], float64[::1])")
-def mapped(x, out):
-    for k in range(x.size):
-        out[k] = {name}(x[k])
-"""
-ROWS = """
-@njit("void(float64[::1], float64[::1])")
-def mapped(x, out):
-    w = np.concatenate((x, np.empty(x.size)))
-    {name}_rows(w, 0, 0, x.size, 0, 1, x.size)
-    out[:] = w[x.size:]
-"""
-LONG = ("exp", "log", "wrightomega")
-PAIRED = """
-@njit("void(float64[::1], float64[::1], float64[::1])")
-def paired(x, y, out):
-    for k in range(x.size):
-        out[k] = {name}(x[k], y[k])
-"""
+VECTORS = 2
 
 
 @pytest.fixture(scope="module")
 def run():
-    """``run(name, x)`` or ``run(name, x, y)``: a function of the prelude on arrays."""
-    made: dict[str, object] = {}
+    """``run(name, x)`` or ``run(name, x, y)``: a function on arrays."""
+    return lambda name, *arguments: mapped(getattr(functions, name), *arguments)
 
-    def call(name: str, *arguments: np.ndarray) -> np.ndarray:
-        if name not in made:
-            space: dict = {}
-            form = ROWS if name in LONG else MAPPED if len(arguments) == 1 else PAIRED
-            exec(PRELUDE + form.format(name=name), space)
-            made[name] = space["mapped" if len(arguments) == 1 else "paired"]
-        out = np.empty(arguments[0].size)
-        made[name](*(np.ascontiguousarray(argument, dtype=float) for argument in arguments), out)
-        return out
 
-    return call
+def mapped(function: Callable[..., Bundle], *arguments: np.ndarray) -> np.ndarray:
+    """A function of bundles on arrays, two vectors at once."""
+    a, names = Assembly(), [f"%x{number}" for number in range(len(arguments))]
+    width, size = LANES * VECTORS, arguments[0].size
+    with a.loop(0, "%samples", width) as k:
+        places = {name: [a.address(a.address(name, k), LANES * part) for part in range(VECTORS)]
+                  for name in (*names, "%out")}  # fmt: skip
+        a.store(function(*(a.load(places[name]) for name in names)), places["%out"])
+    a.do("ret void")
+    text = whole("run", ["i64 %samples", "ptr %out", *(f"ptr {name}" for name in names)], a)
+    full = [np.resize(np.asarray(argument, dtype=float), size + -size % width) for argument in arguments]
+    out = np.empty(full[0].size)
+    load_native(text, 2 + len(arguments))(out.size, out, *full)
+    return out[:size]
 
 
 RNG = np.random.default_rng()
