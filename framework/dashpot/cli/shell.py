@@ -25,6 +25,7 @@ VERBS = (
     "diagnose",
     "study",
     "schema",
+    "doctor",
     "completion",
 )
 

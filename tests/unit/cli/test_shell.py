@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
+import shlex
+
+import click
 import pytest
 
 from dashpot import __version__
-from dashpot.cli.shell import VERBS
+from dashpot.cli.shell import VERBS, dashpot
 
 
 def test_help_names_every_verb(call):
@@ -18,7 +22,18 @@ def test_help_names_every_verb(call):
 def test_the_help_of_a_verb_has_an_example(call, verb):
     code, out, _ = call(verb, "--help")
     assert code == 0
-    assert f"Example:\n    dashpot {verb} " in out
+    assert re.search(rf"Example:\n    dashpot {verb}\b", out)
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_the_examples_in_the_help_are_right(call, verb):
+    lines = re.findall(r"^    (dashpot .+)$", call(verb, "--help")[1].partition("Example:")[2], re.MULTILINE)
+    assert lines
+    for line in lines:
+        name, *arguments = shlex.split(line)[1:]
+        command = dashpot.get_command(click.Context(dashpot), name)
+        assert command is not None
+        command.make_context(name, arguments)
 
 
 def test_the_version_is_told(call):
@@ -29,7 +44,7 @@ def test_the_version_is_told(call):
     "arguments, hint",
     [
         (["diagnoze"], "No such verb 'diagnoze', did you mean 'diagnose'?"),
-        (["zzz"], "No such verb 'zzz', there are: demo, list, check, draw, simulate, fit, compare, diagnose"),
+        (["zzz"], f"No such verb 'zzz', there are: {', '.join(VERBS)}"),
         (["compare", "--ouput", "x"], "Did you mean '--output'?"),
         (["list", "elments"], "No list of 'elments', did you mean 'elements'?"),
         (["list", "zzz"], "No list of 'zzz', there are: elements, "),
