@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -43,11 +44,12 @@ class Npz(Reader):
 def _load(path: Path) -> np.ndarray | dict[str, np.ndarray]:
     try:
         _refuse_bomb(path)
-        content = np.load(path, allow_pickle=False)
-        if isinstance(content, np.ndarray):
-            return content
-        with content:
-            return dict(content)
+        with warnings.catch_warnings(action="ignore"):
+            content = np.load(path, allow_pickle=False)
+            if isinstance(content, np.ndarray):
+                return content
+            with content:
+                return dict(content)
     except ReadingError:
         raise
     except Exception as error:

@@ -35,7 +35,9 @@ class Rpc(Reader):
         content = path.read_bytes()
         header = RpcHeader.read(content)
         layout = _Layout.read(header)
-        values = layout.channels_of(content[header.size :]) * _scales(header, layout)[:, None]
+        with np.errstate(over="ignore", invalid="ignore"):
+            # what becomes too large for a number is told as a missing one
+            values = layout.channels_of(content[header.size :]) * _scales(header, layout)[:, None]
         numbers = range(1, layout.channels + 1)
         names = distinct([header.text(f"DESC.CHAN_{number}", "") for number in numbers], "channel")
         units = {
@@ -88,9 +90,7 @@ class _Layout:
         numbers = np.frombuffer(content, self.number, needed)
         body = numbers[:whole].reshape(groups, self.channels, self.group).swapaxes(0, 1).reshape(self.channels, -1)
         tail = numbers[whole:].reshape(self.channels, -1)[:, :rest]
-        with np.errstate(invalid="ignore"):
-            # a signalling NaN becomes an ordinary one
-            return np.concatenate([body, tail], axis=1).astype(float)
+        return np.concatenate([body, tail], axis=1).astype(float)
 
 
 def _scales(header: RpcHeader, layout: _Layout) -> np.ndarray:

@@ -67,9 +67,9 @@ def _physical(channel: TydexChannel, numbers: np.ndarray, offsets: str | None) -
     if (first or second) and offsets is None:
         message = f"channel '{channel.name}' has the conversion offsets {first:g} and {second:g}"
         raise ReadingError(message, "say what they mean with 'offsets: added' or 'offsets: ignored'", channel.line)
-    if offsets == "added":
-        return channel.factor * (numbers + first) + second
-    return channel.factor * numbers
+    with np.errstate(over="ignore", invalid="ignore"):
+        # what becomes too large for a number is told as a missing one
+        return channel.factor * (numbers + first) + second if offsets == "added" else channel.factor * numbers
 
 
 def _values(rows: Sequence[_Line], count: int) -> tuple[np.ndarray, np.ndarray]:

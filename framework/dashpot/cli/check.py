@@ -1,7 +1,8 @@
-"""``dashpot check``: all mistakes and weaknesses of network files, and what two of them differ in."""
+"""``dashpot check``: all mistakes and weaknesses of networks and datasets, and what two networks differ in."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -28,12 +29,15 @@ if TYPE_CHECKING:
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
     """Say every mistake and every weakness of network files, each as file:line:column with what to do.
 
+    Of a dataset, all that is wrong with its file and its measurements.
+
     With --against the networks are compared by their structure, whatever names their parts have; where the structure is
     the same, by their numbers.
 
     \b
     Example:
       dashpot check kelvin_voigt my_network.yaml
+      dashpot check my/dataset.yaml
       dashpot check my_network.yaml --against axle_model_3
     """
     session = Session(switches)
@@ -65,11 +69,15 @@ def praise(spec: str, problems: tuple[Problem, ...]) -> str:
 
 
 def problems_of(spec: str, session: Session) -> tuple[Problem, ...]:
-    """What is wrong or weak with one network: with its text, its laws, or its structure."""
+    """What is wrong or weak with one network: with its text, its laws, or its structure. Or with a dataset."""
+    from dashpot.data.dataset import read_dataset
+    from dashpot.data.description import is_dataset
     from dashpot.kernel.trace import trace_branch
     from dashpot.model.lint import find_weaknesses
 
     try:
+        if is_dataset(Path(spec)):
+            return read_dataset(spec, session.readers()).problems
         network: NetworkSpec = session.network(spec)
         for branch in network.leaves():
             trace_branch(branch)

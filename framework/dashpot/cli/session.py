@@ -14,6 +14,7 @@ from dashpot.cli.switches import Switches
 from dashpot.cli.talk import Talk
 
 if TYPE_CHECKING:
+    from dashpot.contract.reader import Reader
     from dashpot.contract.registry import Registry
     from dashpot.data.dataset import Dataset
     from dashpot.model.network import NetworkSpec
@@ -42,12 +43,16 @@ class Session:
 
         return read_network(spec, self.registry.elements)
 
+    def readers(self) -> dict[str, Reader]:
+        """The readers of measured files by their word."""
+        return {word: reader() for word, reader in self.registry.formats.items()}
+
     def dataset(self, path: str | Path) -> Dataset:
         """The dataset at ``path``; what is wrong with single runs is warned of."""
         from dashpot.data.dataset import read_dataset
 
         with self.watch(f"reading {path}"):
-            dataset = read_dataset(path, {word: reader() for word, reader in self.registry.formats.items()})
+            dataset = read_dataset(path, self.readers())
         for problem in dataset.problems:
             self.talk.warn(str(problem))
         return dataset

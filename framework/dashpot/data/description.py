@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration, name_of, read_declaration, stem_of
 from dashpot.data.inherit import inherit
-from dashpot.data.source import Source
+from dashpot.data.source import DESCRIPTIONS, Source
 from dashpot.text.document import Document
 from dashpot.text.form import Form, read_items
-from dashpot.text.node import Mapping, Node, Sequence
+from dashpot.text.node import Mapping, Node, Scalar, Sequence
 from dashpot.text.problem import InputError, Place, Problem
 
 FORMAT = "dashpot-dataset/1"
@@ -28,6 +29,17 @@ class Description:
     declarations: tuple[RunDeclaration, ...]
     names: tuple[str, ...]
     problems: tuple[Problem, ...]
+
+
+def is_dataset(path: Path) -> bool:
+    """Whether a path is a folder with a dataset file, or a file that says it is one. InputError for broken YAML."""
+    if path.is_dir():
+        return any((path / name).is_file() for name in DESCRIPTIONS)
+    if path.suffix not in (".yaml", ".yml") or not path.is_file():
+        return False
+    root = Document.read(path).root
+    stated = root.entries.get("format") if isinstance(root, Mapping) else None
+    return isinstance(stated, Scalar) and stated.written.startswith(FORMAT.partition("/")[0])
 
 
 def read_description(document: Document, source: Source) -> Description:

@@ -1,0 +1,158 @@
+"""``dashpot import``: a first dataset file from measured files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from dashpot.cli.columns import in_columns
+from dashpot.cli.output import OutputFolder
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, switches
+from dashpot.text.problem import InputError, Place
+
+if TYPE_CHECKING:
+    from dashpot.data.importing.imported import Imported, ImportedRun
+
+FORMAT = "dashpot-import/1"
+
+
+@click.command("import")
+@click.argument("files", nargs=-1, required=True, metavar="FILE...", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    metavar="OUT",
+    type=click.Path(path_type=Path),
+    help="The dataset file; by default dataset.yaml beside the files.",
+)
+@click.option("--sampling", metavar="RATE", help="The sampling rate, e.g. '1 kHz', where the files do not tell it.")
+@click.option("--reader", metavar="NAME", help="The format, where the names do not tell it: `dashpot list formats`.")
+@switches("json", "quiet", "force")
+def verb(
+    files: tuple[Path, ...], output: Path | None, sampling: str | None, reader: str | None, switches: Switches
+) -> None:
+    """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
+
+    FILE is a measured file or a folder of them. Nothing is asked: what names, units and numbers tell is taken from
+    there, and what has to be confirmed is said, here and in the file. No measured file is changed.
+
+    \b
+    Example:
+      dashpot import my/*.csv
+      dashpot import my/rig_files -o my/dataset.yaml --sampling '2 kHz'
+    """
+    from dashpot.data.importing.files import common_folder
+    from dashpot.data.importing.imported import import_files
+    from dashpot.data.importing.text import dataset_text
+
+    session = Session(switches)
+    imported = import_files(files, session.readers(), reader, read_rate(sampling))
+    target = place_of(output, common_folder([run.file for run in imported.runs]))
+    folder = OutputFolder(target.parent, switches.force)
+    folder.claim(target.name)
+    written = folder.write(
+        target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")
+    )
+    for problem in imported.problems:
+        session.talk.warn(f"left out: {problem}")
+    session.talk.result(as_text(imported), as_dict(imported, written))
+    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}")
+
+
+def read_rate(sampling: str | None) -> float | None:
+    """Hz; click.UsageError for anything that is no rate."""
+    from dashpot.text.quantity import si
+
+    if sampling is None:
+        return None
+    try:
+        rate = si(sampling, "Hz")
+    except ValueError as error:
+        raise click.UsageError(f"--sampling: {error}") from None
+    if rate <= 0:
+        raise click.UsageError(f"--sampling: expected a rate above 0, got {sampling}")
+    return rate
+
+
+def place_of(output: Path | None, folder: Path) -> Path:
+    """Where the dataset file goes: a name ending in .yaml, or a folder."""
+    if output is None:
+        return folder / "dataset.yaml"
+    if output.suffix in (".yaml", ".yml"):
+        return output
+    if output.suffix and not output.is_dir():
+        raise InputError.at(Place(str(output)), "expected a file ending in .yaml, or a folder", "choose another -o")
+    return output / "dataset.yaml"
+
+
+def as_text(imported: Imported) -> str:
+    """The channels, the runs, and what has to be confirmed."""
+    from dashpot.data.importing.text import about_runs
+
+    channels = {tuple(map(tuple, channel_rows(run))): run.name for run in reversed(imported.runs)}
+    parts = []
+    for rows, name in reversed(channels.items()):
+        title = "channels" if len(channels) == 1 else f"channels of {name} and runs like it"
+        parts.append(f"{title}\n" + indented(in_columns(rows)))
+    parts.append("runs\n" + indented(in_columns([run_row(run) for run in imported.runs])))
+    remarks = [f"- {text}{about_runs(names, len(imported.runs))}" for text, names in imported.confirm.items()]
+    return "\n\n".join([*parts, "Confirm before you trust a result:\n" + indented("\n".join(remarks))])
+
+
+def channel_rows(run: ImportedRun) -> list[list[str]]:
+    """A line for the clock and each channel: column, unit, sign, and what told so."""
+    timing = run.finding.timing
+    clock = ["sampling", f"{timing.sampling:g} Hz" if timing.sampling else "not found"]
+    rows = [["time", f"'{timing.column}'", timing.unit or "", "", ""] if timing.column is not None else clock]
+    for name, found in run.finding.channels.items():
+        sign = "sign -1" if found.sign < 0 else ""
+        rows.append(
+            [name, f"'{found.role.column}'", found.unit.unit, sign, f"by {found.role.by}; unit {found.unit.by}"]
+        )
+    return rows
+
+
+def run_row(run: ImportedRun) -> list[str]:
+    """A line for a run: name, kind, and its settings or the run that it repeats."""
+    from dashpot.data.importing.text import told_settings
+
+    settings = told_settings(run.finding.settings)
+    about = f"repeats {run.repeats}" if run.repeats else ", ".join(f"{key} {value}" for key, value in settings.items())
+    return [run.name, run.finding.kind, about]
+
+
+def indented(text: str) -> str:
+    """The lines of a text, set in."""
+    return "\n".join("  " + line for line in text.splitlines())
+
+
+def as_dict(imported: Imported, written: Path) -> dict[str, Any]:
+    """What was found, for programs; settings in SI."""
+    return {
+        "format": FORMAT,
+        "dataset": str(written),
+        "runs": [run_entry(run) for run in imported.runs],
+        "confirm": [{"what": text, "runs": list(names)} for text, names in imported.confirm.items()],
+        "problems": list(imported.problems),
+    }
+
+
+def run_entry(run: ImportedRun) -> dict[str, Any]:
+    """What was found about one run."""
+    finding = run.finding
+    return {
+        "name": run.name,
+        "file": str(run.file),
+        "kind": finding.kind,
+        "settings": dict(finding.settings),
+        "repeats": run.repeats,
+        "time": {"column": finding.timing.column, "unit": finding.timing.unit, "sampling": finding.timing.sampling},
+        "channels": {
+            name: {"column": found.role.column, "unit": found.unit.unit, "sign": found.sign, "found_by": found.role.by}
+            for name, found in finding.channels.items()
+        },
+        "unused": list(finding.unused),
+    }

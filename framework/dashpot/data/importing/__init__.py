@@ -1,0 +1,6 @@
+"""A first dataset file from measured files alone: what their names, units and numbers tell, and what they leave open.
+
+- `roles`: which column is which channel; `units`: in which unit; `timing`: the clock; `signs`: which way round
+- `motion`: the kind of a run and its settings; `rows`: the rows that can be used; `likeness`: runs that repeat others
+- `finding`: all of that about one file; `files`: which files; `text`: the dataset file with its remarks
+"""

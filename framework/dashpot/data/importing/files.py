@@ -1,0 +1,63 @@
+"""Which files are to be imported, and what their runs are called."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from dashpot.data.source import DESCRIPTIONS
+from dashpot.data.table import FileReader
+from dashpot.text.problem import InputError, Place
+
+
+def find_files(given: Iterable[Path], readers: Mapping[str, FileReader]) -> list[Path]:
+    """The files that were given, those in given folders that a reader takes unasked, and those that a pattern names.
+
+    Raises InputError for what is not there.
+    """
+    endings = {suffix for reader in readers.values() for suffix in reader.suffixes}
+    found: list[Path] = []
+    for path in given:
+        if path.is_dir():
+            inside = sorted(path.iterdir(), key=_in_order)
+            found += [file for file in inside if file.is_file() and file.suffix.lower() in endings]
+        elif not path.exists() and set("*?[") & set(path.name):
+            found += sorted(path.parent.glob(path.name), key=_in_order)
+        elif path.exists():
+            found.append(path)
+        else:
+            raise InputError.at(Place(str(path)), "there is no such file or folder", "check the name and the folder")
+    files = [file for file in dict.fromkeys(found) if file.name not in DESCRIPTIONS]
+    if not files:
+        raise InputError.at(Place(", ".join(map(str, given))), "no measured files were found", "name the files")
+    return files
+
+
+def run_names(files: Sequence[Path]) -> dict[Path, str]:
+    """A name for the run of each file, by the file and where needed its folder."""
+    names: dict[Path, str] = {}
+    for file in files:
+        name = _safe(file.stem)
+        if name in names.values():
+            name = _safe(f"{file.resolve().parent.name}_{file.stem}")
+        number = 2
+        while name in names.values():
+            name, number = _safe(f"{file.stem}_{number}"), number + 1
+        names[file] = name
+    return names
+
+
+def common_folder(files: Sequence[Path]) -> Path:
+    """The folder that holds all files, directly or below."""
+    return Path(os.path.commonpath([str(file.resolve().parent) for file in files]))
+
+
+def _safe(name: str) -> str:
+    return re.sub(r"[/\\:*?\"<>|\x00-\x1f\x7f]", "_", name).lstrip(".")[:100] or "run"
+
+
+def _in_order(path: Path) -> list[tuple[int, str]]:
+    """Names with numbers in the order of the numbers: a2 before a10."""
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", path.name)]

@@ -1,0 +1,151 @@
+"""Everything that one measured file tells about the run it holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.importing.motion import Motion, find_motion
+from dashpot.data.importing.roles import GUESSED, Role, motion_roles, named_roles
+from dashpot.data.importing.rows import numeric, of_one_length, usable_rows
+from dashpot.data.importing.signs import find_signs
+from dashpot.data.importing.timing import Timing, find_timing
+from dashpot.data.importing.units import GUESSED as GUESSED_UNIT
+from dashpot.data.importing.units import UnitFound, find_unit
+from dashpot.data.table import ReadingError, Table
+from dashpot.text.quantity import factor
+
+NEEDED = ("displacement", "force")
+
+
+@dataclass(frozen=True)
+class ChannelFound:
+    """A channel: its column, unit and sign, and what told them."""
+
+    role: Role
+    unit: UnitFound
+    sign: int = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """What a file holds.
+
+    rows: first row and one past the last (from 0), None for all; unused: columns that are no channel; confirm: what a
+    person has to look at; displacement and force (n,) in SI where both were found.
+    """
+
+    timing: Timing
+    channels: Mapping[str, ChannelFound]
+    kind: str
+    settings: Mapping[str, float]
+    rows: tuple[int, int] | None
+    unused: tuple[str, ...]
+    confirm: tuple[str, ...]
+    signals: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+
+Agreed = Mapping[str, tuple[UnitFound, int]]
+
+
+def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None = None) -> Finding:
+    """What the columns of a file are, as far as names, units and numbers tell.
+
+    `sampling` in Hz overrules the file; `agreed` holds the unit and sign of channels that other files have told.
+    Raises ReadingError when there are no numbers in the file.
+    """
+    if not any(np.isfinite(numeric(values)).any() for values in table.columns.values()):
+        raise ReadingError("it holds no numbers", "check that this is the file of the measurement")
+    every = of_one_length({name: numeric(values) for name, values in table.columns.items()})
+    columns = {name: values for name, values in every.items() if np.isfinite(values).mean() > 0.5}
+    roles = named_roles(list(columns), table.units)
+    time = None if sampling else roles.pop("time", None)
+    timing = find_timing(_filled(columns), table.units, sampling or table.sampling, time)
+    others = {name: values for name, values in _filled(columns).items() if name != timing.column}
+    roles = motion_roles(_moving(others), {channel: role for channel, role in roles.items() if channel != "time"})
+    chosen = _chosen(roles, columns)
+    rows = usable_rows([columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name])
+    cut = {name: values[slice(*rows)] for name, values in columns.items()}
+    channels = {channel: _found(role, table, cut) for channel, role in chosen.items()}
+    channels = _agreed(channels, agreed)
+    return _finding(timing, channels, cut, None if rows == (0, _length(columns)) else rows, table, agreed)
+
+
+def _length(columns: Mapping[str, np.ndarray]) -> int:
+    return len(next(iter(columns.values()), ()))
+
+
+def _filled(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The numbers with what is missing carried over from the sample before."""
+    filled = {}
+    for name, values in columns.items():
+        sound = np.isfinite(values)
+        filled[name] = np.interp(np.arange(len(values)), np.flatnonzero(sound), values[sound])
+    return filled
+
+
+def _moving(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Without counters: what grows by one from sample to sample is no motion."""
+    return {name: values for name, values in columns.items() if not np.all(np.diff(values) == 1.0)}
+
+
+def _chosen(roles: Mapping[str, Role], columns: Mapping[str, np.ndarray]) -> dict[str, Role]:
+    """Displacement and force, and further channels known by name that have a number everywhere."""
+    return {
+        channel: role
+        for channel, role in roles.items()
+        if channel in NEEDED or (role.by != GUESSED and np.isfinite(columns[role.column]).all())
+    }
+
+
+def _found(role: Role, table: Table, columns: Mapping[str, np.ndarray]) -> ChannelFound:
+    values = columns[role.column]
+    sound = values[np.isfinite(values)]
+    return ChannelFound(role, find_unit(role.channel, role.column, table.units.get(role.column, ""), sound))
+
+
+def _agreed(channels: Mapping[str, ChannelFound], agreed: Agreed | None) -> dict[str, ChannelFound]:
+    known = agreed or {}
+    return {
+        name: ChannelFound(found.role, *known[name]) if name in known else found for name, found in channels.items()
+    }
+
+
+def _finding(
+    timing: Timing,
+    found: Mapping[str, ChannelFound],
+    columns: Mapping[str, np.ndarray],
+    rows: tuple[int, int] | None,
+    table: Table,
+    agreed: Agreed | None,
+) -> Finding:
+    confirm = [*timing.confirm, *(remark for channel in found.values() for remark in _doubts(channel))]
+    confirm += [f"no column was found for the {name}: say it under channels" for name in NEEDED if name not in found]
+    channels, signals, motion = dict(found), {}, Motion("transient", {})
+    if all(name in found for name in NEEDED):
+        raw = {name: _filled(columns)[found[name].role.column] for name in NEEDED}
+        first, second, why = find_signs(raw["displacement"], raw["force"])
+        signs = {"displacement": first, "force": second} if agreed is None else {n: found[n].sign for n in NEEDED}
+        confirm += [why] if why else []
+        channels |= {name: replace(found[name], sign=signs[name]) for name in NEEDED}
+        signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
+        motion = find_motion(signals["displacement"], timing.step or 1.0)
+    used = {timing.column, *(channel.role.column for channel in found.values())}
+    unused = tuple(name for name in table.columns if name not in used)
+    settings = motion.settings if timing.step else {}
+    return Finding(timing, channels, motion.kind, settings, rows, unused, tuple(confirm), signals)
+
+
+def _scale(channel: ChannelFound) -> float:
+    return factor(channel.unit.unit, CHANNEL_UNITS[channel.role.channel])[0]
+
+
+def _doubts(channel: ChannelFound) -> list[str]:
+    role, unit = channel.role, channel.unit
+    doubts = [f"column '{role.column}' is taken for the {role.channel} by {role.by}"] if role.by == GUESSED else []
+    if unit.by == GUESSED_UNIT:
+        doubts.append(f"the {role.channel} is taken to be in {unit.unit}: no unit is stated")
+    return doubts

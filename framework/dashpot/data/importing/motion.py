@@ -1,0 +1,107 @@
+"""What kind of run a motion is, and its settings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+_FEW_CYCLES, _SLOW_CYCLE = 3.5, 4.0
+_EVEN, _SMOOTH, _SWEPT = 0.05, 0.25, 1.5
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The kind of a run, and numbers of its test in SI: those that its kind has."""
+
+    kind: str
+    settings: Mapping[str, float]
+
+
+def find_motion(displacement: np.ndarray, step: float) -> Motion:
+    """The kind and settings of a displacement (n,) m sampled every `step` s."""
+    span = float(np.ptp(displacement))
+    if span == 0 or _rests(displacement, span):
+        return Motion("hold", {"preload": float(np.median(displacement))})
+    cycles = len(_turns(displacement, 0.25 * span)) / 2
+    if cycles <= _FEW_CYCLES:
+        slow = len(displacement) * step / max(cycles, 1.0) >= _SLOW_CYCLE
+        return Motion("quasi_static" if slow else "transient", {})
+    turns = step * _turns(displacement, 0.1 * span)
+    kind = _kind_of(_without_ends(2 * np.diff(turns)))
+    return Motion(kind, _settings(kind, displacement, turns, step))
+
+
+def _rests(displacement: np.ndarray, span: float) -> bool:
+    """Whether nearly nothing moves after the first fifth: a step, then rest."""
+    return bool(np.ptp(displacement[len(displacement) // 5 :]) < 0.05 * span)
+
+
+def _turns(signal: np.ndarray, threshold: float) -> np.ndarray:
+    """The samples at which a signal turns round and then goes back by more than the threshold."""
+    turns: list[int] = []
+    top = bottom = 0
+    rising = True
+    for index, value in enumerate(signal.tolist()):
+        if value > signal[top]:
+            top = index
+        if value < signal[bottom]:
+            bottom = index
+        if rising and value < signal[top] - threshold:
+            turns.append(top)
+            rising, bottom = False, index
+        elif not rising and value > signal[bottom] + threshold:
+            turns.append(bottom)
+            rising, top = True, index
+    return np.array(turns[1:], dtype=int)
+
+
+def _without_ends(periods: np.ndarray) -> np.ndarray:
+    """The periods without the first and last ones, where a test is ramped in and out."""
+    margin = min(2, (len(periods) - 3) // 2)
+    return periods[margin : len(periods) - margin] if margin > 0 else periods
+
+
+def _kind_of(periods: np.ndarray) -> str:
+    if periods.size < 3:
+        return "transient"
+    middle = np.median(periods)
+    low, high = np.quantile(periods, (0.1, 0.9))
+    if np.mean(np.abs(periods / middle - 1)) < _EVEN or high - low < _EVEN * middle:
+        return "harmonic"
+    changes = np.abs(np.diff(np.log(periods)))
+    return "sweep" if np.median(changes) < _SMOOTH and high > _SWEPT * low and _trends(periods) else "random"
+
+
+def _trends(periods: np.ndarray) -> bool:
+    """Whether a smooth course explains nearly all of how the periods change, in one direction or up and down."""
+    logs = np.log(periods)
+    place = np.linspace(-1.0, 1.0, len(logs))
+    course = np.polynomial.Polynomial.fit(place, logs, min(6, len(logs) - 1))(place)
+    return bool(np.var(logs - course) < 0.2 * np.var(logs))
+
+
+def _settings(kind: str, displacement: np.ndarray, turns: np.ndarray, step: float) -> dict[str, float]:
+    low, high = np.quantile(displacement, (0.02, 0.98))
+    settings = {"amplitude": float(high - low) / 2, "preload": float(high + low) / 2}
+    if kind == "harmonic":
+        return {**settings, "frequency": float(0.5 / np.median(np.diff(turns)))}
+    if kind == "sweep":
+        start, stop = _swept(turns, step * len(displacement))
+        return {**settings, "start": start, "stop": stop}
+    return {"preload": settings["preload"]} if kind == "random" else {}
+
+
+def _swept(turns: np.ndarray, duration: float) -> tuple[float, float]:
+    """The frequencies at both ends of a sweep, from the line or the exponential through those between the turns."""
+    when, frequency = 0.5 * (turns[1:] + turns[:-1]), 0.5 / np.diff(turns)
+    ends = np.array([0.0, duration])
+    best, found = np.inf, (float(frequency[0]), float(frequency[-1]))
+    for bend, back in ((np.asarray, np.asarray), (np.log, np.exp)):
+        course = np.polynomial.Polynomial.fit(when, bend(frequency), 1)
+        miss = float(np.mean(np.abs(back(course(when)) / frequency - 1)))
+        at_ends = back(course(ends))
+        if miss < min(best, _SMOOTH) and np.all(at_ends > 0):
+            best, found = miss, (float(at_ends[0]), float(at_ends[1]))
+    return found

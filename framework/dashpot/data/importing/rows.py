@@ -1,0 +1,34 @@
+"""The rows of a file that can be used: lines of text and empty cells at its beginning and end are left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+
+def numeric(values: np.ndarray) -> np.ndarray:
+    """The numbers of a column (n,); NaN where a text stands."""
+    if values.dtype != object:
+        return np.asarray(values, dtype=float)
+    return np.array([np.nan if isinstance(value, str) else value for value in values], dtype=float)
+
+
+def usable_rows(columns: Iterable[np.ndarray]) -> tuple[int, int]:
+    """The first row and the one past the last (from 0) between which the ends of all columns are numbers.
+
+    At most a tenth is cut off; holes in the middle stay.
+    """
+    sound = np.all([np.isfinite(values) for values in columns], axis=0)
+    places = np.flatnonzero(sound)
+    if not places.size:
+        return 0, len(sound)
+    first, last = int(places[0]), int(places[-1]) + 1
+    return (first, last) if last - first >= 0.9 * len(sound) else (0, len(sound))
+
+
+def of_one_length(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The columns that belong together: those of the length that most of them have, the longer one of two."""
+    lengths = [len(values) for values in columns.values()]
+    usual = max(set(lengths), key=lambda length: (lengths.count(length), length))
+    return {name: values for name, values in columns.items() if len(values) == usual}

@@ -1,0 +1,131 @@
+"""The text of a first dataset file, with remarks where something has to be confirmed."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from dashpot.data.declaration import SETTING_UNITS
+from dashpot.data.description import FORMAT
+from dashpot.data.importing.finding import ChannelFound, Finding
+from dashpot.data.importing.imported import Imported, ImportedRun
+from dashpot.data.importing.timing import Timing
+from dashpot.data.importing.units import GUESSED
+from dashpot.text.quantity import pretty
+
+_PLAIN = re.compile(r"[A-Za-zÀ-ÿ_][\wÀ-ÿ./-]*( [A-Za-zÀ-ÿ(][\wÀ-ÿ.()/-]*)*|[1-9]\d{0,5}")
+_WORDS = {"null", "true", "false", "nan", "inf"}
+_NEGLIGIBLE = 0.05
+
+
+def dataset_text(imported: Imported, folder: Path, name: str) -> str:
+    """The dataset file over these runs, to be written into `folder`."""
+    alike = len({_channels_text(run.finding) for run in imported.runs}) == 1
+    outside = any(_relative(run.file, folder).startswith("..") for run in imported.runs)
+    lines = [*_head(imported), f"format: {FORMAT}", f"name: {quoted(name)}"]
+    lines += ["allow_outside: true"] if outside else []
+    if alike:
+        lines += ["defaults:", *(f"  {line}" for line in _channel_lines(imported.runs[0].finding))]
+        lines += _unused(imported.runs[0].finding, "  ")
+    lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, alike))]
+    return "\n".join(lines) + "\n"
+
+
+def quoted(text: str) -> str:
+    """A text as YAML: plain where that is beyond doubt."""
+    plain = _PLAIN.fullmatch(text) and text.lower() not in _WORDS
+    # a JSON text is a YAML text
+    return text if plain else json.dumps(text, ensure_ascii=False)
+
+
+def _head(imported: Imported) -> Iterable[str]:
+    yield "# A first dataset, written by `dashpot import`. Confirm before you trust a result:"
+    count = len(imported.runs)
+    for remark, names in imported.confirm.items():
+        yield f"# - {_one_line(remark)}{about_runs(names, count)}"
+
+
+def about_runs(names: Iterable[str], count: int) -> str:
+    """Which runs a remark is about, where it is not about all of them."""
+    names = list(names)
+    if len(names) == count:
+        return ""
+    return f" ({_one_line(', '.join(names[:6]))}{f' and {len(names) - 6} more' if len(names) > 6 else ''})"
+
+
+def _run_lines(run: ImportedRun, folder: Path, alike: bool) -> list[str]:
+    finding = run.finding
+    lines = [f"name: {quoted(run.name)}", f"file: {quoted(_relative(run.file, folder))}", f"kind: {finding.kind}"]
+    lines += [f"reader: {run.reader}"] if run.reader else []
+    lines += [f"repeats: {quoted(run.repeats)}"] if run.repeats else []
+    settings = told_settings(finding.settings)
+    lines += [f"settings: {_flow(settings)}"] if settings and not run.repeats else []
+    lines += [f"rows: [{finding.rows[0] + 1}, {finding.rows[1]}]"] if finding.rows else []
+    if not alike:
+        lines += [*_channel_lines(finding), *_unused(finding, "")]
+    return ["  - " + lines[0], *("    " + line for line in lines[1:])]
+
+
+def _relative(file: Path, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(file.resolve(), folder.resolve())).as_posix()
+    except ValueError:
+        # another drive
+        return file.resolve().as_posix()
+
+
+def _channels_text(finding: Finding) -> str:
+    return "\n".join(_channel_lines(finding))
+
+
+def _channel_lines(finding: Finding) -> list[str]:
+    lines = [*_timing(finding.timing)]
+    lines += [f"  {name}: {_channel(found)}{_remark(found)}" for name, found in finding.channels.items()]
+    return ["channels:", *lines]
+
+
+def _timing(timing: Timing) -> Iterable[str]:
+    if timing.column is not None:
+        remark = "   # CONFIRM: " + _one_line("; ".join(timing.confirm)) if timing.confirm else ""
+        yield f"  time: {_flow({'column': quoted(timing.column), 'unit': quoted(timing.unit or 's')})}{remark}"
+    elif timing.sampling:
+        yield f"  sampling: {timing.sampling:.10g} Hz"
+    else:
+        yield "  # CONFIRM: sampling: ... Hz   (no time and no sampling rate was found)"
+
+
+def _channel(found: ChannelFound) -> str:
+    entries = {"column": quoted(found.role.column), "unit": quoted(found.unit.unit)}
+    return _flow(entries | ({"sign": "-1"} if found.sign < 0 else {}))
+
+
+def _remark(found: ChannelFound) -> str:
+    doubts = ["the column"] if found.role.by == "how it moves" else []
+    doubts += ["the unit, which is not stated"] if found.unit.by == GUESSED else []
+    doubts += ["the sign"] if found.sign < 0 else []
+    return f"   # CONFIRM: {' and '.join(doubts)}" if doubts else ""
+
+
+def _unused(finding: Finding, indent: str) -> list[str]:
+    if not finding.unused:
+        return []
+    shown = ", ".join(f"'{name}'" for name in finding.unused[:12]) + (" ..." if len(finding.unused) > 12 else "")
+    return [f"{indent}# columns that are not used: {_one_line(shown)}"]
+
+
+def told_settings(settings: Mapping[str, float]) -> dict[str, str]:
+    """The settings of a run in rig units, to two digits; a preload that hardly counts is zero."""
+    small = _NEGLIGIBLE * settings.get("amplitude", 0.0)
+    rounded = {key: 0.0 if key == "preload" and abs(value) < small else value for key, value in settings.items()}
+    return {key: pretty(value, SETTING_UNITS[key], 2) for key, value in rounded.items()}
+
+
+def _flow(entries: Mapping[str, str]) -> str:
+    return "{" + ", ".join(f"{key}: {text}" for key, text in entries.items()) + "}"
+
+
+def _one_line(text: str) -> str:
+    return "".join(sign if sign.isprintable() else "?" for sign in text)
