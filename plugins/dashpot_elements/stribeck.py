@@ -11,10 +11,11 @@ from dashpot.model.picture import Symbol
 
 
 class Stribeck(Element):
-    """A Dahl slider whose limit falls with speed: limit + (breakaway - limit) exp(-(v/stribeck_velocity)^2).
+    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness (1 - F/L sgn(v)),
+    L = limit + (breakaway - limit) exp(-(v/stribeck_velocity)^2).
 
-    dF/dx = stiffness (1 - F/limit(v) sgn v). The limit is frozen over a step at the mean speed; where the path turns,
-    both pieces have their own. Second order in the step.
+    The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
+    the step.
     """
 
     picture = Symbol.SLIDER

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,6 +18,7 @@ from dashpot import Motion
 from .conftest import ROOT, Installation, install
 
 EXAMPLE = ROOT / "tests" / "example_plugin"
+THINGS = "missing_slider, soft_slider, blank_columns, random_search"
 NETWORK = """\
 format: dashpot-network/1
 name: mount
@@ -41,6 +44,19 @@ runs:
 """
 
 
+def sliding(force: float, travel: float) -> float:
+    """The force in N of a rigid slider of 20 N after a travel."""
+    return 20.0 if travel > 0 else -20.0 if travel < 0 else force
+
+
+def giving_way(force: float, travel: float) -> float:
+    """The force in N of a slider of 30 N and 20 N/mm after a travel in mm: straight back to zero, then exponential."""
+    side, stiffness, limit = (1.0 if travel > 0 else -1.0), 20.0, 30.0
+    back = min(abs(travel), max(0.0, -side * force / stiffness))
+    ahead = limit - (limit - side * force - stiffness * back) * np.exp(-stiffness / limit * (abs(travel) - back))
+    return float(side * ahead)
+
+
 @pytest.fixture(scope="session")
 def with_example(installation: Installation, tmp_path_factory: pytest.TempPathFactory) -> Installation:
     """The installation with the example plugin beside it."""
@@ -53,10 +69,18 @@ def test_the_plugin_is_listed_with_its_distribution(with_example, tmp_path):
     done = with_example.run(tmp_path, "dashpot", "list", "plugins")
     assert done.returncode == 0
     [line] = [line for line in done.stdout.splitlines() if line.startswith("example ")]
-    assert "dashpot-example 0.3.0" in line and line.endswith("soft_slider, random_search")
+    assert "dashpot-example 0.3.0" in line and line.endswith(THINGS)
 
 
-@pytest.mark.parametrize("kind, word", [("elements", "soft_slider"), ("optimizers", "random_search")])
+@pytest.mark.parametrize(
+    "kind, word",
+    [
+        ("elements", "soft_slider"),
+        ("optimizers", "random_search"),
+        ("causes", "missing_slider"),
+        ("formats", "blank_columns"),
+    ],
+)
 def test_its_things_stand_among_the_built_in_ones(with_example, tmp_path, kind, word):
     done = with_example.run(tmp_path, "dashpot", "list", kind)
     [line] = [line for line in done.stdout.splitlines() if line.startswith(word)]
@@ -80,6 +104,22 @@ def test_its_optimizer_identifies_its_element(with_example, tmp_path):
     done = with_example.run(tmp_path, "dashpot", *arguments, DASHPOT_DEBUG="1")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "out" / "mount.yaml").is_file()
+
+
+def test_its_cause_is_suspected_in_files_of_its_format(with_example, tmp_path):
+    (tmp_path / "mount.yaml").write_text(NETWORK.partition("  hysteresis:")[0])
+    measure(tmp_path, ".bench", " ", giving_way)
+    done = with_example.run(tmp_path, "dashpot", "diagnose", "mount.yaml", "dataset.yaml", "-o", "out", "--json")
+    assert done.returncode == 0, done.stderr
+    first = json.loads(done.stdout)["causes"][0]
+    assert "missing_slider" in [first["cause"], *first["indistinguishable_from"]]
+
+
+def test_a_torn_file_of_its_format_is_told_by_line(with_example, tmp_path):
+    measure(tmp_path, ".bench", " ")
+    (tmp_path / "slow.bench").write_text("t x F\n0 1\n")
+    done = with_example.run(tmp_path, "dashpot", "fit", "spring", "dataset.yaml", "-o", "out")
+    assert "line 2: expected 3 numbers, got '0 1'. save the file again" in done.stderr
 
 
 def test_the_allow_list_leaves_it_out(with_example, tmp_path):
@@ -134,14 +174,14 @@ def test_the_example_method_is_short_enough_to_copy():
     assert method.end_lineno - method.lineno + 1 < 15
 
 
-def measure(folder: Path) -> None:
-    """Write a small dataset: triangles of +-2 mm and the force of a spring of 100 N/mm with a hysteresis of 20 N."""
-    (folder / "dataset.yaml").write_text(RUNS)
+def measure(folder: Path, ending: str = ".csv", between: str = ",", friction: Callable = sliding) -> None:
+    """Write a small dataset: triangles of +-2 mm and the force of a spring of 100 N/mm with a hysteresis."""
+    (folder / "dataset.yaml").write_text(RUNS.replace(".csv", ending))
     for name, step in (("slow", 0.05), ("fast", 0.002), ("faster", 0.001)):
-        lines = ["t,x,F"]
+        lines, last, force = [between.join("txF")], 0.0, 0.0
         for index in range(801):
             phase = (index / 200) % 4
-            rising = phase < 1 or phase >= 3
             x = 2 * (phase if phase < 1 else 2 - phase if phase < 3 else phase - 4)
-            lines.append(f"{index * step!r},{x!r},{100 * x + (20 if rising else -20)!r}")
-        (folder / f"{name}.csv").write_text("\n".join(lines) + "\n")
+            last, force = x, friction(force, x - last)
+            lines.append(between.join(map(repr, (index * step, x, 100 * x + force))))
+        (folder / f"{name}{ending}").write_text("\n".join(lines) + "\n")

@@ -1,4 +1,4 @@
-"""An example of a plugin: one element and one optimizer."""
+"""An example of a plugin: an element, an optimizer, a cause and a format."""
 
 from dashpot import hookimpl
 
@@ -17,3 +17,19 @@ def dashpot_optimizers():
     from dashpot_example.random_search import RandomSearch
 
     return [RandomSearch]
+
+
+@hookimpl
+def dashpot_causes():
+    """Suspected causes of this package."""
+    from dashpot_example.missing_slider import MissingSlider
+
+    return [MissingSlider]
+
+
+@hookimpl
+def dashpot_formats():
+    """Readers of this package."""
+    from dashpot_example.blank_columns import BlankColumns
+
+    return [BlankColumns]
