@@ -61,8 +61,11 @@ class CarOnRig(Specimen):
         return measure_car(Car(), folder, seed)
 
 
-def measure_car(car: Car, folder: Path, seed: int) -> Path:
-    """Write the dataset of a car; see ``CarOnRig.measure``."""
+def measure_car(car: Car, folder: Path, seed: int, every: int = 20, axle_sweep: float = AXLE_SWEEP) -> Path:
+    """Write the dataset of a car; see ``CarOnRig.measure``.
+
+    Dynamic runs are sampled at every so many steps of 50 us; sweeps of the axle last ``axle_sweep`` seconds.
+    """
     import numpy as np
 
     target = folder / "dataset.yaml"
@@ -75,12 +78,12 @@ def measure_car(car: Car, folder: Path, seed: int) -> Path:
         )
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(seed)
-    entries = [*_tire_runs(car, folder, rng), *_axle_runs(car, folder, rng)]
+    entries = [*_tire_runs(car, folder, rng, every), *_axle_runs(car, folder, rng, every, axle_sweep)]
     target.write_text(head + "".join(entries), encoding="utf-8")
     return target
 
 
-def _tire_runs(car: Car, folder: Path, rng: np.random.Generator) -> Iterator[str]:
+def _tire_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int) -> Iterator[str]:
     from dashpot_specimens import car_path
     from dashpot_specimens.car_laws import tire_force
 
@@ -96,10 +99,10 @@ def _tire_runs(car: Car, folder: Path, rng: np.random.Generator) -> Iterator[str
         first = f"tire_a{amplitude * 1e3:g}_p{preload * 1e3:g}"
         settings = f"{{amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm, start: 1 Hz, stop: 25 Hz}}"
         about = f"kind: sweep\n    settings: {settings}" + (f"\n    repeats: {first}" if mark else "")
-        yield run(first + mark, preload + car_path.sweep(amplitude, 1.0, 25.0, TIRE_SWEEP), 20, about)
+        yield run(first + mark, preload + car_path.sweep(amplitude, 1.0, 25.0, TIRE_SWEEP), dynamic, about)
 
 
-def _axle_runs(car: Car, folder: Path, rng: np.random.Generator) -> Iterator[str]:
+def _axle_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int, duration: float) -> Iterator[str]:
     import numpy as np
 
     from dashpot_specimens import car_path
@@ -116,10 +119,10 @@ def _axle_runs(car: Car, folder: Path, rng: np.random.Generator) -> Iterator[str
     for name, (depth, side) in slow.items():
         path = car_path.triangle(-depth, depth, SLOW_LOOP)
         yield run(f"axle_{name}", np.array([path, side * path]), 200, 0.0, "kind: quasi_static")
-    path = car_path.sweep(AXLE_AMPLITUDE, 5.0, 20.0, AXLE_SWEEP)
+    path = car_path.sweep(AXLE_AMPLITUDE, 5.0, 20.0, duration)
     for added in ADDED_MASSES:
         settings = f"{{amplitude: {AXLE_AMPLITUDE * 1e3:g} mm, start: 5 Hz, stop: 20 Hz, added_mass: {added:g} kg}}"
-        yield run(f"axle_m{added:g}", np.array([path, path]), 20, added, f"kind: sweep\n    settings: {settings}")
+        yield run(f"axle_m{added:g}", np.array([path, path]), dynamic, added, f"kind: sweep\n    settings: {settings}")
 
 
 def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.random.Generator) -> None:

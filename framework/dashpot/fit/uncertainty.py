@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise
@@ -14,6 +16,7 @@ from dashpot.fit.refine import linearise
 Array = NDArray[np.float64]
 
 LEVEL = 0.975
+NORMAL = 1.959964  # the quantile of LEVEL of a normal distribution
 BLOCK_SECONDS = 0.5
 FEWEST_BLOCKS = 8
 WEAK = 1e-6
@@ -26,6 +29,7 @@ MOST_LEVERAGE = 0.99
 class Uncertainty:
     """``covariance`` (p, p) and half ``widths`` (p,) of the intervals, both in natural steps of the coordinates.
 
+    ``moved`` (k, p), in the same steps, is what each of k systematic deviations does to the numbers.
     ``idle`` names parameters the data do not feel. The interval of an idle parameter, and of one that others can make
     up for entirely, is its whole range.
     """
@@ -35,14 +39,19 @@ class Uncertainty:
     intervals: tuple[tuple[float, float], ...]
     at_bound: tuple[str, ...]
     idle: tuple[str, ...]
+    moved: Array
 
 
-def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Array) -> Uncertainty:
+def assess_uncertainty(
+    objective: Objective, coordinates: Coordinates, point: Array, systematic: Sequence[Array] = ()
+) -> Uncertainty:
     """Sandwich covariance with blocks of half a second, so that coloured noise and small model errors count.
 
-    The score of each block is corrected for what the fit has taken out of it, and the quantile is that of Student's t
-    with the degrees of freedom that the blocks amount to, which are few where a number shows in a narrow band of a
-    sweep only. ``tests/interval_coverage`` measures how often the intervals hold.
+    A block holds the same half second of all runs that were moved alike, since a model errs alike in them. The score of
+    each block is corrected for what the fit has taken out of it, and the quantile is that of Student's t with the
+    degrees of freedom that the blocks amount to, which are few where a number shows in a narrow band of a sweep only.
+    ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, shifts
+    (samples,) of the residual by one standard error of something that the runs cannot tell, widens them in addition.
 
     Sources: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters; Bell and McCaffrey, Survey
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
@@ -56,7 +65,10 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
     root, lost = _inverse_root(normal / np.outer(safe, safe))
     covariance, freedom = _sandwich(residual, jacobian / safe[:, None], _blocks(objective), root)
     covariance /= np.outer(safe, safe)
-    widths = np.where(idle | lost, np.inf, _quantiles(freedom) * np.sqrt(np.diag(covariance)))
+    moved = np.array([-(root @ (root.T @ (jacobian @ shift / safe))) / safe for shift in systematic])
+    moved = moved.reshape(len(systematic), point.size)
+    squares = _quantiles(freedom) ** 2 * np.diag(covariance) + np.sum((NORMAL * moved) ** 2, axis=0)
+    widths = np.where(idle | lost, np.inf, np.sqrt(squares))
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
@@ -65,10 +77,11 @@ def assess_uncertainty(objective: Objective, coordinates: Coordinates, point: Ar
         tuple(_interval(coordinates, k, point[k], widths[k] * coordinates.unit[k]) for k in range(point.size)),
         tuple(np.array(coordinates.paths)[bound].tolist()),
         tuple(np.array(coordinates.paths)[idle].tolist()),
+        moved,
     )
 
 
-def _sandwich(residual: Array, jacobian: Array, blocks: list[slice], root: Array) -> tuple[Array, Array]:
+def _sandwich(residual: Array, jacobian: Array, blocks: list[NDArray[np.int64]], root: Array) -> tuple[Array, Array]:
     """Covariance (p, p) and degrees of freedom (p,) from the scores of the blocks."""
     size = len(jacobian)
     middle, freedom, squares = np.zeros((root.shape[1], root.shape[1])), np.zeros(size), np.zeros(size)
@@ -95,12 +108,15 @@ def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
-def _blocks(objective: Objective) -> list[slice]:
+def _blocks(objective: Objective) -> list[NDArray[np.int64]]:
     found = []
-    for run, piece in zip(objective.runs, objective.pieces, strict=True):
+    for group in moved_alike(objective.runs):
+        run = objective.runs[group[0]]
         length = max(1, min(round(BLOCK_SECONDS / run.drive.dt), run.samples // FEWEST_BLOCKS))
-        edges = range(piece.start, piece.stop, length)
-        found += [slice(first, min(first + length, piece.stop)) for first in edges]
+        pieces = [np.arange(objective.pieces[number].start, objective.pieces[number].stop) for number in group]
+        longest = max(piece.size for piece in pieces)
+        found += [np.concatenate([piece[first : first + length] for piece in pieces])
+                  for first in range(0, longest, length)]  # fmt: skip
     return found
 
 

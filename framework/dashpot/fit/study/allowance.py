@@ -1,0 +1,70 @@
+"""What a part that was identified by itself brings along: the error of its force, which the whole cannot tell."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.api import Setting
+from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.result import FitResult
+from dashpot.model.network import NetworkSpec
+from dashpot.text.quantity import force_dimension
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Allowance:
+    """The relative standard error ``share`` of the force of a ``branch``, taken from the misfit of its ``model``.
+
+    ``shift`` (samples,) is what one standard error does to the residual of the whole.
+    """
+
+    branch: str
+    model: str
+    share: float
+    shift: Array
+
+
+@dataclass(frozen=True)
+class Owed:
+    """What one standard error of a part, ``share`` of its force, does to the ``numbers`` (SI, by path) of the whole."""
+
+    branch: str
+    model: str
+    share: float
+    numbers: Mapping[str, float]
+
+
+def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
+    """The allowance for the force of a branch of the objective's network, at the numbers of its file."""
+    network = objective.network
+    lanes = np.repeat(np.atleast_2d(network.start)[:1], 2, axis=0)
+    lanes[1, force_slots(network.spec, branch)] *= 1.0 + share
+    base, moved = objective.residuals(lanes)
+    return Allowance(branch, model, share, moved - base)
+
+
+def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
+    """The numbers of a branch that are proportional to its force: moved alike, they move the force alike."""
+    return [number for number, slot in enumerate(spec.slots())
+            if slot.path.startswith(f"{branch}.") and force_dimension(slot.value.unit) == 1]  # fmt: skip
+
+
+def force_error(fit: FitResult, setting: Setting) -> float:
+    """The misfit of a model above the noise, as a share of how much the forces vary in its training runs."""
+    forces = [run.force[run.first :] for run in setting.train]
+    swing = np.sqrt(np.mean([np.var(force) for force in forces]))
+    misfit = max(fit.errors.train**2 - (setting.floor.value or 0.0) ** 2, 0.0)
+    return float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0
+
+
+def effect(coordinates: Coordinates, moved: Array) -> dict[str, float]:
+    """A movement (p,) in natural steps of the coordinates, from their start, in SI by path."""
+    before, after = (coordinates.numbers(coordinates.start + step) for step in (0.0, moved * coordinates.unit))
+    return {path: end - start for path, start, end in zip(coordinates.paths, before, after, strict=True)}

@@ -1,0 +1,57 @@
+"""The error of a part that was identified by itself reaches the numbers of the whole."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.fit.bench import STIFFNESS, ready, runs
+
+from dashpot.fit.study.allowance import allowance, effect, force_slots
+from dashpot.fit.uncertainty import assess_uncertainty
+
+PART = 8e4
+SPRINGS = f"""
+    part: {{element: spring, stiffness: {PART}}}
+    rest: {{element: spring, stiffness: {{start: {STIFFNESS - PART}}}}}
+"""
+
+
+def springs(x, v, a):
+    return STIFFNESS * x
+
+
+def assessed(share: float):
+    rng = np.random.default_rng()
+    scored = runs(springs)
+    for each in scored:
+        each.force[:] += rng.standard_normal(each.force.size)
+    _, objective, coordinates = ready(SPRINGS, scored)
+    allowed = allowance(objective, "part", "spring", share)
+    plain = assess_uncertainty(objective, coordinates, coordinates.start)
+    return coordinates, plain, assess_uncertainty(objective, coordinates, coordinates.start, [allowed.shift])
+
+
+def test_a_stiffer_part_leaves_less_stiffness_to_the_rest():
+    coordinates, _, known = assessed(0.001)
+    moved = effect(coordinates, known.moved[0])["rest.stiffness"]
+    assert moved == pytest.approx(-0.001 * PART, rel=1e-3)
+
+
+def test_the_interval_is_wider_by_the_square_of_what_the_part_owes():
+    coordinates, plain, known = assessed(0.02)
+    statistical, whole = (np.diff(np.log(each.intervals[0]))[0] / 2.0 for each in (plain, known))
+    owed = 1.96 * 0.02 * PART / (STIFFNESS - PART)
+    assert whole == pytest.approx(np.hypot(statistical, owed), rel=1e-3)
+    assert whole > 5.0 * statistical
+
+
+def test_all_that_carries_force_scales_and_nothing_else():
+    spec, *_ = ready(
+        """
+        part: {element: maxwell, stiffness: {start: 1e4}, relaxation_time: {start: 0.02}}
+        other: {element: damper, damping: {start: 10}}
+        """,
+        runs(),
+    )
+    names = [slot.path for slot in spec.slots()]
+    assert [names[number] for number in force_slots(spec, "part")] == ["part.stiffness"]

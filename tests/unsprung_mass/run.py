@@ -1,0 +1,117 @@
+"""The unsprung masses of random cars: `python tests/unsprung_mass/run.py --cars 30`.
+
+Every car is drawn anew (mass, tire, shock absorber, friction; every other one has rubber top mounts) and measured on
+the virtual rigs by the laws of `test_car`, none of which is an element of dashpot. The shipped study identifies it from
+the files alone; then the true mass is compared. Printed are each car as it comes, and at the end how far off the masses
+are and how often the 95 % intervals hold the truth.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import secrets
+import tempfile
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import replace
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+STUDY = "unsprung_mass"
+EVERY, SWEEP = 40, 10.0  # 500 Hz, 10 s: a quarter of the samples of the shipped specimen
+
+
+def identify_car(seed: int, number: int) -> dict[str, Any]:
+    """The true mass of one car, and what the study finds, with every model."""
+    from dashpot import load_registry
+    from dashpot.assess.study import study_content
+    from dashpot.data.dataset import read_dataset
+    from dashpot.fit.study.reading import find_study, read_study
+    from dashpot.fit.study.run import run_study
+    from dashpot_specimens.test_car import measure_car, random_car
+
+    registry = load_registry()
+    car = random_car(np.random.default_rng([seed, number]), mount=number % 2 == 1)
+    with tempfile.TemporaryDirectory() as folder:
+        path = measure_car(car, Path(folder), seed, EVERY, SWEEP)
+        dataset = read_dataset(path, {word: reader() for word, reader in registry.formats.items()})
+        study = replace(read_study(find_study(STUDY), registry), hold_out=())
+        content = study_content(run_study(study, dataset, registry=registry))
+    return {
+        "number": number,
+        "truth": car.wheel_mass,
+        "mount": car.mount_stiffness,
+        "models": [
+            {"name": model["name"], "error": model["rmse"]["train"], **mass}
+            for model in content["models"] for mass in model["masses"]
+        ],
+        "tire": content["models"][0]["rmse"]["train"],
+        "masses_without_tire": [model["masses_without_tire"] for model in content["models"][1:]],
+    }  # fmt: skip
+
+
+def answer(car: dict[str, Any]) -> dict[str, Any]:
+    """The mass of the model that errs least."""
+    return min(car["models"], key=lambda model: model["error"])
+
+
+def lines(cars: list[dict[str, Any]]) -> Iterator[str]:
+    """The table and the shares."""
+    yield " car  mount N/mm  true kg  found kg  95 % interval       off %  error N  model"
+    for car in sorted(cars, key=lambda car: car["number"]):
+        yield line(car)
+    for what, chosen in (("bolted", [c for c in cars if np.isinf(c["mount"])]),
+                         ("top mount", [c for c in cars if np.isfinite(c["mount"])]), ("all", cars)):  # fmt: skip
+        if chosen:
+            off = np.array([100.0 * (answer(car)["value"] / car["truth"] - 1.0) for car in chosen])
+            held = sum(holds(car) for car in chosen)
+            yield (f"{what}: {len(chosen)} cars, {off.mean():+.2f} % in the mean, {off.std():.2f} % scatter, "
+                   f"largest {np.abs(off).max():.2f} %, within 0.4 %: {np.sum(np.abs(off) <= 0.4)}; "
+                   f"the interval holds the truth in {held} = {100.0 * held / len(chosen):.0f} %")  # fmt: skip
+
+
+def line(car: dict[str, Any]) -> str:
+    """One car of the table."""
+    found = answer(car)
+    low, high = found["interval"]
+    off = 100.0 * (found["value"] / car["truth"] - 1.0)
+    mark = "" if holds(car) else "  outside"
+    return (f"{car['number']:4d}  {1e-3 * car['mount']:10.0f}  {car['truth']:7.3f}  {found['value']:8.3f}  "
+            f"{low:7.3f} to {high:7.3f}  {off:+6.2f}  {found['error']:7.2f}  {found['name']}{mark}")  # fmt: skip
+
+
+def holds(car: dict[str, Any]) -> bool:
+    """Whether the interval holds the true mass."""
+    low, high = answer(car)["interval"]
+    return bool(low <= car["truth"] <= high)
+
+
+def main() -> None:
+    """Draw, identify and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cars", type=int, default=30)
+    parser.add_argument("--first", type=int, default=0, help="number of the first car")
+    parser.add_argument("--seed", type=int, default=None, help="drawn where it is not given, and printed")
+    parser.add_argument("--jobs", type=int, default=1, help="cars at the same time")
+    parser.add_argument("--output", type=Path, help="a file for every car's result, as lines of JSON")
+    asked = parser.parse_args()
+    seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
+    print(f"seed {seed}", flush=True)
+    cars = []
+    with ProcessPoolExecutor(asked.jobs, mp_context=get_context("spawn")) as pool:
+        waiting = [pool.submit(identify_car, seed, asked.first + number) for number in range(asked.cars)]
+        for each in as_completed(waiting):
+            cars.append(each.result())
+            print(line(cars[-1]), flush=True)
+            if asked.output:
+                with asked.output.open("a") as stream:
+                    stream.write(json.dumps({"seed": seed, **cars[-1]}) + "\n")
+    print(*lines(cars), sep="\n")
+
+
+if __name__ == "__main__":
+    main()
