@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 REPORTS := dashpot-demo
 
 .DELETE_ON_ERROR:
-.PHONY: demo test types clean
+.PHONY: demo test types docs clean
 
 demo: $(VENV)/installed
 	$(BIN)/dashpot demo --output $(REPORTS) --force
@@ -19,8 +19,12 @@ test: $(VENV)/installed-for-tests
 types: $(VENV)/installed-for-tests
 	$(BIN)/mypy
 
+docs: $(VENV)/installed-for-tests
+	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet docs docs/_build/html
+	@echo docs/_build/html/index.html
+
 clean:
-	rm -rf $(VENV) $(REPORTS) build dist
+	rm -rf $(VENV) $(REPORTS) build dist docs/_build docs/generated
 
 # The stamps are renewed when pyproject.toml changes; the sources are installed in place and need no stamp.
 $(VENV)/installed: pyproject.toml | $(BIN)/python

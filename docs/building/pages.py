@@ -1,0 +1,293 @@
+"""The pages that come from the registry, the commands, the public names and the kept results."""
+
+from __future__ import annotations
+
+import doctest
+import inspect
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+
+import dashpot
+from building.law import Term, clauses, mathml, symbol
+from dashpot.cli.shell import VERBS
+from dashpot.cli.shell import dashpot as command
+from dashpot.model.shipped import shipped_networks
+from dashpot.report.schematic.svg import svg
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+
+from architecture import written  # noqa: E402
+
+
+def elements() -> Iterator[str]:
+    """Every element: its equations, its symbols, and what the generated list says."""
+    yield "# Elements"
+    yield (
+        "Deflection $x > 0$ squeezes, $v$ is its rate and $a$ the rate of that; a force $F > 0$ presses apart. The "
+        "equations are set from the docstring of each class, the tables from its declarations, and the last lines are "
+        "its source: what is compiled is derived from them."
+    )
+    for word, made in written.things("elements").items():
+        yield from element(word, made)
+
+
+def element(word: str, made: type[Any]) -> Iterator[str]:
+    """One element."""
+    numbers = {**made.declares.curves, **made.declares.parameters}
+    symbols = {key: number.symbol for key, number in numbers.items()}
+    yield f"## `{word}`"
+    yield from written.paragraphs(made)
+    yield raw("".join(_clause(clause, symbols) for clause in clauses(made)))
+    titles = ("symbol", "key", "meaning", "unit", "sensible range, search scale", "default")
+    rows = [(_inline(number.symbol), *written._number_row(key, number)) for key, number in numbers.items()]
+    yield written.table(titles, rows)
+    if made.declares.states:
+        states = made.declares.states.values()
+        yield f"Memory: {', '.join(f'{state.about} ({state.unit})' for state in states)}."
+    if made.source:
+        yield f"Source: {made.source}."
+    yield from folded("What the class says", "python", inspect.cleandoc(inspect.getsource(made.step)))
+
+
+def networks() -> Iterator[str]:
+    """Every shipped network: its schematic, its text."""
+    yield "# Shipped networks"
+    yield '`dashpot fit NAME ...` takes them by name; `dp.load("NAME")` too. Copy the text to change it.'
+    for name, path in shipped_networks().items():
+        model = dashpot.load(name)
+        yield f"## `{name}`"
+        yield model.about
+        yield raw(f'<p class="schematic">{inline_picture(name, svg(model))}</p>')
+        if model.source:
+            yield f"Source: {model.source}"
+        yield from folded("The file", "yaml", path.read_text(encoding="utf-8").rstrip())
+
+
+def commands() -> Iterator[str]:
+    """Every verb with its arguments and options, as `--help` tells them."""
+    yield "# Commands"
+    yield "`dashpot VERB --help` says the same. A SPEC is a network file or a shipped name."
+    for name in VERBS:
+        context = click.Context(command, info_name="dashpot")
+        verb = command.get_command(context, name)
+        assert verb is not None
+        inner = click.Context(verb, info_name=name, parent=context)
+        yield f"## `dashpot {name}`"
+        yield f"```text\n{' '.join(verb.get_usage(inner).split())}\n```"
+        yield from told(inspect.cleandoc(verb.help or ""))
+        options = [option.get_help_record(inner) for option in verb.params if isinstance(option, click.Option)]
+        rows = [(f"`{record[0]}`", record[1]) for record in options if record]
+        if rows:
+            yield written.table(("option", "meaning"), rows)
+
+
+def told(words: str) -> Iterator[str]:
+    """The help of a verb: what click is told to leave as it is stands as code."""
+    for paragraph in words.split("\n\n"):
+        title, mark, block = paragraph.partition("\b\n")
+        if not mark:
+            yield title
+            continue
+        head, _, rest = block.partition("\n")
+        if rest and not head.startswith(" ") and head.endswith(":"):
+            yield head
+            block = rest
+        yield f"```sh\n{inspect.cleandoc(block)}\n```"
+
+
+def python() -> Iterator[str]:
+    """Every public name with its docstring; the examples run as a test, one after the other."""
+    yield "# Python"
+    yield (
+        "Every name below is an attribute of `dashpot`; the examples write `import dashpot as dp`. They are run one "
+        "after the other in a folder with the dataset `mount/` and the model `mount.yaml`, and go on from one another."
+    )
+    for home, names in public_names().items():
+        yield f"## {home}"
+        for name in names:
+            yield f"### `{name}`"
+            yield from documented(name, getattr(dashpot, name))
+
+
+def public_names() -> Mapping[str, list[str]]:
+    """The public names by what they are for."""
+    titles = {"notebook": "In a notebook", "kernel": "Energy", "fit": "Studies"}
+    found: dict[str, list[str]] = {}
+    for home, names in dashpot._HOMES.items():
+        title = titles.get(home.split(".")[1], "For authors of plugins")
+        found.setdefault(title, []).extend(names)
+    return found
+
+
+def documented(name: str, thing: Any) -> Iterator[str]:
+    """Signature, words and example of one name, methods of a class included."""
+    if name == "fit":
+        thing = dashpot._verb()
+    if callable(thing) and not inspect.isclass(thing):
+        yield f"```python\ndp.{name}{inspect.signature(thing)}\n```".replace("'", "")
+    yield from docstring(thing.__doc__ or "")
+    if inspect.isclass(thing) and "notebook" in thing.__module__:
+        rows = [(f"`{key}`", _first_line(member)) for key, member in vars(thing).items() if not key.startswith("_")]
+        if rows := [row for row in rows if row[1]]:
+            yield written.table(("has", "which is"), rows)
+
+
+def docstring(text: str) -> Iterator[str]:
+    """A docstring as Markdown, its example as code."""
+    for number, piece in enumerate(inspect.cleandoc(text).replace("``", "`").split("Examples:\n")):
+        if number == 0:
+            yield piece.strip()
+        else:
+            yield f"```pycon\n{inspect.cleandoc(piece)}\n```"
+
+
+def examples(thing: Any) -> list[doctest.Example]:
+    """The examples in a docstring."""
+    return doctest.DocTestParser().get_examples(inspect.cleandoc(thing.__doc__ or ""))
+
+
+def accuracy() -> Iterator[str]:
+    """The kept results of the blind benchmark, each with its version, its seeds and its number of cases."""
+    yield "# How often a diagnosis is right"
+    yield (
+        "Virtual specimens with something hidden in them, or nothing, were measured on a virtual rig and diagnosed; they "
+        "share no code with dashpot, and the label was opened after the verdict. So few cases leave a wide margin: mind "
+        "the intervals. What is counted as a family are causes whose forms overlap, such as friction and softening with "
+        "amplitude."
+    )
+    for path in sorted((ROOT / "tests" / "blind" / "results").glob("*.json")):
+        yield from _kept(path.stem, json.loads(path.read_text(encoding="utf-8")))
+
+
+def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
+    version, _, kind = name.partition("-")
+    last = found["seed"] + found["cases"] - 1
+    yield f"## {found['cases']} cases of dashpot {version}" + (f", {kind}: nothing hidden" if kind else "")
+    yield (
+        f"Seeds {found['seed']} to {last}; `python tests/blind/run.py --cases {found['cases']} --seed {found['seed']}"
+        + (f" --kind {kind}" if kind else "")
+        + f"` repeats them. A diagnosis took {found['seconds']:.0f} s in the median, on two cores that did other work at "
+        "the same time."
+    )
+    yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))
+    yield written.table(
+        ("seed", "model that was diagnosed", "hidden", "effect over noise", "verdict", "named"),
+        [
+            (str(case["seed"]), f"`{case['base']}`", _words(case["hidden"]) or "nothing", f"{case['strength']:.2g}",
+             case["verdict"].replace("_", " "), _words(case["named"]) or "nothing")
+            for case in found["outcomes"]
+        ],
+    )  # fmt: skip
+
+
+RATES = {
+    "first_right": "the first name is a hidden effect",
+    "family_right": "the first name is a hidden effect or one of its family",
+    "in_first_three": "a hidden effect is among the first three names and the rivals of the first",
+    "exact": "exactly the hidden effects are named",
+    "confidently_wrong": "it says all is explained, by a cause outside the family",
+    "false_alarms": "something is named where nothing is hidden",
+}
+
+
+def _rates(found: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    from scipy.stats import binomtest
+
+    for key, words in RATES.items():
+        count, of = found[key]
+        if of:
+            low, high = binomtest(count, of).proportion_ci(method="exact")
+            yield words, f"{count} of {of}", f"{low:.0%} to {high:.0%}"
+
+
+def benchmarks() -> Iterator[str]:
+    """The kept benchmark, as its page in the tests has it."""
+    page = (ROOT / "tests" / "benchmarks" / "README.md").read_text(encoding="utf-8")
+    yield page.replace("<!-- written: results -->", "").replace("<!-- end: results -->", "")
+
+
+def _words(names: list[str]) -> str:
+    return ", ".join(name.replace("_", " ") for name in names)
+
+
+def _section(title: str, text: str, write: Callable[[], Iterator[str]]) -> Callable[[], Iterator[str]]:
+    def page() -> Iterator[str]:
+        yield f"# {title}"
+        yield text
+        # on a page of their own the things are one level higher
+        yield from (part.replace("### `", "## `", 1) if part.startswith("### `") else part for part in write())
+
+    return page
+
+
+PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
+    "elements": elements,
+    "networks": networks,
+    "causes": _section("Causes", "What a diagnosis can name. A plugin adds [causes of its own](../how-to/own-cause.md).",
+                       written.causes),
+    "optimizers": _section("Optimizers", "`--optimizer WORD`, options as `--set OPTION=VALUE`, or `dp.fit(..., optimizer=, "
+                           "options=)`. A plugin adds [methods of its own](../how-to/own-optimizer.md).", written.optimizers),
+    "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run overrides "
+                        "it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
+    "rigs": _section("Rigs", "`dashpot simulate SPEC --rig WORD` or `dp.measure(model, \"WORD\", ...)`.", written.rigs),
+    "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
+                          written.specimens),
+    "commands": commands,
+    "python": python,
+    "accuracy": accuracy,
+    "benchmarks": benchmarks,
+}  # fmt: skip
+
+
+def write_pages(folder: Path) -> None:
+    """Write every page into the folder; a file is touched only when it changes."""
+    folder.mkdir(exist_ok=True)
+    for name, write in PAGES.items():
+        put(folder / f"{name}.md", "\n\n".join(write()) + "\n")
+
+
+def put(path: Path, text: str) -> None:
+    """Write a text unless it is there."""
+    if not path.is_file() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def raw(html: str) -> str:
+    """HTML in a page."""
+    return f"````{{raw}} html\n{html}\n````"
+
+
+def folded(title: str, language: str, text: str) -> Iterator[str]:
+    """A code block that is opened by a press."""
+    yield raw(f"<details><summary>{title}</summary>")
+    yield f"```{language}\n{text}\n```"
+    yield raw("</details>")
+
+
+def inline_picture(title: str, drawing: str) -> str:
+    """A drawing as an image that is part of the page."""
+    from base64 import b64encode
+
+    return f'<img alt="{title}" src="data:image/svg+xml;base64,{b64encode(drawing.encode()).decode()}">'
+
+
+def _clause(clause: list[str | Term], symbols: Mapping[str, str]) -> str:
+    pieces = [mathml(piece, symbols) if isinstance(piece, Term) else f"<p>{piece}</p>" for piece in clause]
+    return "".join(pieces) if any(isinstance(piece, Term) for piece in clause) else ""
+
+
+def _inline(text: str) -> str:
+    return f"<math>{symbol(text)}</math>" if text else ""
+
+
+def _first_line(member: Any) -> str:
+    text = (
+        inspect.getdoc(member) if callable(member) or isinstance(member, property) else getattr(member, "__doc__", "")
+    )
+    return (text or "").split("\n\n")[0].replace("\n", " ").replace("``", "`")
