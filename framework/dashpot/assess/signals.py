@@ -75,10 +75,11 @@ def _averaged(stiffness: DynamicStiffness, points: int) -> DynamicStiffness:
     return average_bands(stiffness, np.linspace(low * (1.0 - 1e-9), high * (1.0 + 1e-9) + 1e-9, points + 1))
 
 
-def _response(stiffness: Any) -> dict[str, Array]:
+def _response(stiffness: DynamicStiffness) -> dict[str, Array]:
     return {
-        "stiffness": np.hypot(stiffness.storage, stiffness.loss),
-        "loss_angle": np.arctan2(stiffness.loss, stiffness.storage),
+        "stiffness": stiffness.magnitude,
+        "loss_angle": stiffness.loss_angle,
+        "force": stiffness.magnitude * stiffness.amplitude,
     }
 
 

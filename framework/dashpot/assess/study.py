@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from dashpot.assess.axle_study import axle_content, axle_evidence, model_content
 from dashpot.assess.compare import Comparison
 from dashpot.fit.identifiability import Identifiability
 from dashpot.fit.study.preview import Preview
@@ -23,7 +24,7 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
     content = comparison_of(result).as_dict()
     family = [model["name"] for model in content["models"]]
-    models = [{**_row(model, result.study.seed), **_model(model)} for model in result.models]
+    models = [{**_row(model, result.study.seed), **_model(model), **model_content(model)} for model in result.models]
     study = {
         "name": result.study.name,
         "about": result.study.about,
@@ -31,12 +32,14 @@ def study_content(result: StudyResult) -> dict[str, Any]:
         "amplitude": result.study.amplitude,
         "compared": family,
     }
-    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models}
+    axle = axle_content(result.models)
+    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models, "axle": axle}
 
 
 def study_evidence(result: StudyResult) -> Any:
-    """Arrays and texts for the report: those of the comparison."""
-    return comparison_of(result).evidence()
+    """Arrays and texts for the report: those of the comparison, and those of an axle."""
+    evidence = comparison_of(result).evidence()
+    return evidence | axle_evidence(result.models, evidence["dynamic_stiffness"])
 
 
 def preview_content(name: str, previews: Sequence[Preview]) -> dict[str, Any]:
@@ -60,7 +63,7 @@ def preview_text(previews: Sequence[Preview]) -> str:
         cost = f"at most {each.budget} parameter vectors" if each.budget else "nothing to search"
         blocks.append("\n".join([f"{head}; {cost}", *(f"  {text}" for text in each.known.sentences)]))
     noise = (
-        f"At the start values, with the {previews[0].noise:.3g} N of the noise floor taken as white."
+        f"At the start values, with noise of {previews[0].noise:.3g} N in the colour that the records show."
         if previews
         else ""
     )
@@ -76,6 +79,7 @@ def _model(model: ModelResult) -> dict[str, Any]:
     fit = model.fit
     return {
         "masses": _masses(model),
+        "held_out": list(model.setting.split.held_out),
         "optimizer": fit.optimizer,
         "evaluations": fit.evaluations,
         "at_bound": list(fit.at_bound),
@@ -119,5 +123,6 @@ def _stage(stage: StageResult) -> dict[str, Any]:
         "failures": stage.failures,
         "ending": stage.ending,
         "remark": stage.remark,
+        "converged": stage.converged,
         "spread": list(stage.spread),
     }

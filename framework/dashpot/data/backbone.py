@@ -58,7 +58,7 @@ def extract_backbone(displacement: np.ndarray, force: np.ndarray, knots: int | N
         deflection=places,
         force=fit_rising(loop.deflection, loop.middle, places),
         half_width=np.interp(places, loop.deflection, loop.half_width),
-        friction=_interior_width(loop),
+        friction=interior_width(loop),
         complete=loop.complete,
         loops=loop.count,
     )
@@ -97,7 +97,7 @@ def friction_start(displacement: np.ndarray, force: np.ndarray) -> FrictionStart
             "expected a loop with loading and unloading, got one direction only; "
             "give the friction start values by hand, or a run that turns round"
         )
-    limit = _interior_width(loop)
+    limit = interior_width(loop)
     if limit <= 0.0:
         raise ValueError(
             f"expected a loop that dissipates, got a half width of {limit:.3g} N; there is no friction to start from, "
@@ -130,7 +130,8 @@ def _knots(loop: Loop, knots: int | None) -> np.ndarray:
     return np.linspace(start, stop, count)
 
 
-def _interior_width(loop: Loop) -> float:
+def interior_width(loop: Loop) -> float:
+    """Half the width of a loop in its middle half, where friction is fully developed, N."""
     low, high = np.quantile(loop.deflection, _INTERIOR)
     return float(np.median(loop.half_width[(loop.deflection >= low) & (loop.deflection <= high)]))
 

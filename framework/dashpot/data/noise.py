@@ -86,8 +86,14 @@ def noise_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time:
 
     A lower bound: slow noise hides under the motion. Unknown when the motion leaves no frequencies free.
     """
+    spectrum = spectrum_above_motion(displacement, force, sample_time)
+    return UNKNOWN if spectrum is None else replace(_floor(spectrum, len(force)), lower_bound=True)
+
+
+def spectrum_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time: float) -> NoiseSpectrum | None:
+    """The spectrum behind `noise_above_motion`; None when the motion leaves no frequencies free."""
     if len(force) < _FEWEST_SAMPLES:
-        return UNKNOWN
+        return None
     frequency, densities = _densities(displacement, sample_time)
     motion = np.mean(densities, axis=0)
     # The noise of the sensor, told from a fast motion by what there is close to the Nyquist frequency.
@@ -95,11 +101,10 @@ def noise_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time:
     excited = motion > max(_ABOVE_NOISE * own, _SPECTRUM_END * float(np.max(motion)))
     free = _HARMONICS * float(np.max(frequency[excited], initial=0.0))
     if free > _HIGHEST / sample_time:
-        return UNKNOWN
+        return None
     seen = frequency > free
     densities = _densities(force, sample_time)[1][:, seen]
-    spectrum = collect_spectrum(np.tile(frequency[seen], len(densities)), densities.ravel(), sample_time)
-    return replace(_floor(spectrum.flat_below(), len(force)), lower_bound=True)
+    return collect_spectrum(np.tile(frequency[seen], len(densities)), densities.ravel(), sample_time).flat_below()
 
 
 def pool_noise(floors: Sequence[NoiseFloor]) -> NoiseFloor:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise
 
@@ -16,6 +19,7 @@ Array = NDArray[np.float64]
 WEAK, LOST = 0.1, 1.0  # standard deviation in natural steps: of 10 %, of a factor of e
 NOTHING = 3.0  # standard deviation from which nothing is known but what other numbers leave over
 FELT = 1e-9
+SMALLEST = 1e-7  # of the longest axis of the Jacobian: what is shorter is not told from nothing
 SHARE = 0.35  # of the largest part of a direction, from which a part is named
 NAMED, SHOWN = 4, 6
 
@@ -76,32 +80,37 @@ class Identifiability:
         return [path for path, deviation in self.deviations.items() if deviation < WEAK]
 
 
-def identifiability(objective: Objective, coordinates: Coordinates, point: Array, noise: float) -> Identifiability:
-    """The Fisher information at a point (p,) under white noise of the force (root mean square, N).
+def identifiability(
+    objective: Objective, coordinates: Coordinates, point: Array, noise: Mapping[str, NoiseSpectrum]
+) -> Identifiability:
+    """How well a fit of this objective would know the numbers at a point (p,), whose force has this ``noise`` by run.
 
-    ``objective`` counts every sample alike: it is made with `unweighted`.
+    The information is the inverse of the covariance of the weighted least-squares estimate, W J N J' W with W the
+    inverse of J J' and N the covariance of the noise, whose colour counts; for white noise that is Fisher's.
+    ``objective`` may weigh runs but not whiten them.
     """
     _, jacobian = linearise(objective, coordinates, point)
-    fisher = jacobian @ jacobian.T / noise**2
-    size = np.sqrt(np.diag(fisher))
+    size = np.sqrt(np.sum(jacobian**2, axis=1))
     idle = size < FELT * max(size.max(initial=0.0), 1e-300)
     felt = np.flatnonzero(~idle)
-    values, vectors = np.linalg.eigh(fisher[np.ix_(felt, felt)])
-    values = np.maximum(values, 1e-15 * values[-1]) if values.size else values
-    spread = np.sqrt(np.sum(vectors**2 / values, axis=1))
     paths = [coordinates.paths[k] for k in felt]
+    idle_paths = tuple(np.array(coordinates.paths)[idle].tolist())
+    if not felt.size:
+        return Identifiability(1.0, {}, (), idle_paths)
+    axes, lengths, rows = np.linalg.svd(jacobian[felt] / size[felt, None], full_matrices=False)
+    scores = sum(objective.factor(number) ** 2 * variance_of(rows[:, piece], noise[run.name])
+                 for number, (run, piece) in enumerate(zip(objective.runs, objective.pieces, strict=True)))  # fmt: skip
+    root = axes / np.maximum(lengths, SMALLEST * lengths[0]) / size[felt, None]
+    covariance = root @ scores @ root.T
+    values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
+    values, vectors = np.maximum(values[::-1], 1e-15 * values[-1]), vectors[:, ::-1]
     loose = [_direction(paths, vector, value) for value, vector in zip(values, vectors.T, strict=True)]
     return Identifiability(
-        float(values[-1] / values[0]) if values.size else 1.0,
-        dict(zip(paths, spread.tolist(), strict=True)),
+        float(values[0] / values[-1]),
+        dict(zip(paths, np.sqrt(np.diag(covariance)).tolist(), strict=True)),
         tuple(direction for direction in loose if direction.deviation > WEAK),
-        tuple(np.array(coordinates.paths)[idle].tolist()),
+        idle_paths,
     )
-
-
-def unweighted(run: str, misfits: Array) -> Array:
-    """For `Objective(whiten=...)`: every sample counts alike, in N."""
-    return misfits
 
 
 def number_in_words(path: str) -> str:
@@ -112,7 +121,7 @@ def number_in_words(path: str) -> str:
 
 def _direction(paths: list[str], vector: Array, value: float) -> Direction:
     order = np.argsort(-np.abs(vector), kind="stable")
-    return Direction(float(value**-0.5), tuple((paths[k], float(vector[k])) for k in order))
+    return Direction(float(np.sqrt(value)), tuple((paths[k], float(vector[k])) for k in order))
 
 
 def _percent(deviation: float) -> str:

@@ -165,10 +165,14 @@ class Objective:
             found[list(team)] = score[[self.network.number_of(self.runs[number].end) for number in team]]
         return found
 
+    def factor(self, number: int) -> float:
+        """By what the misfits of a run are multiplied, where they are not whitened."""
+        return float(np.sqrt(self.shares[number] * self.total / (len(self.runs) * self.runs[number].samples)))
+
     def _weigh(self, number: int, misfits: Array) -> None:
         run, piece = self.runs[number], self.pieces[number]
         if self.whiten is None:
-            misfits[:, piece] *= np.sqrt(self.shares[number] * self.total / (len(self.runs) * run.samples))
+            misfits[:, piece] *= self.factor(number)
         else:
             misfits[:, piece] = self.whiten(run.name, misfits[:, piece])
 

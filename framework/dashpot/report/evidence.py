@@ -29,7 +29,8 @@ class Residuals(TypedDict):
 
 
 class Curve(TypedDict, total=False):
-    """Dynamic stiffness of one run: `frequency` (n,) Hz; a response has `stiffness` N/m and `loss_angle` rad, (n,)."""
+    """Dynamic stiffness of one run: `frequency` (n,) Hz; a response has `stiffness` N/m, `loss_angle` rad and `force`,
+    the amplitude of its first order in N, each (n,)."""
 
     run: str
     amplitude: float | None  # m
@@ -37,6 +38,17 @@ class Curve(TypedDict, total=False):
     frequency: np.ndarray
     measured: Signals
     simulated: Mapping[str, Signals]  # label -> response
+
+
+class Contact(TypedDict):
+    """Amplitude of the contact force of one wheel in one run: `frequency` (n,) Hz, `measured` (n,) N."""
+
+    run: str
+    wheel: str
+    added_mass: float  # kg
+    frequency: np.ndarray
+    measured: np.ndarray
+    simulated: ByRun  # label -> (n,) N
 
 
 class MisfitRow(TypedDict):
@@ -92,6 +104,8 @@ class Evidence(TypedDict, total=False):
     dynamic_stiffness: Sequence[Curve]
     harmonics: Mapping[str, Mapping[str, Sequence[float]]]  # label -> group -> harmonics 1, 2, ... (N)
     misfit_map: Sequence[MisfitRow]
+    contact_response: Sequence[Contact]
+    slow_curves: Mapping[str, Mapping[str, Signals]]  # "measured" or model -> part; see `figures.slow_curves`
     history: Mapping[str, Progress]  # fit -> progress
     patch: Patch
     schematic: Mapping[str, str]  # title -> drawing in SVG

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from dashpot.report import figures
+from dashpot.report.axle import axle_sections
 from dashpot.report.comparison import best_model, comparison_page
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
@@ -18,6 +19,7 @@ Json = Mapping[str, Any]
 
 MOST_KNOTS = 8
 ALIKE = 0.02  # amplitudes that differ by less are the same test
+ALIKE_LOSS = 1.01  # starts that end within this factor of the best one agree with it
 
 
 def study_page(study: Json, evidence: Evidence) -> Page:
@@ -25,7 +27,7 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     compared = [model for model in study["models"] if model["name"] in study["study"]["compared"]]
     page = comparison_page({**study, "models": compared}, evidence)
     first, *others = page.sections
-    added = [_masses(study), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    added = [*axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
     return replace(
@@ -73,31 +75,6 @@ def intervals_grid(model: Json) -> Grid:
     return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
 
 
-def masses_grid(study: Json) -> Grid:
-    """The identified masses of all models."""
-    columns = [Column("model", "model"), Column("node", "node"), Column("value", "mass", "kg", 5),
-               Column("interval", "95 % interval, the structure taken as right")]  # fmt: skip
-    rows = [{"model": model["name"], "node": mass["node"], "value": mass["value"],
-             "interval": _pair(mass["interval"], 1.0) if mass["interval"] else None}
-            for model in study["models"] for mass in model["masses"]]  # fmt: skip
-    return Grid("Identified masses", columns, rows, csv_name="masses.csv")
-
-
-def _masses(study: Json) -> Section:
-    grid = masses_grid(study)
-    if not grid.rows:
-        return Section("", parts=[])
-    parts: list[Part] = [grid]
-    for node in dict.fromkeys(row["node"] for row in grid.rows):
-        values = {row["model"]: row["value"] for row in grid.rows if row["node"] == node}
-        low, high = min(values, key=values.get), max(values, key=values.get)
-        if low != high:
-            parts.append(Notice("warning", f"The mass of {node} depends on the structure: {number(values[low], 4)} kg "
-                                f"with {low}, {number(values[high], 4)} kg with {high}. The intervals do not hold this "
-                                "difference; compare the errors of the models."))  # fmt: skip
-    return Section("Masses", parts=parts)
-
-
 def _at_amplitude(study: Json, evidence: Evidence) -> Section:
     amplitude = study["study"]["amplitude"]
     if amplitude is None:
@@ -113,7 +90,54 @@ def _at_amplitude(study: Json, evidence: Evidence) -> Section:
 
 
 def _conduct(study: Json) -> Section:
-    return Section("How the models were identified", parts=[stages_grid(study)])
+    found = [Notice("info" if _is_settled(model) else "warning", convergence(model)) for model in study["models"]]
+    return Section("How the models were identified", _held_out(study), [stages_grid(study), *found])
+
+
+def convergence(model: Json) -> str:
+    """Whether the search of a model came to an end that others find too, in words."""
+    spread = next((stage["spread"] for stage in reversed(model["stages"]) if len(stage["spread"]) > 1), None)
+    said = [_spread_in_words(spread) if spread else "one start only, so that no other end was looked for"]
+    said += [
+        f"stage {stage['name']}: {stage['ending']}" for stage in model["stages"] if not stage.get("converged", True)
+    ]
+    idle = model.get("without_influence") or ()
+    said.append(f"without influence: {', '.join(idle)}" if idle else "every number has influence")
+    bound = model["at_bound"]
+    said.append(f"at the end of its range: {', '.join(bound)}" if bound else "none is at the end of its range")
+    return f"{model['name']}: {'; '.join(said)}."
+
+
+def _spread_in_words(spread: Sequence[float]) -> str:
+    best, others = min(spread), [loss for loss in spread if loss > ALIKE_LOSS * min(spread)]
+    alike = len(spread) - len(others)
+    again = f"{alike} of {len(spread)} starts came to {number(best)} N within 1 %"
+    if alike == 1:
+        again = f"none of the other {len(others)} starts found {number(best)} N again"
+    return f"{again}, the nearest of the others ended at {number(min(others))} N" if others else again
+
+
+def _is_settled(model: Json) -> bool:
+    spreads = [stage["spread"] for stage in model["stages"] if len(stage["spread"]) > 1]
+    lonely = bool(spreads) and _alike(spreads[-1]) == 1
+    return not (lonely or model["at_bound"] or model.get("without_influence"))
+
+
+def _alike(spread: Sequence[float]) -> int:
+    return sum(loss <= ALIKE_LOSS * min(spread) for loss in spread)
+
+
+def _held_out(study: Json) -> str:
+    told = []
+    for model in study["models"]:
+        names = model.get("held_out") or ()
+        error = (model["rmse"] or {}).get("held_out")
+        if names and error is not None:
+            told.append(f"{model['name']} was judged on {', '.join(names)}, which no stage has seen: {number(error)} N "
+                        f"against {number(model['rmse']['train'])} N on the training runs.")  # fmt: skip
+        else:
+            told.append(f"{model['name']} has no held-out run.")
+    return " ".join(told)
 
 
 def _knowledge(study: Json) -> Section:
@@ -137,7 +161,7 @@ def _known(model: Json) -> Iterator[Part]:
 
 def _stage_row(model: str, stage: Json) -> dict[str, Any]:
     spread = stage["spread"]
-    alike = sum(loss <= 1.01 * min(spread) for loss in spread)
+    alike = _alike(spread)
     return {
         "model": model,
         "stage": stage["name"],

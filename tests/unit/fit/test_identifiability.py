@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from unit.fit.bench import KELVIN_VOIGT, ready, run, runs
+from unit.fit.bench import DT, KELVIN_VOIGT, ready, run, runs
 
-from dashpot.fit.identifiability import Direction, identifiability, number_in_words, unweighted
+from dashpot.fit.identifiability import Direction, identifiability, number_in_words
+from dashpot.fit.noise_of_runs import white
 
 
 def told(branches, scored, noise=20.0):
-    _, objective, coordinates = ready(branches, scored, whiten=unweighted)
-    return identifiability(objective, coordinates, coordinates.start, noise)
+    _, objective, coordinates = ready(branches, scored)
+    return identifiability(objective, coordinates, coordinates.start, white({run.name: noise for run in scored}, DT))
 
 
-def test_the_deviations_are_those_of_linear_regression():
+def test_the_deviations_are_those_of_weighted_linear_regression():
     known = told(KELVIN_VOIGT, runs(), noise=20.0)
-    x, v = (np.concatenate([getattr(each.drive, what)[each.first :] for each in runs()])
-            for what in ("displacement", "velocity"))  # fmt: skip
+    x, v, weight = (np.concatenate(parts) for parts in zip(*(
+        (each.drive.displacement[each.first :], each.drive.velocity[each.first :],
+         np.full(each.samples, 1.0 / each.samples)) for each in runs()), strict=True))  # fmt: skip
     columns = np.column_stack([1e5 * x, 1000.0 * v])  # changes of the force with the logarithms of the start values
-    expected = 20.0 * np.sqrt(np.diag(np.linalg.inv(columns.T @ columns)))
-    assert list(known.deviations.values()) == pytest.approx(expected, rel=1e-4)
-    values = np.linalg.eigvalsh(columns.T @ columns)
+    bread = np.linalg.inv(columns.T @ (weight[:, None] * columns))
+    covariance = 400.0 * bread @ (columns.T @ (weight[:, None] ** 2 * columns)) @ bread
+    assert list(known.deviations.values()) == pytest.approx(np.sqrt(np.diag(covariance)), rel=1e-4)
+    values = np.linalg.eigvalsh(covariance)
     assert known.condition == pytest.approx(values[1] / values[0], rel=1e-4)
     assert known.firm == ["rubber.stiffness", "oil.damping"] and known.sentences == []
 

@@ -37,7 +37,22 @@ def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
         figures.rmse_bars([{"name": label, "train": 4.0, "held_out": None}], 1.0),
         figures.gain_intervals([friction(title=label), relaxation(gain=None, gain_interval=None)]),
         figures.convergence_history({label: {"evaluations": [1, 2], "best": [9.0, 3.0]}}),
+        figures.contact_response([contact(run, label, 0.0), contact(run, label, 5.0)]),
+        figures.velocity_curves({label: DAMPER}),
+        figures.slow_curves({"measured": SLOW, label: SLOW}),
     ]
+
+
+DAMPER = {"curve": "a.b", "velocity": [-1.0, -0.5, 0.0, 0.5], "force": [-90.0, -50.0, 0.0, 40.0],
+          "low": [-99.0, -55.0, 0.0, 38.0], "high": [-80.0, -45.0, 0.0, 42.0], "reached": [-0.75, 0.25]}  # fmt: skip
+SLOW = {part: {key: np.array([1.0, 2.0, 4.0]) for key in ("deflection", "force", "half_width")}
+        for part in ("left", "right", "roll")}  # fmt: skip
+
+
+def contact(run: str, label: str, added: float) -> dict[str, Any]:
+    force = np.array([300.0, 900.0])
+    return {"run": run, "wheel": "left", "added_mass": added, "frequency": np.array([5.0, 9.0]), "measured": force,
+            "simulated": {label: force + 1.0}}  # fmt: skip
 
 
 def steady(run: str, amplitude: float, frequency: float, label: str = "before") -> dict[str, Any]:
@@ -80,7 +95,25 @@ def test_a_hostile_name_is_neither_tag_nor_template(figure):
 @pytest.mark.parametrize("figure", every_figure(), ids=lambda figure: figure.title)
 def test_every_axis_with_a_quantity_names_its_unit(figure):
     titles = [axis["title"]["text"] for key, axis in figure.plot["layout"].items() if "axis" in key and "title" in axis]
-    assert all(re.search(r"\((mm|N|N/mm|deg|Hz|s|% of the error)\)|^$|^N$|evaluations|band", title) for title in titles)
+    assert all(
+        re.search(r"\((mm|N|N/mm|m/s|deg|Hz|s|% of the error)\)|^$|^N$|evaluations|band", title) for title in titles
+    )
+
+
+def test_a_damper_curve_ends_where_the_runs_did():
+    band, line = plotly_figure(figures.velocity_curves({"model": DAMPER})).data
+    assert np.allclose(line.x, [-0.75, -0.5, 0.0, 0.25])
+    assert np.allclose(line.y, [-70.0, -50.0, 0.0, 20.0])
+    assert np.allclose(band.y[:4], [-62.5, -45.0, 0.0, 21.0])
+    assert np.allclose(band.y[4:], [19.0, 0.0, -55.0, -77.0])
+
+
+def test_contact_forces_stand_in_a_panel_for_each_wheel_and_a_colour_for_each_mass():
+    curves = [contact("a", "m", 0.0), contact("b", "m", 5.0), contact("a", "m", 0.0) | {"wheel": "right"}]
+    plot = figures.contact_response(curves).plot
+    assert {"xaxis", "xaxis2"} <= plot["layout"].keys()
+    assert [trace["meta"]["mass"] for trace in plot["data"]] == ["0 kg"] * 2 + ["5 kg"] * 2 + ["0 kg"] * 2
+    assert plot["data"][0]["marker"]["color"] != plot["data"][2]["marker"]["color"]
 
 
 def test_loops_are_drawn_in_millimetres_and_newtons():

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from unit.report.report_samples import comparison, comparison_evidence
 
+from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, wheels_grid
 from dashpot.report.page import render
 from dashpot.report.parts import Notice
-from dashpot.report.study import intervals_grid, masses_grid, stages_grid, study_page
+from dashpot.report.study import convergence, intervals_grid, stages_grid, study_page
 
 STAGE = {
     "name": "dynamics",
@@ -34,6 +35,7 @@ def model(row: dict) -> dict:
         "masses": [{"node": "wheel", "value": 40.0, "interval": [39.0, 41.5]}],
         "bootstrap": {"a.k": [1.8e5, 2.2e5]},
         "profiles": [PROFILE],
+        "held_out": ["b1"],
     }
 
 
@@ -79,3 +81,67 @@ def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told(
     told = [part.text for section in study_page(content, comparison_evidence()).sections for part in section.parts
             if isinstance(part, Notice) and "depends on the structure" in part.text]  # fmt: skip
     assert len(told) == 1 and f"44.00 kg with {names[1]}" in told[0]
+
+
+def masses(without: float, interval: list[float]) -> dict:
+    content = study()
+    for each in content["models"]:
+        each["masses_without_tire"] = [{"node": "wheel", "value": without, "interval": interval, "rmse": 11.0}]
+    return content
+
+
+def test_a_mass_that_comes_out_otherwise_without_the_tire_is_told():
+    agree, apart = masses(40.5, [40.0, 41.0]), masses(44.0, [43.5, 44.5])
+    assert "agree within their intervals" in next(disagreements(agree))
+    said = next(disagreements(apart))
+    assert "40.00 kg with the tire and 44.00 kg without it disagree by 4.0 kg (10 %)" in said
+    assert masses_grid(apart).rows[0]["without_interval"] == "43.50 to 44.50"
+
+
+def test_rubber_behind_the_shock_absorber_is_told_only_where_it_shows():
+    def axle(elastic: float, compliance: float) -> dict:
+        rows = [{"node": "wheel", "fixing": "rigid", "value": 44.0, "interval": [43.8, 44.2], "compliance": 0.0},
+                {"node": "wheel", "fixing": "elastic", "value": elastic, "interval": [elastic - 0.2, elastic + 0.2],
+                 "compliance": compliance}]  # fmt: skip
+        return {**study(), "axle": {"wheels": rows}}
+
+    [said] = disagreements(axle(46.5, 2e-6))
+    assert "rubber of about 500 N/mm" in said and "by about 2.5 kg" in said
+    assert not list(disagreements(axle(44.1, 2e-6))) and not list(disagreements(axle(43.0, -1e-7)))
+    assert [row["rubber"] for row in wheels_grid(axle(46.5, 2e-6)["axle"]).rows] == [None, "500 N/mm"]
+
+
+def test_knots_that_no_run_reached_have_no_force():
+    content = study()
+    content["models"][0]["velocity_curves"] = [{
+        "curve": "oil.damping", "velocity": [-1.0, -0.5, 0.0], "force": [-900.0, -500.0, 0.0], "reached": [-0.6, 0.1],
+        "low": [-950.0, -520.0, 0.0], "high": [-850.0, -480.0, 0.0], "excited": [False, True, True]}]  # fmt: skip
+    outside, inside, rest = excited_grid(content).rows
+    assert (outside["force"], outside["interval"]) == (None, "not excited")
+    assert (inside["force"], inside["interval"], rest["interval"]) == (-500.0, "-520 to -480", "–")
+
+
+def test_slow_curves_stand_in_numbers():
+    curves = {"of": "measured", "rate": [25e3, 26e3], "half_width": [60.0, 70.0], "speed": 7.2e-3, "bar_rate": 11e3,
+              "roll_half_width": 80.0, "roll_speed": 3.3e-3}  # fmt: skip
+    grid = slow_grid({"slow_curves": [curves]})
+    assert grid.rows[0]["heave"] == 65.0 and grid.rows[0]["bar"] == 11.0
+    assert "7.2 mm/s in phase and 3.3 mm/s in anti-phase" in grid.caption
+
+
+def test_the_end_of_a_search_is_told_in_words():
+    content = study()["models"][0]
+    assert convergence(content).startswith(
+        f"{content['name']}: 2 of 3 starts came to 12.5 N within 1 %, the nearest of the others ended at 14.0 N; every "
+        "number has influence; at the end of its range: a.k"
+    )
+    content["stages"] = [{**STAGE, "spread": [10.0, 14.0], "converged": False}]
+    assert "none of the other 1 starts found 10.0 N again" in convergence(content)
+    assert "stage dynamics: the budget is spent" in convergence(content)
+    content["stages"] = [{**STAGE, "spread": [10.0]}]
+    assert "one start only" in convergence(content)
+
+
+def test_held_out_runs_and_their_error_are_named():
+    texts = [section.text for section in study_page(study(), comparison_evidence()).sections]
+    assert any("was judged on b1, which no stage has seen" in text for text in texts)

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates
-from dashpot.fit.identifiability import Identifiability, identifiability, unweighted
+from dashpot.fit.identifiability import Identifiability, identifiability
+from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.study.declaration import StudySpec, TakeStage
-from dashpot.fit.study.run import restricted, study_setting, take_numbers
+from dashpot.fit.study.run import restricted, run_weights, study_setting, take_numbers
 from dashpot.kernel.network import compile_network
 
 
 @dataclass(frozen=True)
 class Preview:
-    """What the training runs tell about the numbers of a model at its start values; ``noise`` in N, taken as white."""
+    """What the training runs tell about the numbers of a model at its start values; ``noise``: its floor in N."""
 
     model: str
     budget: int
@@ -37,8 +38,8 @@ def preview_study(study: StudySpec, dataset: Dataset, jobs: int = 1) -> list[Pre
             spec = take_numbers(spec, "curves", setting.train)
         spec = with_ranges(spec, natural_sizes(setting.train))
         coordinates = search_coordinates(spec)
-        objective = Objective(compile_network(spec), setting.train, jobs, unweighted)
-        noise = setting.floor.value or 1.0
+        objective = Objective(compile_network(spec), setting.train, jobs, weights=run_weights(study, setting.train))
+        noise = noise_of_runs(setting.dataset.runs, setting.floor)
         found = identifiability(objective, coordinates, coordinates.start, noise)
-        previews.append(Preview(plan.name, plan.budget, noise, found))
+        previews.append(Preview(plan.name, plan.budget, setting.floor.value or 1.0, found))
     return previews

@@ -19,7 +19,8 @@ from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split
-from dashpot.fit.identifiability import Identifiability, identifiability, unweighted
+from dashpot.fit.identifiability import Identifiability, identifiability
+from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.profile import Profile, profile_likelihood
 from dashpot.fit.ranges import natural_sizes, with_ranges
@@ -203,8 +204,6 @@ class _Conduct:
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
         known = assess_uncertainty(objective, coordinates, coordinates.start)
         errors = measure_errors(spec, self.setting, self.jobs)
-        plain = Objective(network, train, self.jobs, unweighted)
-        noise = self.setting.floor.value or errors.train or 1.0
         fit = FitResult(
             declared=plan.network,
             fitted=with_intervals(spec, dict(zip(coordinates.paths, known.intervals, strict=True))),
@@ -221,7 +220,8 @@ class _Conduct:
             spread=next((stage.spread for stage in stages if len(stage.spread) > 1), ()),
             history=_joined(stages),
         )
-        told = identifiability(plain, coordinates, coordinates.start, noise)
+        noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
+        told = identifiability(objective, coordinates, coordinates.start, noise)
         return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
                            self._profiles(plan, objective, coordinates))  # fmt: skip
 

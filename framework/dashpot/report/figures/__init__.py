@@ -5,6 +5,7 @@ Simulations come under a *label*: "before", "after", or the name of a model; a l
 
 from __future__ import annotations
 
+from dashpot.report.figures.contact import contact_response
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
@@ -12,10 +13,13 @@ from dashpot.report.figures.loop import loops
 from dashpot.report.figures.misfit import misfit_map
 from dashpot.report.figures.residuals import residual_traces
 from dashpot.report.figures.rmse import rmse_bars
+from dashpot.report.figures.slow import slow_curves
 from dashpot.report.figures.steady import steady_stiffness, stiffness_figures
 from dashpot.report.figures.stiffness import dynamic_stiffness
+from dashpot.report.figures.velocity import velocity_curves
 
 __all__ = [
+    "contact_response",
     "convergence_history",
     "dynamic_stiffness",
     "gain_intervals",
@@ -24,6 +28,8 @@ __all__ = [
     "misfit_map",
     "residual_traces",
     "rmse_bars",
+    "slow_curves",
     "steady_stiffness",
     "stiffness_figures",
+    "velocity_curves",
 ]

@@ -1,0 +1,211 @@
+"""The part of a study's report that is about an axle: masses, contact forces, damper curves, slow motions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from dashpot.report import figures
+from dashpot.report.evidence import Evidence
+from dashpot.report.parts import Column, Grid, Notice, Part, Section
+from dashpot.report.readable import MISSING, number, quantity
+
+Json = Mapping[str, Any]
+
+FIXINGS = {"rigid": "rigid", "elastic": "in rubber"}
+
+
+def axle_sections(study: Json, evidence: Evidence) -> list[Section]:
+    """Sections in the order of the report; those that have nothing to show have no parts."""
+    axle = study.get("axle") or {}
+    slow = [figures.slow_curves(evidence["slow_curves"])] if evidence.get("slow_curves") else []
+    return [
+        Section("Masses", _MASSES if axle.get("wheels") else "", list(_masses(study))),
+        Section("Wheel contact forces", parts=list(_contact(study, evidence))),
+        Section("Damper curves", parts=list(_velocity(study))),
+        Section("Slow motions", parts=[*slow, *([slow_grid(axle)] if axle.get("slow_curves") else [])]),
+    ]
+
+
+_MASSES = (
+    "With the tire: identified from the forces alone, through the model of the tire. Without the tire: the same model "
+    "driven by the measured motion of the wheels, so that no error of the tire is left in it. An elastic fixing of the "
+    "shock absorber that a model leaves out makes both too small."
+)
+
+
+def masses_grid(study: Json) -> Grid:
+    """The identified masses of all models, with the tire and without."""
+    columns = [
+        Column("model", "model"),
+        Column("node", "node"),
+        Column("value", "mass", "kg", 5),
+        Column("interval", "95 % interval, the structure taken as right"),
+        Column("without", "without the tire", "kg", 5),
+        Column("without_interval", "its 95 % interval"),
+        Column("rmse", "its RMSE", "N", 3),
+    ]
+    rows = [_mass_row(model, mass) for model in study["models"] for mass in model["masses"]]
+    used = [column for column in columns if any(row.get(column.key) is not None for row in rows)]
+    return Grid("Identified masses", used, rows, csv_name="masses.csv")
+
+
+def wheels_grid(axle: Json) -> Grid:
+    """The masses of the wheels from contact force over wheel motion, without any model."""
+    columns = [
+        Column("node", "node"),
+        Column("fixing", "fixing of the shock absorber taken as"),
+        Column("value", "mass", "kg", 5),
+        Column("interval", "95 % interval of the regression"),
+        Column("rubber", "stiffness of the fixing"),
+    ]
+    rows = [
+        {"node": wheel["node"], "fixing": FIXINGS[wheel["fixing"]], "value": wheel["value"],
+         "interval": _pair(wheel["interval"]),
+         "rubber": quantity(1.0 / wheel["compliance"], "N/m") if wheel["compliance"] > 0.0 else None}
+        for wheel in axle["wheels"]
+    ]  # fmt: skip
+    caption = (
+        "Re(F / z) over the square of the frequency, all mass variants together. Neither a tire nor a damper curve is "
+        "assumed; in rubber, damping is taken as proportional to speed, which a digressive curve is not."
+    )
+    return Grid("Masses without any model", columns, rows, caption, "wheels.csv")
+
+
+def excited_grid(study: Json) -> Grid:
+    """The knots of all curves over velocity, those that were not excited named."""
+    columns = [
+        Column("model", "model"),
+        Column("curve", "curve"),
+        Column("velocity", "velocity", "m/s", 3),
+        Column("force", "force", "N", 4),
+        Column("interval", "95 % interval", "N"),
+    ]
+    rows = [
+        {"model": model["name"], "curve": curve["curve"], "velocity": velocity,
+         "force": force if excited else None, "interval": _knot(low, high) if excited else "not excited"}
+        for model in study["models"] for curve in model.get("velocity_curves", ())
+        for velocity, force, low, high, excited in zip(
+            curve["velocity"], curve["force"], curve["low"], curve["high"], curve["excited"], strict=True)
+    ]  # fmt: skip
+    return Grid("Knots of the damper curves", columns, rows, csv_name="velocity_curves.csv")
+
+
+def slow_grid(axle: Json) -> Grid:
+    """Spring rates and widths of the loops, measured and of every model."""
+    columns = [
+        Column("of", "of"),
+        Column("left", "spring rate left", "N/mm", 4),
+        Column("right", "spring rate right", "N/mm", 4),
+        Column("heave", "half width in phase", "N", 3),
+        Column("bar", "anti-roll bar", "N/mm", 4),
+        Column("roll", "half width in anti-phase", "N", 3),
+    ]
+    rows = [
+        {"of": each["of"], "left": 1e-3 * each["rate"][0], "right": 1e-3 * each["rate"][1],
+         "heave": sum(each["half_width"]) / len(each["half_width"]),
+         "bar": None if each["bar_rate"] is None else 1e-3 * each["bar_rate"], "roll": each["roll_half_width"]}
+        for each in axle["slow_curves"]
+    ]  # fmt: skip
+    first = axle["slow_curves"][0]
+    speeds = [f"{number(1e3 * each, 2)} mm/s {way}" for each, way in
+              ((first["speed"], "in phase"), (first["roll_speed"], "in anti-phase")) if each]  # fmt: skip
+    caption = (
+        f"Mean speed of the wheels: {' and '.join(speeds)}. Half widths hold friction and the dampers at that speed; "
+        "the anti-roll bar adds its own friction in anti-phase. The rate of the bar is per difference of the wheels."
+    )
+    return Grid("Springs, friction and anti-roll bar", columns, rows, caption, "slow_curves.csv")
+
+
+def disagreements(study: Json) -> Iterator[str]:
+    """What the masses say about one another, in words."""
+    yield from _structures(study)
+    for row in masses_grid(study).rows:
+        if row.get("without") is not None:
+            yield _tire_sentence(row)
+    yield from _fixings(study.get("axle") or {})
+
+
+def _masses(study: Json) -> Iterator[Part]:
+    grid = masses_grid(study)
+    if not grid.rows:
+        return
+    yield grid
+    if (study.get("axle") or {}).get("wheels"):
+        yield wheels_grid(study["axle"])
+    yield from (Notice("info" if "agree within" in text else "warning", text) for text in disagreements(study))
+
+
+def _contact(study: Json, evidence: Evidence) -> Iterator[Part]:
+    if evidence.get("contact_response"):
+        yield figures.contact_response(evidence["contact_response"], study["study"]["compared"][-1:])
+
+
+def _velocity(study: Json) -> Iterator[Part]:
+    several = any(len(model.get("velocity_curves", ())) > 1 for model in study["models"])
+    curves = {f"{model['name']}, {curve['curve']}" if several else model["name"]: curve
+              for model in study["models"] for curve in model.get("velocity_curves", ())}  # fmt: skip
+    if curves:
+        yield figures.velocity_curves(curves)
+        yield excited_grid(study)
+
+
+def _mass_row(model: Json, mass: Json) -> dict[str, Any]:
+    without = next((each for each in model.get("masses_without_tire", ()) if each["node"] == mass["node"]), None)
+    row = {"model": model["name"], "node": mass["node"], "value": mass["value"],
+           "interval": _pair(mass["interval"]) if mass["interval"] else None, "within": mass["interval"]}  # fmt: skip
+    if without is None:
+        return row
+    return row | {"without": without["value"], "without_interval": _pair(without["interval"]), "rmse": without["rmse"],
+                  "without_within": without["interval"]}  # fmt: skip
+
+
+def _structures(study: Json) -> Iterator[str]:
+    rows = masses_grid(study).rows
+    for node in dict.fromkeys(row["node"] for row in rows):
+        values = {row["model"]: row["value"] for row in rows if row["node"] == node}
+        low, high = min(values, key=lambda name: values[name]), max(values, key=lambda name: values[name])
+        if low != high:
+            yield (f"The mass of {node} depends on the structure: {number(values[low], 4)} kg with {low}, "
+                   f"{number(values[high], 4)} kg with {high}. The intervals do not hold this difference; compare the "
+                   "errors of the models.")  # fmt: skip
+
+
+def _tire_sentence(row: Mapping[str, Any]) -> str:
+    apart = row["value"] - row["without"]
+    allowed = math.hypot(_half(row["within"]), _half(row["without_within"]))
+    both = (f"{row['node']} with {row['model']}: {number(row['value'], 4)} kg with the tire and "
+            f"{number(row['without'], 4)} kg without it")  # fmt: skip
+    if abs(apart) <= allowed:
+        return f"{both} agree within their intervals."
+    share = number(100.0 * abs(apart) / row["value"], 2)
+    return (f"{both} disagree by {number(abs(apart), 2)} kg ({share} %), where the intervals allow "
+            f"{number(allowed, 2)} kg. The model of the tire, a gain or a delay between the channels, or the structure "
+            "of the axle is not as assumed; the value without the tire does not depend on the first.")  # fmt: skip
+
+
+def _fixings(axle: Json) -> Iterator[str]:
+    wheels = axle.get("wheels", ())
+    for node in dict.fromkeys(wheel["node"] for wheel in wheels):
+        rigid, elastic = (next((w for w in wheels if w["node"] == node and w["fixing"] == fixing), None)
+                          for fixing in FIXINGS)  # fmt: skip
+        if rigid is None or elastic is None or elastic["compliance"] <= 0.0:
+            continue
+        if elastic["value"] - rigid["value"] > math.hypot(_half(rigid["interval"]), _half(elastic["interval"])):
+            rubber = quantity(1.0 / elastic["compliance"], "N/m", 2)
+            yield (f"{node}: the wheel moves as if its shock absorber stood in rubber of about {rubber}. A model that "
+                   "takes the fixing as rigid finds the mass too small, by about "
+                   f"{number(elastic['value'] - rigid['value'], 2)} kg or more.")  # fmt: skip
+
+
+def _half(pair: Sequence[float] | None) -> float:
+    return 0.5 * (pair[1] - pair[0]) if pair else 0.0
+
+
+def _pair(pair: Sequence[float]) -> str:
+    return f"{number(pair[0], 4)} to {number(pair[1], 4)}"
+
+
+def _knot(low: float, high: float) -> str:
+    return MISSING if low == high else f"{number(low, 3)} to {number(high, 3)}"
