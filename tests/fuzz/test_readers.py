@@ -18,6 +18,8 @@ from fuzz.sound_files import WORDS, sound_files
 from dashpot.contract.reader import ReadingError, Table
 from dashpot.contract.registry import load_registry
 from dashpot.data.dataset import read_dataset
+from dashpot.data.importing.imported import import_files
+from dashpot.data.importing.text import dataset_text
 from dashpot.text.problem import InputError
 from dashpot_formats import apart
 
@@ -147,3 +149,25 @@ def test_a_dataset_over_damaged_files_is_read_or_told(tmp_path, word):
             assert "damaged" in str(error)
         else:
             assert all(np.isfinite(values).all() for values in run.channels.values())
+
+
+@pytest.mark.parametrize("word", ["csv", "json", "npz", "rpc"])
+def test_damaged_files_are_imported_or_told(tmp_path, word):
+    """What is imported can be read as a dataset, or that tells what is wrong."""
+    seed = secrets.randbits(32)
+    print("seed", seed)
+    chance, suffix = random.Random(seed), READERS[word].suffixes[0]
+    sound = sound_files(word, tmp_path)
+    for number in range(40):
+        path = tmp_path / f"damaged{number}{suffix}"
+        path.write_bytes(mutated(chance.choice(sound), chance))
+        try:
+            imported = import_files([path], READERS)
+        except InputError as error:
+            assert path.name in str(error)
+            continue
+        (tmp_path / "dataset.yaml").write_text(dataset_text(imported, tmp_path, "damaged"), encoding="utf-8")
+        try:
+            assert read_dataset(tmp_path, READERS).runs
+        except InputError as error:
+            assert path.stem in str(error)

@@ -2,5 +2,6 @@
 
 - `roles`: which column is which channel; `units`: in which unit; `timing`: the clock; `signs`: which way round
 - `motion`: the kind of a run and its settings; `rows`: the rows that can be used; `likeness`: runs that repeat others
+- `correlation`: how alike two signals are
 - `finding`: all of that about one file; `files`: which files; `text`: the dataset file with its remarks
 """

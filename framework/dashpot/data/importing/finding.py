@@ -15,7 +15,7 @@ from dashpot.data.importing.signs import find_signs
 from dashpot.data.importing.timing import Timing, find_timing
 from dashpot.data.importing.units import GUESSED as GUESSED_UNIT
 from dashpot.data.importing.units import UnitFound, find_unit
-from dashpot.data.table import ReadingError, Table
+from dashpot.data.table import Table
 from dashpot.text.quantity import factor
 
 NEEDED = ("displacement", "force")
@@ -48,17 +48,16 @@ class Finding:
     signals: Mapping[str, np.ndarray] = field(default_factory=dict)
 
 
-Agreed = Mapping[str, tuple[UnitFound, int]]
+# channel -> the unit of a column that states none, and the sign
+Agreed = Mapping[str, tuple[str, int]]
 
 
 def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None = None) -> Finding:
     """What the columns of a file are, as far as names, units and numbers tell.
 
-    `sampling` in Hz overrules the file; `agreed` holds the unit and sign of channels that other files have told.
-    Raises ReadingError when there are no numbers in the file.
+    `sampling` in Hz overrules the file; `agreed` holds the unit and sign of channels that other files have told. The
+    file has to hold numbers.
     """
-    if not any(np.isfinite(numeric(values)).any() for values in table.columns.values()):
-        raise ReadingError("it holds no numbers", "check that this is the file of the measurement")
     every = of_one_length({name: numeric(values) for name, values in table.columns.items()})
     columns = {name: values for name, values in every.items() if np.isfinite(values).mean() > 0.5}
     roles = named_roles(list(columns), table.units)
@@ -70,7 +69,7 @@ def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None 
     rows = usable_rows([columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name])
     cut = {name: values[slice(*rows)] for name, values in columns.items()}
     channels = {channel: _found(role, table, cut) for channel, role in chosen.items()}
-    channels = _agreed(channels, agreed)
+    channels = _agreed(channels, agreed) if agreed else channels
     return _finding(timing, channels, cut, None if rows == (0, _length(columns)) else rows, table, agreed)
 
 
@@ -107,10 +106,15 @@ def _found(role: Role, table: Table, columns: Mapping[str, np.ndarray]) -> Chann
     return ChannelFound(role, find_unit(role.channel, role.column, table.units.get(role.column, ""), sound))
 
 
-def _agreed(channels: Mapping[str, ChannelFound], agreed: Agreed | None) -> dict[str, ChannelFound]:
-    known = agreed or {}
+def _agreed(channels: Mapping[str, ChannelFound], agreed: Agreed) -> dict[str, ChannelFound]:
+    """With the common sign, and the common unit where there is only a guess."""
     return {
-        name: ChannelFound(found.role, *known[name]) if name in known else found for name, found in channels.items()
+        name: ChannelFound(
+            found.role,
+            UnitFound(agreed[name][0], GUESSED_UNIT) if found.unit.by == GUESSED_UNIT else found.unit,
+            agreed[name][1],
+        )
+        for name, found in channels.items()
     }
 
 

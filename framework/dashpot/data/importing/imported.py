@@ -7,9 +7,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from dashpot.data.importing.files import find_files, run_names
-from dashpot.data.importing.finding import NEEDED, Agreed, Finding, find_all
+from dashpot.data.importing.finding import Agreed, Finding, find_all
 from dashpot.data.importing.likeness import find_repeats
+from dashpot.data.importing.rows import numeric
+from dashpot.data.importing.timing import pieces
+from dashpot.data.importing.units import GUESSED
 from dashpot.data.source import choose_reader
 from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Unusable
@@ -20,13 +25,34 @@ DIRECTION = "that deflection > 0 squeezes the specimen and force > 0 presses its
 
 @dataclass(frozen=True, eq=False)
 class ImportedRun:
-    """A run: its name, file, and what was found; the earlier run that it repeats."""
+    """A run: its name, file, and what was found; its rows where they are not all; the earlier run that it repeats."""
 
     name: str
     file: Path
     reader: str | None
     finding: Finding
+    rows: tuple[int, int] | None = None
     repeats: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A file, or a piece of one between two gaps: its rows (from 0), and which of how many pieces it is."""
+
+    file: Path
+    table: Table
+    finding: Finding
+    first: int = 0
+    whole: bool = True
+    number: int = 1
+    count: int = 1
+
+    def rows(self, finding: Finding) -> tuple[int, int] | None:
+        """First row from 1 and last one, None for all."""
+        if self.whole and finding.rows is None:
+            return None
+        first, last = finding.rows or (0, len(next(iter(self.table.columns.values()))))
+        return self.first + first + 1, self.first + last
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,11 +74,36 @@ def import_files(
     files = find_files(list(given), readers)
     tables, problems = _read(files, readers, word)
     names = run_names(list(tables))
-    found = _agree({file: find_all(table, sampling) for file, table in tables.items()}, tables, sampling)
-    findings = {names[file]: finding for file, finding in found.items()}
+    parts: dict[str, _Part] = {}
+    for file, table in tables.items():
+        for part in _parts(file, table, sampling):
+            parts[f"{names[file]}_{part.number}" if part.count > 1 else names[file]] = part
+    findings = _agree(parts, sampling)
     repeats, copies = find_repeats(findings)
-    runs = tuple(ImportedRun(names[file], file, word, found[file], repeats.get(names[file])) for file in tables)
+    runs = tuple(
+        ImportedRun(name, part.file, word, findings[name], part.rows(findings[name]), repeats.get(name))
+        for name, part in parts.items()
+    )
     return Imported(runs, _confirm(runs, copies), tuple(problems))
+
+
+def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:
+    """A file as one, or the pieces between the gaps of its clock."""
+    whole = _Part(file, table, find_all(table, sampling))
+    clock = whole.finding.timing.column
+    time = numeric(table.columns[clock]) if clock is not None else np.zeros(0)
+    found = pieces(time) if np.isfinite(time).all() else []
+    if len(found) == 0 or found == [(0, time.size)]:
+        return [whole]
+    cut = [(first, _cut(table, first, last)) for first, last in found]
+    return [
+        _Part(file, piece, find_all(piece, sampling), first, False, number, len(found))
+        for number, (first, piece) in enumerate(cut, 1)
+    ]
+
+
+def _cut(table: Table, first: int, last: int) -> Table:
+    return replace(table, columns={name: values[first:last] for name, values in table.columns.items()}, lines=None)
 
 
 def _read(
@@ -63,9 +114,7 @@ def _read(
     for file in files:
         place = Place(str(file))
         try:
-            table = choose_reader(file.name, word, readers, place).read(file, {})
-            find_all(table)
-            tables[file] = table
+            tables[file] = _with_numbers(choose_reader(file.name, word, readers, place).read(file, {}))
         except Unusable as error:
             problems += [Problem(place, trouble.message, trouble.hint) for trouble in error.troubles]
         except ReadingError as error:
@@ -77,19 +126,23 @@ def _read(
     return tables, problems
 
 
-def _agree(
-    findings: Mapping[Path, Finding], tables: Mapping[Path, Table], sampling: float | None
-) -> dict[Path, Finding]:
-    """Files with the same columns get the units and signs that most of them tell."""
-    alike: dict[object, list[Path]] = {}
-    for file, finding in findings.items():
-        alike.setdefault(_columns(finding), []).append(file)
-    agreed: dict[Path, Finding] = dict(findings)
-    for files in alike.values():
-        common = _most_common([findings[file] for file in files])
-        for file in files:
-            if _told(findings[file]) != common:
-                agreed[file] = find_all(tables[file], sampling, common)
+def _with_numbers(table: Table) -> Table:
+    if not any(np.isfinite(numeric(values)).any() for values in table.columns.values()):
+        raise ReadingError("it holds no numbers", "check that this is the file of the measurement")
+    return table
+
+
+def _agree(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, Finding]:
+    """Runs with the same columns get the units and signs that most of them tell."""
+    agreed = {name: part.finding for name, part in parts.items()}
+    alike: dict[object, list[str]] = {}
+    for name, finding in agreed.items():
+        alike.setdefault(_columns(finding), []).append(name)
+    for names in alike.values():
+        common = _most_common([agreed[name] for name in names])
+        for name in names:
+            if _told(agreed[name]) != common:
+                agreed[name] = find_all(parts[name].table, sampling, common)
     return agreed
 
 
@@ -98,19 +151,19 @@ def _columns(finding: Finding) -> object:
 
 
 def _told(finding: Finding) -> Agreed:
-    return {name: (found.unit, found.sign) for name, found in finding.channels.items()}
+    return {name: (found.unit.unit, found.sign) for name, found in finding.channels.items()}
 
 
 def _most_common(findings: Sequence[Finding]) -> Agreed:
-    """Unit by unit, and the signs of displacement and force together."""
-    signs = Counter(tuple(f.channels[name].sign for name in NEEDED if name in f.channels) for f in findings)
-    by_name = dict(
-        zip((name for name in NEEDED if name in findings[0].channels), signs.most_common(1)[0][0], strict=True)
-    )
-    units = {
-        name: Counter(f.channels[name].unit for f in findings).most_common(1)[0][0] for name in findings[0].channels
-    }
-    return {name: (unit, by_name.get(name, 1)) for name, unit in units.items()}
+    """Unit by unit, where stated ones come before guesses, and the signs of displacement and force together."""
+    names = list(findings[0].channels)
+    signs = Counter(tuple(finding.channels[name].sign for name in names) for finding in findings).most_common(1)[0][0]
+    units: dict[str, str] = {}
+    for name in names:
+        found = [finding.channels[name].unit for finding in findings]
+        stated = [unit.unit for unit in found if unit.by != GUESSED]
+        units[name] = Counter(stated or [unit.unit for unit in found]).most_common(1)[0][0]
+    return {name: (units[name], sign) for name, sign in zip(names, signs, strict=True)}
 
 
 def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
@@ -119,9 +172,9 @@ def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str
     for run in runs:
         for remark in run.finding.confirm:
             about.setdefault(remark, []).append(run.name)
-        if run.finding.rows:
-            first, last = run.finding.rows
-            about.setdefault(f"rows {first + 1} to {last} are used: others hold no numbers", []).append(run.name)
+        if run.rows:
+            remark = "only the rows under 'rows' are used: others lie behind a gap of the clock, or hold no numbers"
+            about.setdefault(remark, []).append(run.name)
         if run.repeats:
             about.setdefault("the runs that repeat others: they do so after motion and force", []).append(run.name)
         if run.name in copies:

@@ -29,7 +29,8 @@ def find_motion(displacement: np.ndarray, step: float) -> Motion:
         slow = len(displacement) * step / max(cycles, 1.0) >= _SLOW_CYCLE
         return Motion("quasi_static" if slow else "transient", {})
     turns = step * _turns(displacement, 0.1 * span)
-    kind = _kind_of(_without_ends(2 * np.diff(turns)))
+    # from turn to the next but one: up and down need not take the same time
+    kind = _kind_of(_without_ends(turns[2:] - turns[:-2]))
     return Motion(kind, _settings(kind, displacement, turns, step))
 
 
@@ -86,7 +87,8 @@ def _settings(kind: str, displacement: np.ndarray, turns: np.ndarray, step: floa
     low, high = np.quantile(displacement, (0.02, 0.98))
     settings = {"amplitude": float(high - low) / 2, "preload": float(high + low) / 2}
     if kind == "harmonic":
-        return {**settings, "frequency": float(0.5 / np.median(np.diff(turns)))}
+        inner = _without_ends(turns)
+        return {**settings, "frequency": float(0.5 * (len(inner) - 1) / (inner[-1] - inner[0]))}
     if kind == "sweep":
         start, stop = _swept(turns, step * len(displacement))
         return {**settings, "start": start, "stop": stop}

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.importing.correlation import correlation
 from dashpot.text.quantity import factor
 
 # whole names, and parts of names, in English and German; letters count as written
 _NAMES = {
     "time": "t time zeit tout runtime x_value timestamp uhrzeit zeitstempel",
-    "displacement": "x X s z d u disp pos lvdt weg hub way",
+    "displacement": "x X s z d u disp dist pos lvdt weg hub way",
     "force": "F Fx Fy Fz FZ FX FY FZW f load last kraft forc",
     "velocity": "v vel speed",
     "acceleration": "a acc accel",
@@ -34,6 +35,9 @@ _WANTED_PARTS = (
     "command cmd target setpoint soll desired reference error abweich limit peak max min count index".split()
 )
 _COUNTER = re.compile(r"(sample|row|point|scan|data|meas\w*)?[ _]?(no|nr|num|number|numb|index|idx|count|#)\.?", re.I)
+
+# from this correlation on two columns are one signal
+_SAME = 0.9995
 
 SURE, LIKELY, GUESSED = "its name and unit", "its name", "how it moves"
 
@@ -63,7 +67,9 @@ def _score(column: str, unit: str, channel: str) -> tuple[float, str]:
     if measures is False or (channel != "time" and is_counter(column)):
         return 0.0, ""
     unwanted = any(part in column.lower() for part in _WANTED_PARTS)
-    score = by_name + (2.0 if measures else 0.0) - (3.0 if unwanted else 0.0)
+    # columns of a matrix have its name only
+    inside = re.search(r"\(\d+\)$", column) is not None
+    score = by_name + (2.0 if measures else 0.0) - (3.0 if unwanted else 0.0) - (1.5 if inside else 0.0)
     return score, SURE if measures and by_name else "its unit" if measures else LIKELY
 
 
@@ -98,21 +104,53 @@ def is_counter(column: str) -> bool:
 def motion_roles(columns: Mapping[str, np.ndarray], taken: Mapping[str, Role]) -> dict[str, Role]:
     """Displacement and force among the columns that are left, by their numbers.
 
-    A column whose rate of change is another one is the displacement, the other its velocity; what is left after that is
-    taken in order. Nothing is guessed where nothing moves.
+    A column whose rate of change is another one is the displacement, the other its velocity; without such a pair the
+    smoothest one is. The force is what goes with the motion, and is not the motion itself once more.
     """
     used = {role.column for role in taken.values()}
     left = {name: values for name, values in columns.items() if name not in used and np.ptp(values) > 0}
     found = dict(taken)
-    if "displacement" not in found:
-        pair = _rate_pair(left) if "velocity" not in found else None
-        names = list(pair or list(left)[:1])
+    if "displacement" not in found and left:
+        # of two columns alone the second is the force: that of a damper goes with the rate, too
+        wanted = "velocity" not in found and ("force" in found or len(left) > 2)
+        pair = _rate_pair(left) if wanted else None
+        names = pair or (_largest_like(min(left, key=lambda name: _roughness(left[name])), left),)
         for channel, name in zip(("displacement", "velocity"), names, strict=False):
             found[channel] = Role(channel, name, GUESSED)
-            left.pop(name)
-    if "force" not in found and left:
-        found["force"] = Role("force", next(iter(left)), GUESSED)
+    if "force" not in found and "displacement" in found:
+        moved = [columns[found[channel].column] for channel in ("displacement", "velocity") if channel in found]
+        used = {role.column for role in found.values()}
+        rest = {name: values for name, values in left.items() if name not in used and not _is_like_any(values, moved)}
+        if rest:
+            found["force"] = Role("force", _largest_like(_moved_along(rest, moved[0]), rest), GUESSED)
     return found
+
+
+def _roughness(values: np.ndarray) -> float:
+    """How much a signal changes its course from sample to sample, as a part of its size."""
+    return float(np.std(np.diff(values, 2)) / np.std(values))
+
+
+def _moved_along(columns: Mapping[str, np.ndarray], motion: np.ndarray) -> str:
+    """The first column that the motion, its rate and its direction explain nearly as well as any other."""
+    rate = np.gradient(motion)
+    basis = np.stack([np.ones_like(motion), motion, rate, np.sign(rate)], axis=1)
+    explained = {}
+    for name, values in columns.items():
+        rest = values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]
+        explained[name] = 1.0 - float(np.var(rest) / np.var(values))
+    best = max(explained.values())
+    return next(name for name, share in explained.items() if share >= best - 0.2 * abs(best))
+
+
+def _largest_like(name: str, columns: Mapping[str, np.ndarray]) -> str:
+    """The same signal in the largest numbers: volts are mostly recorded beside what they stand for."""
+    like = [other for other, values in columns.items() if other == name or _is_like_any(values, [columns[name]])]
+    return max(like, key=lambda other: float(np.ptp(columns[other])))
+
+
+def _is_like_any(values: np.ndarray, others: Sequence[np.ndarray]) -> bool:
+    return any(abs(correlation(values, other)) > _SAME for other in others)
 
 
 def _rate_pair(columns: Mapping[str, np.ndarray]) -> tuple[str, str] | None:
@@ -121,8 +159,7 @@ def _rate_pair(columns: Mapping[str, np.ndarray]) -> tuple[str, str] | None:
     for first, values in columns.items():
         rate = np.gradient(values)
         for second, other in columns.items():
-            if first != second and np.ptp(rate) > 0:
-                likeness = float(np.corrcoef(rate, other)[0, 1])
-                if likeness > best:
-                    best, pair = likeness, (first, second)
+            likeness = correlation(rate, other) if first != second else 0.0
+            if likeness > best:
+                best, pair = likeness, (first, second)
     return pair

@@ -6,12 +6,16 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+# numbers beyond that were not measured
+_LARGEST = 1e30
+
 
 def numeric(values: np.ndarray) -> np.ndarray:
-    """The numbers of a column (n,); NaN where a text stands."""
-    if values.dtype != object:
-        return np.asarray(values, dtype=float)
-    return np.array([np.nan if isinstance(value, str) else value for value in values], dtype=float)
+    """The numbers of a column (n,); NaN where a text stands, or a number that nobody measures."""
+    if values.dtype == object:
+        values = np.array([np.nan if isinstance(value, str) else value for value in values])
+    numbers = np.asarray(values, dtype=float)
+    return np.where(np.abs(numbers) > _LARGEST, np.nan, numbers)
 
 
 def usable_rows(columns: Iterable[np.ndarray]) -> tuple[int, int]:

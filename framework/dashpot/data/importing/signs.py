@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from dashpot.data.importing.correlation import correlation
+
 _CLEAR, _PRESSED = 0.1, 0.5
 
 
@@ -13,7 +15,7 @@ def find_signs(displacement: np.ndarray, force: np.ndarray) -> tuple[int, int, s
     Raw numbers of both (n,). The force goes with the velocity, as work is lost, else with the displacement. A force
     that nearly always pulls is taken for one whose tension counts positive.
     """
-    loss, slope = _likeness(np.gradient(displacement), force), _likeness(displacement, force)
+    loss, slope = correlation(np.gradient(displacement), force), correlation(displacement, force)
     opposed = loss < 0 if abs(loss) > _CLEAR else slope < 0
     sign = -1 if opposed else 1
     pulled = np.mean(sign * force) < -_PRESSED * np.max(np.abs(force))
@@ -22,9 +24,3 @@ def find_signs(displacement: np.ndarray, force: np.ndarray) -> tuple[int, int, s
     if opposed:
         return 1, -1, "the force points against the motion as if work were given back: its sign is turned"
     return 1, 1, ""
-
-
-def _likeness(first: np.ndarray, second: np.ndarray) -> float:
-    if np.ptp(first) == 0 or np.ptp(second) == 0:
-        return 0.0
-    return float(np.corrcoef(first, second)[0, 1])

@@ -63,7 +63,7 @@ def _run_lines(run: ImportedRun, folder: Path, alike: bool) -> list[str]:
     lines += [f"repeats: {quoted(run.repeats)}"] if run.repeats else []
     settings = told_settings(finding.settings)
     lines += [f"settings: {_flow(settings)}"] if settings and not run.repeats else []
-    lines += [f"rows: [{finding.rows[0] + 1}, {finding.rows[1]}]"] if finding.rows else []
+    lines += [f"rows: [{run.rows[0]}, {run.rows[1]}]"] if run.rows else []
     if not alike:
         lines += [*_channel_lines(finding), *_unused(finding, "")]
     return ["  - " + lines[0], *("    " + line for line in lines[1:])]
@@ -89,7 +89,7 @@ def _channel_lines(finding: Finding) -> list[str]:
 
 def _timing(timing: Timing) -> Iterable[str]:
     if timing.column is not None:
-        remark = "   # CONFIRM: " + _one_line("; ".join(timing.confirm)) if timing.confirm else ""
+        remark = "   # CONFIRM: as told above" if timing.confirm else ""
         yield f"  time: {_flow({'column': quoted(timing.column), 'unit': quoted(timing.unit or 's')})}{remark}"
     elif timing.sampling:
         yield f"  sampling: {timing.sampling:.10g} Hz"

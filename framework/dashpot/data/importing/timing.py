@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dashpot.data.clock import read_clock
+from dashpot.data.clock import LONGEST_GAP, read_clock
 from dashpot.data.importing.roles import Role, is_counter, name_score
 from dashpot.data.importing.units import find_unit
 from dashpot.data.trouble import Unusable
@@ -42,7 +42,7 @@ def find_timing(
     try:
         step = read_clock(columns[name] * scale, str).step
     except Unusable:
-        return _from_the_mean(name, columns[name] * scale, stated, confirm)
+        return _uneven(Timing(name, found.unit, confirm=confirm), columns[name] * scale, stated)
     return Timing(name, found.unit, None, step, confirm)
 
 
@@ -50,12 +50,23 @@ def _runs(values: np.ndarray) -> bool:
     return bool(values.size > 1 and np.all(np.diff(values) >= 0) and values[-1] > values[0])
 
 
-def _from_the_mean(name: str, time: np.ndarray, stated: float | None, confirm: tuple[str, ...]) -> Timing:
-    if np.any(np.diff(time) == 0):
-        rate = stated or float(f"{(time.size - 1) / (time[-1] - time[0]):.4g}")
-        remark = f"the time '{name}' repeats its stamps: the sampling rate of {rate:g} Hz is used in its place"
-        return Timing(sampling=rate, step=1.0 / rate, confirm=(*confirm, remark))
-    return Timing(name, "s" if time.size else None, None, float(np.median(np.diff(time))), confirm)
+def _uneven(timing: Timing, time: np.ndarray, stated: float | None) -> Timing:
+    """A clock that repeats its stamps gives a rate only; gaps are left to the reading of the dataset."""
+    if not np.any(np.diff(time) == 0):
+        return replace(timing, step=float(np.median(np.diff(time))))
+    rate = stated or float(f"{(time.size - 1) / (time[-1] - time[0]):.4g}")
+    remark = f"the time '{timing.column}' repeats its stamps: the sampling rate of {rate:g} Hz is used in its place"
+    return Timing(sampling=rate, step=1.0 / rate, confirm=(*timing.confirm, remark))
+
+
+def pieces(time: np.ndarray) -> list[tuple[int, int]]:
+    """First sample and one past the last of the pieces between gaps; those of less than a hundredth are left out."""
+    steps = np.diff(time)
+    if not steps.size or np.any(steps < 0):
+        return [(0, time.size)]
+    ends = np.flatnonzero(steps > LONGEST_GAP * np.median(steps)) + 1
+    edges = [0, *ends.tolist(), time.size]
+    return [(first, last) for first, last in zip(edges, edges[1:], strict=False) if last - first > 0.01 * time.size]
 
 
 def _unnamed_clock(columns: Mapping[str, np.ndarray], units: Mapping[str, str]) -> str | None:

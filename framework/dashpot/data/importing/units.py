@@ -34,8 +34,8 @@ def find_unit(channel: str, column: str, stated: str, values: np.ndarray) -> Uni
 
 def _guess(channel: str, values: np.ndarray) -> str:
     if channel == "displacement":
-        # half a metre is more than rigs do, and half a millimetre in metres is below a thousandth
-        return "mm" if np.ptp(values) > 0.5 else "m"
+        # hardly a rig goes half a metre
+        return "mm" if np.max(np.abs(values)) > 0.5 else "m"
     if channel == "time":
         step = float(np.median(np.diff(values)))
         return "ms" if step >= 1.0 else "s"

@@ -1,0 +1,296 @@
+"""What measured files alone tell: channels, units, clock, signs, kinds, settings, repeats; each from made signals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dashpot.data.importing.files import find_files, run_names
+from dashpot.data.importing.finding import find_all
+from dashpot.data.importing.imported import import_files
+from dashpot.data.importing.motion import find_motion
+from dashpot.data.importing.roles import named_roles
+from dashpot.data.importing.signs import find_signs
+from dashpot.data.importing.text import dataset_text, quoted
+from dashpot.data.importing.timing import find_timing, pieces
+from dashpot.data.importing.units import find_unit
+from dashpot.data.table import ReadingError, Table
+from dashpot.text.document import Document
+from dashpot.text.problem import InputError
+
+STEP = 0.002
+TIME = STEP * np.arange(5000)
+
+
+def chirp(start, stop, amplitude=1.0):
+    """A linear sweep, its phase the integral of the frequency."""
+    return amplitude * np.sin(2 * np.pi * (start * TIME + (stop - start) * TIME**2 / (2 * TIME[-1])))
+
+
+class Tables:
+    """A reader that knows its tables by the name of the file."""
+
+    suffixes = (".tab",)
+
+    def __init__(self, tables):
+        self.tables = tables
+
+    def read(self, path, options):
+        if path.name not in self.tables:
+            raise ReadingError("it is broken", "mend it", 3)
+        return self.tables[path.name]
+
+
+def imported(folder, tables, **more):
+    for name in tables:
+        (folder / name).write_text("")
+    return import_files([folder], {"tab": Tables(tables)}, **more)
+
+
+def kelvin_voigt(motion, noise=0.0, stiffness=200e3, damping=500.0):
+    """Force in N of a spring and a dashpot over a motion in mm."""
+    x = motion * 1e-3
+    return stiffness * x + damping * np.gradient(x, STEP) + noise * np.random.default_rng(1).normal(size=x.size)
+
+
+# --- roles and units -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("columns", "units", "found"),
+    [
+        (["Zeit", "Weg", "Kraft"], {}, ["Zeit", "Weg", "Kraft"]),
+        (["Time [s]", "Axial Displacement", "Axial Force"], {}, ["Time [s]", "Axial Displacement", "Axial Force"]),
+        (["t", "x", "F"], {"t": "s", "x": "mm", "F": "kN"}, ["t", "x", "F"]),
+        (["Running Time", "AI 1", "AI 2"], {"AI 1": "mm", "AI 2": "N"}, ["Running Time", "AI 1", "AI 2"]),
+        (["x", "Weg Soll", "Weg Ist", "Last"], {"x": "s", "Weg Ist": "mm", "Weg Soll": "mm"}, ["x", "Weg Ist", "Last"]),
+        (["Zeit_s", "Kolbenweg_mm", "Kraft_kN"], {}, ["Zeit_s", "Kolbenweg_mm", "Kraft_kN"]),
+        (["t", "Load", "Load cell"], {"Load": "V", "Load cell": "N"}, ["t", None, "Load cell"]),
+        (["Sample Number", "position", "load"], {}, [None, "position", "load"]),
+        (
+            ["RUNTIME", "DISTGRND", "FZW"],
+            {"RUNTIME": "s", "DISTGRND": "mm", "FZW": "N"},
+            ["RUNTIME", "DISTGRND", "FZW"],
+        ),
+        (["m(1)", "m(2)"], {}, [None, None, None]),
+    ],
+)
+def test_channels_are_known_by_name_and_unit(columns, units, found):
+    roles = named_roles(columns, units)
+    names = [roles[channel].column if channel in roles else None for channel in ("time", "displacement", "force")]
+    assert names == found
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 3), (3, 1, 0, 2), (0, 3, 2, 1), (2, 0, 3, 1)])
+def test_nameless_columns_are_known_by_how_they_move(order):
+    way = chirp(1, 10)
+    signals = [TIME, way, np.gradient(way, STEP), kelvin_voigt(way, noise=2)]
+    found = find_all(Table({str(place + 1): signals[index] for place, index in enumerate(order)}))
+    assert found.timing.column == str(order.index(0) + 1)
+    assert found.channels["displacement"].role.column == str(order.index(1) + 1)
+    assert found.channels["force"].role.column == str(order.index(3) + 1)
+    assert any("how it moves" in remark for remark in found.confirm)
+
+
+def test_a_raw_voltage_beside_its_signal_is_passed_over():
+    way = chirp(1, 10, 8.0)
+    force = kelvin_voigt(way, noise=2)
+    found = find_all(Table({"1": TIME, "2": way / 50 + 1, "3": force / 1e4, "4": way, "5": force}))
+    assert [found.channels[name].role.column for name in ("displacement", "force")] == ["4", "5"]
+
+
+@pytest.mark.parametrize(
+    ("channel", "column", "stated", "values", "unit", "by"),
+    [
+        ("displacement", "Weg", "um", [0, 1], "um", "stated in the file"),
+        ("displacement", "Weg_um", "", [0, 1], "um", "in the name"),
+        ("displacement", "Weg", "V", [0.0, 12.0], "mm", "guessed"),
+        ("displacement", "Weg", "", [0.0, 0.012], "m", "guessed"),
+        ("force", "Load.kN", "", [0, 1], "kN", "in the name"),
+        ("force", "F", "", [0, 1], "N", "guessed"),
+        ("time", "t", "", [0.0, 10.0, 20.0], "ms", "guessed"),
+    ],
+)
+def test_a_unit_is_stated_named_or_guessed(channel, column, stated, values, unit, by):
+    found = find_unit(channel, column, stated, np.array(values))
+    assert (found.unit, found.by) == (unit, by)
+
+
+# --- clock ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_clock_that_repeats_its_stamps_gives_its_mean_rate():
+    coarse = np.floor(TIME * 100) / 100
+    timing = find_timing({"t": coarse}, {"t": "s"}, None, named_roles(["t"], {})["time"])
+    assert timing.column is None and timing.sampling == pytest.approx(500, rel=2e-3)
+    assert "repeats its stamps" in timing.confirm[0]
+
+
+def test_without_clock_the_stated_rate_is_used_or_nothing():
+    assert find_timing({"F": TIME % 1}, {}, 500.0, None).sampling == 500.0
+    timing = find_timing({"Sample Number": np.arange(100.0)}, {}, None, None)
+    assert timing.sampling is None and timing.column is None and "no sampling rate" in timing.confirm[0]
+
+
+def test_pieces_lie_between_gaps():
+    time = np.concatenate([[0.0], 5 + TIME[:1000], 60 + TIME[:500]])
+    assert pieces(time) == [(1, 1001), (1001, 1501)]
+    assert pieces(TIME) == [(0, TIME.size)]
+
+
+# --- signs ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("first", "second"), [(1, 1), (1, -1), (-1, 1), (-1, -1)])
+def test_signs_make_a_pressed_specimen_take_up_work(first, second):
+    way = 8 + chirp(1, 10)
+    signs = find_signs(first * way, second * kelvin_voigt(way))
+    assert signs[:2] == (first, second)
+    assert bool(signs[2]) is (signs[:2] != (1, 1))
+
+
+def test_a_damper_around_zero_has_the_sign_of_its_losses():
+    way = chirp(1, 10)
+    force = 300 * np.tanh(np.gradient(way, STEP))
+    assert find_signs(way, force)[:2] == (1, 1)
+    assert find_signs(way, -force)[:2] == (1, -1)
+
+
+# --- motion --------------------------------------------------------------------------------------------------------
+
+
+def noise_motion():
+    """Band-limited noise."""
+    spectrum = np.fft.rfft(np.random.default_rng(3).normal(size=TIME.size))
+    spectrum[np.fft.rfftfreq(TIME.size, STEP) > 8] = 0
+    return 1e-3 * np.fft.irfft(spectrum, TIME.size)
+
+
+SLOW = 4 * STEP * np.arange(5000)
+RAMPED = np.minimum(1, np.minimum(TIME, TIME[-1] - TIME))
+
+
+@pytest.mark.parametrize(
+    ("motion", "step", "kind", "settings"),
+    [
+        (0.02 + chirp(1, 20, 1e-3), STEP, "sweep", {"start": 1, "stop": 20, "amplitude": 1e-3, "preload": 0.02}),
+        (chirp(20, 1, 1e-3), STEP, "sweep", {"start": 20, "stop": 1, "amplitude": 1e-3}),
+        (2e-3 * np.sin(2 * np.pi * np.geomspace(1, 12, 5000) / np.log(12) * 10), STEP, "sweep", {"stop": 12}),
+        (0.01 + 5e-3 * np.sin(2 * np.pi * 3.3 * TIME), STEP, "harmonic", {"frequency": 3.3, "amplitude": 5e-3}),
+        (RAMPED * 5e-3 * np.sin(2 * np.pi * 2 * TIME), STEP, "harmonic", {"frequency": 2, "amplitude": 5e-3}),
+        (noise_motion(), STEP, "random", {}),
+        (0.01 * np.abs((TIME / 10 * 2) % 2 - 1), 4 * STEP, "quasi_static", {}),
+        (5e-3 * np.sin(2 * np.pi * SLOW / 20), 4 * STEP, "quasi_static", {}),
+        (0.01 * np.minimum(1, TIME / 0.1), STEP, "hold", {"preload": 0.01}),
+        (0.01 * np.exp(-0.5 * ((TIME[:500] - 0.5) / 0.1) ** 2), STEP, "transient", {}),
+    ],
+)  # fmt: skip
+def test_a_motion_tells_its_kind_and_settings(motion, step, kind, settings):
+    noisy = motion + 1e-6 * np.random.default_rng(5).normal(size=motion.size)
+    found = find_motion(noisy, step)
+    assert found.kind == kind
+    for key, value in settings.items():
+        assert found.settings[key] == pytest.approx(value, rel=0.03)
+
+
+# --- whole folders -------------------------------------------------------------------------------------------------
+
+
+def table(motion, noise=0.5, seed=0, units=True, **more):
+    chance = np.random.default_rng(seed)
+    force = kelvin_voigt(motion) + noise * chance.normal(size=motion.size)
+    return Table({"t": TIME, "x": motion, "F": force}, {"t": "s", "x": "mm", "F": "N"} if units else {}, **more)
+
+
+def test_repeats_are_found_and_other_forces_are_none(tmp_path):
+    motion = 10 + chirp(1, 20)
+    soft = Table({"t": TIME, "x": motion, "F": 0.8 * kelvin_voigt(motion)}, {"t": "s", "x": "mm", "F": "N"})
+    runs = imported(tmp_path, {"a.tab": table(motion), "a_2.tab": table(motion, seed=1), "b.tab": soft}).runs
+    assert [(run.name, run.repeats) for run in runs] == [("a", None), ("a_2", "a"), ("b", None)]
+
+
+def test_a_copy_is_told_and_is_no_repeat(tmp_path):
+    found = imported(tmp_path, {"a.tab": table(chirp(1, 20)), "b.tab": table(chirp(1, 20))})
+    assert [run.repeats for run in found.runs] == [None, None]
+    [remark] = [text for text in found.confirm if "copy" in text]
+    assert found.confirm[remark] == ("b",)
+
+
+def test_units_and_signs_are_those_of_most_files(tmp_path):
+    tables = {f"a{size}.tab": table(chirp(1, 20, size), units=False) for size in (0.2, 3.0, 5.0)}
+    found = imported(tmp_path, tables)
+    assert {run.finding.channels["displacement"].unit.unit for run in found.runs} == {"mm"}
+    assert found.runs[0].finding.settings["amplitude"] == pytest.approx(0.2e-3, rel=0.03)
+
+
+def test_a_file_with_pauses_becomes_several_runs(tmp_path):
+    time = np.concatenate([TIME, 30 + TIME])
+    motion = np.concatenate([chirp(1, 20), 2 * chirp(1, 20)])
+    force = np.concatenate([kelvin_voigt(chirp(1, 20)), kelvin_voigt(2 * chirp(1, 20))])
+    found = imported(tmp_path, {"long.tab": Table({"t": time, "x": motion, "F": force})})
+    assert [(run.name, run.rows) for run in found.runs] == [("long_1", (1, 5000)), ("long_2", (5001, 10000))]
+
+
+def test_lines_of_text_at_the_ends_are_cut_off(tmp_path):
+    whole = table(chirp(1, 20))
+    columns = {name: np.array([np.nan, *values, "end"], dtype=object) for name, values in whole.columns.items()}
+    [run] = imported(tmp_path, {"a.tab": Table(columns, whole.units)}).runs
+    assert run.rows == (2, 5001) and run.finding.kind == "sweep"
+
+
+def test_a_rate_given_by_hand_overrules_the_clock(tmp_path):
+    [run] = imported(tmp_path, {"a.tab": table(chirp(1, 20))}, sampling=1000.0).runs
+    assert run.finding.timing.sampling == 1000.0
+    assert run.finding.settings["stop"] == pytest.approx(40, rel=0.03)
+
+
+def test_a_broken_file_is_left_out_and_told(tmp_path):
+    (tmp_path / "broken.tab").write_text("")
+    found = imported(tmp_path, {"a.tab": table(chirp(1, 20))})
+    assert [run.name for run in found.runs] == ["a"]
+    assert str(found.problems[0]) == f"{tmp_path / 'broken.tab'}:3: it is broken. mend it"
+
+
+def test_what_holds_nothing_is_an_error(tmp_path):
+    with pytest.raises(InputError, match="no measured files were found"):
+        import_files([tmp_path], {"tab": Tables({})})
+    with pytest.raises(InputError, match="there is no such file or folder"):
+        import_files([tmp_path / "nothing.tab"], {"tab": Tables({})})
+    with pytest.raises(InputError, match="it holds no numbers"):
+        imported(tmp_path, {"a.tab": Table({"t": np.array(["a", "b"], dtype=object)})})
+
+
+# --- names and text ------------------------------------------------------------------------------------------------
+
+
+def test_files_come_in_the_order_of_their_numbers_and_patterns_are_understood(tmp_path):
+    for name in ("a10.tab", "a2.tab", "notes.md", "dataset.yaml"):
+        (tmp_path / name).write_text("")
+    readers = {"tab": Tables({})}
+    assert [file.name for file in find_files([tmp_path], readers)] == ["a2.tab", "a10.tab"]
+    assert [file.name for file in find_files([tmp_path / "a1*.tab"], readers)] == ["a10.tab"]
+
+
+def test_names_of_runs_are_distinct_and_safe():
+    files = [Path("one/a.5.tab"), Path("two/a.5.tab"), Path("two/x?y.tab"), Path("two/a.5.csv")]
+    assert list(run_names(files).values()) == ["a.5", "two_a.5", "x_y", "a.5_2"]
+
+
+@pytest.mark.parametrize(
+    "name", ["t", "Weg [mm]", "null", "true", "1", "007", "a: b", "#", "Größe", "x\ny", "-", "1e3"]
+)
+def test_any_name_survives_the_text(tmp_path, name):
+    node = Document.parse(f"key: {quoted(name)}\n").root.entries["key"]
+    assert str(node.value) == name
+
+
+def test_the_text_tells_what_to_confirm(tmp_path):
+    found = imported(tmp_path, {"a.tab": table(10 + chirp(1, 20), units=False), "b.tab": table(10 + chirp(1, 9))})
+    text = dataset_text(found, tmp_path, "my rig")
+    assert text.startswith("# A first dataset, written by `dashpot import`. Confirm before you trust a result:\n# - ")
+    assert "displacement: {column: x, unit: mm}   # CONFIRM: the unit, which is not stated" in text
+    assert "# - the force is taken to be in N: no unit is stated (a)" in text
+    assert "time: {column: t, unit: s}   # CONFIRM: as told above" in text
+    assert "settings: {amplitude: 1 mm, preload: 10 mm, start: " in text
