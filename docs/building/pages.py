@@ -156,10 +156,9 @@ def accuracy() -> Iterator[str]:
     """The kept results of the blind benchmark, each with its version, its seeds and its number of cases."""
     yield "# How often a diagnosis is right"
     yield (
-        "Virtual specimens with something hidden in them, or nothing, were measured on a virtual rig and diagnosed; they "
-        "share no code with dashpot, and the label was opened after the verdict. So few cases leave a wide margin: mind "
-        "the intervals. What is counted as a family are causes whose forms overlap, such as friction and softening with "
-        "amplitude."
+        "Virtual specimens with something hidden in them, or nothing, were measured on a virtual rig and diagnosed. "
+        "They share no code with dashpot, and the label was opened after the verdict. So few cases leave wide margins: "
+        "mind the intervals. A family are causes whose forms overlap, such as friction and softening with amplitude."
     )
     for path in sorted((ROOT / "tests" / "blind" / "results").glob("*.json")):
         yield from _kept(path.stem, json.loads(path.read_text(encoding="utf-8")))
@@ -172,8 +171,8 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     yield (
         f"Seeds {found['seed']} to {last}; `python tests/blind/run.py --cases {found['cases']} --seed {found['seed']}"
         + (f" --kind {kind}" if kind else "")
-        + f"` repeats them. A diagnosis took {found['seconds']:.0f} s in the median, on two cores that did other work at "
-        "the same time."
+        + f"` repeats them. A diagnosis took {found['seconds']:.0f} s in the median, on two cores that did other work "
+        "at the same time."
     )
     yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))
     yield written.table(
@@ -229,12 +228,13 @@ def _section(title: str, text: str, write: Callable[[], Iterator[str]]) -> Calla
 PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
     "elements": elements,
     "networks": networks,
-    "causes": _section("Causes", "What a diagnosis can name. A plugin adds [causes of its own](../how-to/own-cause.md).",
-                       written.causes),
-    "optimizers": _section("Optimizers", "`--optimizer WORD`, options as `--set OPTION=VALUE`, or `dp.fit(..., optimizer=, "
-                           "options=)`. A plugin adds [methods of its own](../how-to/own-optimizer.md).", written.optimizers),
-    "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run overrides "
-                        "it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
+    "causes": _section("Causes", "What a diagnosis can name. A plugin adds "
+                       "[causes of its own](../how-to/own-cause.md).", written.causes),
+    "optimizers": _section("Optimizers", "`--optimizer WORD`, options as `--set OPTION=VALUE`; in Python "
+                           "`dp.fit(..., optimizer=..., options=...)`. A plugin adds "
+                           "[methods of its own](../how-to/own-optimizer.md).", written.optimizers),
+    "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run "
+                        "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
     "rigs": _section("Rigs", "`dashpot simulate SPEC --rig WORD` or `dp.measure(model, \"WORD\", ...)`.", written.rigs),
     "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
                           written.specimens),

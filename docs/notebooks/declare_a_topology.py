@@ -105,6 +105,10 @@ loop.plot("loops")
 # The loop is as wide as twice the sliding force, 120 N: friction does not care how slowly it is driven.
 
 # %%
+import numpy as np
+
 force, depth = loop.runs[0].force, loop.runs[0].displacement
-middle = abs(depth - 1.5e-3) < 1e-5
-print(f"width at 1.5 mm: {force[middle].max() - force[middle].min():.0f} N")
+turn = depth.argmax()
+pressed = np.interp(1.5e-3, depth[:turn], force[:turn])
+released = np.interp(1.5e-3, depth[:turn:-1], force[:turn:-1])
+print(f"width at 1.5 mm: {pressed - released:.0f} N")

@@ -28,8 +28,8 @@ data = everything.select(["qs", "a05_p17", "a05_p17_b", "a2_p17", "a2_p17_b", "a
 data.plot("stiffness")
 
 # %% [markdown]
-# Around 17 mm the tire is stiffer when it is shaken less: that is friction. It is stiffer at higher frequencies: that is
-# relaxation.
+# Around 17 mm the tire is stiffer when it is shaken less: that is friction. It is stiffer at higher frequencies:
+# that is relaxation.
 #
 # ## One model
 #

@@ -79,14 +79,14 @@ _HOMES = {
     "dashpot.fit.study.reading": ("read_study",),
     "dashpot.fit.study.run": ("run_study",),
     "dashpot.model.element": ("Element", "Parameter", "Curve", "State", "Motion", "Response"),
-    "dashpot.model.picture": ("Parallel", "Series", "Symbol"),
+    "dashpot.model.picture": ("Symbol", "Series", "Parallel"),
     "dashpot.contract.hooks": ("hookimpl",),
     "dashpot.contract.registry": ("load_registry",),
-    "dashpot.contract.optimizer": ("Optimizer", "Search", "Space"),
+    "dashpot.contract.optimizer": ("Space", "Search", "Optimizer"),
     "dashpot.contract.reader": ("Reader", "ReadingError", "Table"),
-    "dashpot.contract.cause": ("Cause", "Suspect", "View", "added_branch"),
+    "dashpot.contract.cause": ("added_branch", "Suspect", "Cause", "View"),
     "dashpot.contract.specimen": ("Specimen",),
-    "dashpot.contract.rig": ("Rig", "PlannedRun", "PrescribedPath"),
+    "dashpot.contract.rig": ("PrescribedPath", "PlannedRun", "Rig"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 _LAYER = "fit"  # the one name that is both a layer and a verb

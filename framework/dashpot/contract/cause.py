@@ -18,7 +18,12 @@ Atom = tuple[float, float]  # strength and place on the grid
 
 
 class View(Protocol):
-    """What a cause may look at. Arrays of a run have its samples; a cause never sees noise, thresholds or labels."""
+    """What a cause may look at. Arrays of a run have its samples; a cause never sees noise, thresholds or labels.
+
+    Examples:
+        >>> def deepest(view: dp.View) -> float:
+        ...     return max(float(view.displacement(run).max()) for run in view.runs)
+    """
 
     @property
     def runs(self) -> Sequence[str]:
@@ -75,6 +80,10 @@ class Suspect:
     With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
     ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what a strength of one is.
+
+    Examples:
+        >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
+        ('bumper', 'stiffness', 'N/m', 8)
     """
 
     form: str
@@ -98,6 +107,16 @@ class Cause(ABC):
     ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
     other words to the measurement that tells the two apart. ``cure`` says what to do about the measurement, where it is
     to blame; ``faults`` are the kinds of faults found by triage that the cause stands for.
+
+    Examples:
+        >>> class MissingBumper(dp.Cause):
+        ...     '''The force of a bumper.'''
+        ...     word, kind, about = "missing_bumper", "specimen", "a hardening bumper"
+        ...     shows = "storage stiffness grows with preload faster and faster"
+        ...     def suspects(self, view, network):
+        ...         yield suspect
+        >>> len(list(MissingBumper().suspects(None, mount)))
+        1
     """
 
     word: ClassVar[str]
@@ -127,6 +146,12 @@ def added_branch(
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found.
+
+    Examples:
+        >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
+        >>> suspect = dp.added_branch("bumper", "bumper", lengths, lambda k, s: {"stiffness": k, "length": s}, units)
+        >>> print(suspect.extend(mount.text, [(5000.0, 2e-3)]).splitlines()[-1].strip())
+        length: {start: 2 mm}
     """
 
     def columns(view: View, run: str) -> Array:

@@ -11,7 +11,8 @@ class has a ``word``, by which files and commands name it. The built-in plugins 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import pluggy
 
@@ -24,9 +25,23 @@ if TYPE_CHECKING:
     from dashpot.model.element import Element
 
 PROJECT = "dashpot"
+Hook = TypeVar("Hook", bound=Callable[..., Any])
 
 hookspec = pluggy.HookspecMarker(PROJECT)
-hookimpl = pluggy.HookimplMarker(PROJECT)
+_mark = pluggy.HookimplMarker(PROJECT)
+
+
+def hookimpl(function: Hook) -> Hook:
+    """Mark a function of a plugin as one of the functions below.
+
+    Examples:
+        >>> @dp.hookimpl
+        ... def dashpot_elements():
+        ...     return [Bumper]
+        >>> dashpot_elements()[0].word
+        'bumper'
+    """
+    return _mark(function)
 
 
 @hookspec

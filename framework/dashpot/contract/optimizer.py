@@ -19,6 +19,11 @@ class Space:
     """The free parameters, each scaled to [0, 1]; what lies behind (linear, logarithmic) is not the optimizer's care.
 
     names: one for each parameter; start: (n,), the point known before the search.
+
+    Examples:
+        >>> space = dp.Space(("rubber.stiffness", "damping.damping"), np.array([0.5, 0.2]))
+        >>> space.size
+        2
     """
 
     names: tuple[str, ...]
@@ -44,6 +49,14 @@ class Optimizer(ABC):
 
     Keyword arguments of the constructor, with types and defaults, are the options a user can set. `begin` forgets
     everything of an earlier search. The same space, seed and values give the same points, bit for bit.
+
+    Examples:
+        >>> method = Chance(points=4)
+        >>> method.begin(space, seed=1)
+        >>> block = method.ask()
+        >>> method.tell(block, block.sum(axis=1))
+        >>> method.ask() is None, method.conclusion
+        (True, 'the best of 4 points was 2')
     """
 
     word: ClassVar[str]
@@ -87,7 +100,18 @@ class Optimizer(ABC):
 
 
 class Search(Optimizer):
-    """An optimizer written as one generator: `values = yield points`; what it returns is its conclusion."""
+    """An optimizer written as one generator: `values = yield points`; what it returns is its conclusion.
+
+    Examples:
+        >>> class Chance(dp.Search):
+        ...     '''Points drawn evenly.'''
+        ...     word = "chance"
+        ...     def __init__(self, points: int = 8):
+        ...         self.points = points
+        ...     def search(self, space, rng):
+        ...         losses = yield rng.random((self.points, space.size))
+        ...         return f"the best of {self.points} points was {losses.argmin()}"
+    """
 
     _blocks: Blocks | None = None
     _asked: np.ndarray | None = None

@@ -16,6 +16,15 @@ class Reader(ABC):
     """Reads the files of one format into columns. It never changes a file, and never unpickles.
 
     `word` names the format in a dataset (`reader: csv`); `suffixes` are the file names it reads unasked (`.csv`).
+
+    Examples:
+        >>> class Pairs(dp.Reader):
+        ...     '''Two columns with a blank between them.'''
+        ...     word, suffixes = "pairs", (".pairs",)
+        ...     def read(self, path, options):
+        ...         return dp.Table(dict(zip("xF", np.loadtxt(path).T)))
+        >>> Pairs.suffixes
+        ('.pairs',)
     """
 
     word: ClassVar[str]

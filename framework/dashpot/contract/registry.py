@@ -54,6 +54,13 @@ def load_registry() -> Registry:
 
     The environment variable ``DASHPOT_PLUGINS`` may hold a comma list of the only plugins to load; InputError if it
     names one that is not installed.
+
+    Examples:
+        >>> registry = dp.load_registry()
+        >>> "maxwell" in registry.elements
+        True
+        >>> registry.origin("elements", "maxwell").distribution
+        'dashpot'
     """
     entries = entry_points(group=PROJECT)
     allowed = os.environ.get(ALLOW_LIST)

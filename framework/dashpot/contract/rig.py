@@ -21,7 +21,14 @@ PORT = ""
 
 @dataclass(frozen=True, eq=False)
 class PrescribedPath:
-    """The motion of a node, its rates known in closed form: (n,) in m, m/s and m/s^2."""
+    """The motion of a node, its rates known in closed form: (n,) in m, m/s and m/s^2.
+
+    Examples:
+        >>> time = np.arange(0.0, 1.0, 0.01)
+        >>> path = dp.PrescribedPath(1e-3 * time, np.full(100, 1e-3), np.zeros(100))
+        >>> path.displacement.shape
+        (100,)
+    """
 
     displacement: Array
     velocity: Array
@@ -38,6 +45,11 @@ class PlannedRun:
 
     kind: one of the kinds of a dataset; sample_time: s; motion: driven node -> path, `PORT` where there is one driven
     end; settings: numbers in SI, among them ``added_mass`` (kg on each wheel); notes: words.
+
+    Examples:
+        >>> planned = dp.PlannedRun("ramp", "transient", 0.01, {"": path})
+        >>> planned.samples, planned.excitation().name
+        (100, 'ramp')
     """
 
     name: str
@@ -64,7 +76,17 @@ class PlannedRun:
 
 
 class Rig(ABC):
-    """A test procedure. Keyword arguments of the constructor, with types, units and defaults, are its options."""
+    """A test procedure. Keyword arguments of the constructor, with types, units and defaults, are its options.
+
+    Examples:
+        >>> class Ramp(dp.Rig):
+        ...     '''One slow ramp.'''
+        ...     word = "ramp"
+        ...     def runs(self):
+        ...         return [planned]
+        >>> [run.name for run in Ramp().runs()]
+        ['ramp']
+    """
 
     word: ClassVar[str]
     """The name of the procedure in files and on the command line."""

@@ -12,6 +12,11 @@ class Specimen(ABC):
 
     A specimen shares no code with the models that are fitted to it. ``demo`` offers it to ``dashpot demo``, which
     compares the shipped networks ``networks`` on its dataset and then diagnoses the one named ``suspect``.
+
+    Examples:
+        >>> tire = dp.load_registry().specimens["test_tire"]
+        >>> issubclass(tire, dp.Specimen), tire.suspect
+        (True, 'kelvin_voigt')
     """
 
     word: ClassVar[str] = ""

@@ -16,6 +16,11 @@ class ReadingError(Exception):
     """A measurement file cannot be read: what was expected and got, what to do, and the line if there is one.
 
     What the message quotes from the file is made printable.
+
+    Examples:
+        >>> raise dp.ReadingError("expected 3 numbers", "cut the line off", 7)
+        Traceback (most recent call last):
+        dashpot.data.table.ReadingError: ...
     """
 
     def __init__(self, message: str, hint: str = "", line: int | None = None):
@@ -33,6 +38,11 @@ class Table:
     units:    name -> the unit that the file itself states, where it does.
     sampling: Hz, when the file states it.
     lines:    (n,) line in the file of every row, when the file has lines.
+
+    Examples:
+        >>> table = dp.Table({"t": np.arange(3.0), "F": np.ones(3)}, units={"F": "kN"})
+        >>> table.find(2)
+        'F'
     """
 
     columns: Mapping[str, np.ndarray]

@@ -103,7 +103,15 @@ class EnergyCounter:
 
 
 def energy_balance(spec: NetworkSpec, motion: Drive | Excitation) -> EnergyBalance:
-    """The energies of a network over a run. Raises as ``EnergyCounter`` does."""
+    """The energies of a network over a run. Raises as ``EnergyCounter`` does.
+
+    Examples:
+        >>> from dashpot.data.excitation import Excitation
+        >>> run = dp.load_dataset("mount").run("a1_p2_up")
+        >>> balance = dp.energy_balance(dp.load("mount.yaml"), Excitation.of_run(run))
+        >>> [share.name for share in balance.branches]
+        ['rubber', 'damping']
+    """
     return EnergyCounter.of(spec).balance(motion)
 
 

@@ -23,6 +23,11 @@ class Parameter:
 
     ``unit`` is SI text, ``bounds`` the range that makes physical sense in SI, ``scale`` how an optimizer should search
     it. A parameter with a ``default`` that a file does not mention is compiled as that constant.
+
+    Examples:
+        >>> stiffness = dp.Parameter("N/m", "slope at zero", bounds=(1.0, 1e9), symbol="k")
+        >>> stiffness.scale
+        'log'
     """
 
     unit: str
@@ -40,6 +45,11 @@ class Curve:
     ``value`` and ``over`` name the two axes and their SI units, as they are written in a file:
     ``stiffness: 220 N/mm``, ``stiffness: {polynomial: [180 N/mm, 1 N/mm^2]}``,
     ``stiffness: {deflection: [0 mm, 10 mm], force: [0 N, 2 kN]}``.
+
+    Examples:
+        >>> law = dp.Curve(("force", "N"), ("deflection", "m"), "force over deflection", bounds=(1.0, 1e9))
+        >>> law.slope_unit, law.coefficient_unit(3)
+        ('N/m', 'N/m^3')
     """
 
     value: tuple[str, str]
@@ -62,7 +72,12 @@ class Curve:
 
 @dataclass(frozen=True)
 class State:
-    """A memory of the law: zero in the unloaded specimen."""
+    """A memory of the law: zero in the unloaded specimen.
+
+    Examples:
+        >>> dp.State("N", "friction force").unit
+        'N'
+    """
 
     unit: str
     about: str
@@ -74,6 +89,10 @@ class Motion:
 
     Between ``old`` and ``new`` (m) the path is the cubic that also has the two velocities (m/s).
     For a law that uses positions only, the framework splits steps at turning points, so that its path is monotone.
+
+    Examples:
+        >>> dp.Motion(old=0.0, new=2e-3, velocity_old=0.0, velocity_new=0.1, acceleration=5.0).travel
+        0.002
     """
 
     old: Any
@@ -90,7 +109,13 @@ class Motion:
 
 @dataclass(frozen=True, init=False)
 class Response:
-    """What a law answers: the force at the end of the step in N and the new value of every state."""
+    """What a law answers: the force at the end of the step in N and the new value of every state.
+
+    Examples:
+        >>> answer = dp.Response(12.0, slider=12.0)
+        >>> answer.force, answer.states
+        (12.0, {'slider': 12.0})
+    """
 
     force: Any
     states: Mapping[str, Any]
@@ -117,6 +142,17 @@ class Element(ABC):
     the law follows. ``exact`` claims that one step is the same as two over its halves, ``passive`` that the law never
     gives back more work than was put in, whatever its numbers; set to False what does not hold. ``picture`` is how a
     schematic shows the element.
+
+    Examples:
+        >>> class Bumper(dp.Element):
+        ...     '''A rubber bumper that hardens: F = stiffness length (exp(x / length) - 1).'''
+        ...     word = "bumper"
+        ...     stiffness = dp.Parameter("N/m", "slope at first contact", bounds=(1.0, 1e9))
+        ...     length = dp.Parameter("m", "deflection over which the slope grows by e", bounds=(1e-5, 1.0))
+        ...     def step(self, x, z, p, dt):
+        ...         return dp.Response(p.stiffness * p.length * np.expm1(x.new / p.length))
+        >>> list(Bumper.declares.parameters)
+        ['stiffness', 'length']
     """
 
     word: ClassVar[str] = ""

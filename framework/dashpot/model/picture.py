@@ -8,7 +8,12 @@ from typing import TypeAlias
 
 
 class Symbol(Enum):
-    """What engineers draw. ``BOX`` is a rectangle with the word of the element in it."""
+    """What engineers draw. ``BOX`` is a rectangle with the word of the element in it.
+
+    Examples:
+        >>> dp.Symbol.SPRING.name
+        'SPRING'
+    """
 
     SPRING = auto()
     DASHPOT = auto()
@@ -23,7 +28,13 @@ class Symbol(Enum):
 
 @dataclass(frozen=True, init=False)
 class Series:
-    """Pictures one after the other: all carry the same force. ``Series(Symbol.SPRING, Symbol.DASHPOT)``."""
+    """Pictures one after the other: all carry the same force. ``Series(Symbol.SPRING, Symbol.DASHPOT)``.
+
+    Examples:
+        >>> maxwell = dp.Series(dp.Symbol.SPRING, dp.Symbol.DASHPOT)
+        >>> len(maxwell.parts)
+        2
+    """
 
     parts: tuple[Picture, ...]
 
@@ -33,7 +44,12 @@ class Series:
 
 @dataclass(frozen=True, init=False)
 class Parallel:
-    """Pictures side by side: all see the same deflection."""
+    """Pictures side by side: all see the same deflection.
+
+    Examples:
+        >>> dp.Parallel(maxwell, dp.Symbol.SLIDER).parts[1].name
+        'SLIDER'
+    """
 
     parts: tuple[Picture, ...]
 

@@ -25,9 +25,9 @@ class Comparison(PlainComparison):
     """Several networks on the same runs. In a notebook it shows the table of their errors.
 
     Examples:
-        >>> comparison = dp.compare(["spring", "kelvin_voigt"], "mount")
-        >>> print(comparison.headline)  # doctest: +ELLIPSIS
-        kelvin_voigt is closest: ... N of error, ... × the noise floor (... N).
+        >>> comparison = dp.compare(["spring", "mount.yaml"], data)
+        >>> print(comparison.headline)
+        mount is closest: ... N of error, ... × the noise floor (... N).
         >>> sorted(comparison.fits[1].errors.per_run) == sorted(run.name for run in comparison.setting.dataset.runs)
         True
     """

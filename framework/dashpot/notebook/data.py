@@ -33,9 +33,9 @@ class Data(Dataset):
     Examples:
         >>> data = dp.load_dataset("mount")
         >>> [run.name for run in data.runs][:3]
-        ['qs', 'a05_p3', 'a05_p3_b']
-        >>> data.run("a05_p3").force.size
-        2001
+        ['a0p5_p2_up', 'a0p5_p2_up_b', 'a1_p2_up']
+        >>> data.table().rows[1]["remark"]
+        'repeats a0p5_p2_up'
         >>> data.problems
         ()
     """

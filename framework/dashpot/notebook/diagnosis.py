@@ -33,13 +33,12 @@ class Diagnosis(PlainDiagnosis):
     """What a network gets wrong, and why. In a notebook it shows the answer, the causes, and what they change.
 
     Examples:
-        >>> diagnosis = dp.diagnose("kelvin_voigt", "mount")
         >>> diagnosis.verdict
         'explained'
         >>> [named.cause.word for named in diagnosis.named]
-        ['friction']
+        ['relaxation']
         >>> [branch.element.word for branch in diagnosis.extended.leaves()][-1]
-        'dahl'
+        'maxwell'
     """
 
     @property

@@ -29,13 +29,13 @@ class Fit(FitResult):
     """A network with the numbers that were found. In a notebook it shows its errors and its numbers with intervals.
 
     Examples:
-        >>> fit = dp.fit("kelvin_voigt", "mount")
+        >>> fit = dp.fit("mount.yaml", data, seed=1)
         >>> fit.errors.held_out > fit.noise_floor.value
         True
         >>> fit.at_bound
         ()
         >>> fit.model.name
-        'kelvin_voigt'
+        'mount'
     """
 
     def table(self) -> Listing:

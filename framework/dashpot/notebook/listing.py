@@ -18,7 +18,7 @@ class Listing(Grid):
     """A table of a result. In a notebook it shows itself; ``print`` writes it as text.
 
     Examples:
-        >>> table = dp.compare(["spring", "kelvin_voigt"], "mount").table()
+        >>> table = comparison.table()
         >>> [column.heading for column in table.columns][:3]
         ['model', 'free parameters', 'RMSE train (N)']
         >>> table.to_csv().splitlines()[1].startswith("spring,")

@@ -42,7 +42,14 @@ def find_study(word: str) -> Path:
 
 
 def read_study(path: Path, registry: Registry) -> StudySpec:
-    """The study in a file. InputError with all its mistakes and those of its networks."""
+    """The study in a file. InputError with all its mistakes and those of its networks.
+
+    Examples:
+        >>> from pathlib import Path
+        >>> study = dp.read_study(Path("ladder.yaml"), dp.load_registry())
+        >>> study.name, len(study.models)
+        ('ladder', 1)
+    """
     return parse_study(Document.read(path), path.parent, registry)
 
 
