@@ -79,6 +79,11 @@ def run_study(
 
     The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
     number of interruptions. Raises InputError for patterns that name nothing and for networks that do not compile.
+
+    Examples:
+        >>> found = dp.run_study(study, dp.load_dataset("mount"), registry=dp.load_registry())
+        >>> len(found.models)
+        1
     """
     setting = study_setting(study, dataset)
     records = Checkpoint(checkpoint)
