@@ -136,6 +136,10 @@ def _ask(request: Mapping[str, Any], seconds: float, what: str) -> dict[str, Any
             message = f"it is not a sound {what}: reading took more than {seconds:.0f} s"
         except (EOFError, OSError):
             message = f"it is not a sound {what}: it brings down the library that reads it"
+        except BaseException:
+            # interrupted: the answer is still to come, and must not be taken for that to the next request
+            _end()
+            raise
         _end()
     raise ReadingError(message, "save it again")
 

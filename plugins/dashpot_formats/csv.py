@@ -28,6 +28,8 @@ from dashpot_formats.time_stamps import is_stamp, seconds
 
 # lines above the table that are looked through for the sampling rate
 _LONGEST_HEADER = 10_000
+# a table may have so many times as many places as there are values, beyond a small one
+_SPARSEST, _SMALL = 10, 100_000
 
 _DELIMITER_WORDS = {"tab": "\t", "\\t": "\t", "space": None, "spaces": None, " ": None, "whitespace": None}
 
@@ -78,7 +80,7 @@ def _read_table(lines: list[str], layout: Layout, header: Header) -> Table:
         for index in range(layout.first, len(lines))
         if lines[index].strip() and not is_comment(lines[index], layout.delimiter)
     ]
-    cells = _split_columns([lines[index] for index in kept], layout.delimiter)
+    cells = _split_columns([lines[index] for index in kept], layout.delimiter, kept)
     width = max(layout.width, len(header.names))
     _refuse_long_rows(cells, kept, layout, width)
     cells += [[""] * len(kept)] * (width - len(cells))
@@ -93,14 +95,26 @@ def _read_table(lines: list[str], layout: Layout, header: Header) -> Table:
     return Table(columns, units, stated_sampling(above), lines=np.array(kept) + 1)
 
 
-def _split_columns(rows: list[str], delimiter: str | None) -> list[Sequence[str]]:
+def _split_columns(rows: list[str], delimiter: str | None, kept: list[int]) -> list[Sequence[str]]:
     """The texts of every column. Rows that are all alike, the usual case, are split in one go."""
     widths = {len(row.split(delimiter)) for row in rows}
     if len(widths) == 1 and (delimiter is None or not any('"' in row for row in rows)):
         (width,) = widths
         cells = (delimiter or " ").join(rows).split(delimiter)
         return [cells[index::width] for index in range(width)]
-    return list(zip_longest(*(split_row(row, delimiter) for row in rows), fillvalue=""))
+    split = [split_row(row, delimiter) for row in rows]
+    _refuse_endless_row(split, kept)
+    return list(zip_longest(*split, fillvalue=""))
+
+
+def _refuse_endless_row(rows: list[list[str]], kept: list[int]) -> None:
+    """A lost line break makes a row so long that a table as wide as it would not fit anywhere."""
+    lengths = [len(row) for row in rows]
+    widest = max(lengths)
+    if widest * len(rows) > _SPARSEST * (sum(lengths) + _SMALL):
+        usual = sorted(lengths)[len(lengths) // 2]
+        line = kept[lengths.index(widest)] + 1
+        raise ReadingError(f"expected about {usual} values, got {widest}", "a line break is missing: correct it", line)
 
 
 def _refuse_long_rows(cells: list[Sequence[str]], kept: list[int], layout: Layout, width: int) -> None:

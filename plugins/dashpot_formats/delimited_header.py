@@ -14,6 +14,7 @@ from dashpot_formats.unit_words import names_a_unit, plain_unit
 _BRACKETED = re.compile(r"(?P<name>.*\S)\s*[\[(<{](?P<unit>[^\[\](){}<>]*)[\])>}]")
 _FRACTION = re.compile(r"(?P<name>.*\S)\s+/\s+(?P<unit>\S+)|(?P<name2>.*\S)\s+in\s+(?P<unit2>\S+)")
 _LOOK_BACK = 30
+_LONGEST_NAME = 300
 
 # what stands in the first cell of a line of units, and what a line of data types is made of
 _UNIT_LABELS = {"unit", "units", "einheit", "einheiten", "y_unit_label", "[unit]", "kanaleinheit", "channel unit"}
@@ -140,6 +141,8 @@ def _names_with_units(cells: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _name_and_unit(cell: str) -> tuple[str, str]:
+    if len(cell) > _LONGEST_NAME:
+        return cell, ""
     match = _BRACKETED.fullmatch(cell)
     if match:
         return match["name"], plain_unit(match["unit"])

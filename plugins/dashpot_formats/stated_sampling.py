@@ -18,10 +18,14 @@ _STEP = re.compile(
 )
 
 
+_LONGEST_LINE = 2000
+
+
 def stated_sampling(lines: Sequence[str]) -> float | None:
     """Hz, when the lines state one rate, and only one; None otherwise."""
-    rates = {_hertz(match) for line in lines for match in _RATE.finditer(line)}
-    rates |= {_hertz_of_step(match) for line in lines for match in _STEP.finditer(line)}
+    short = [line for line in lines if len(line) < _LONGEST_LINE]
+    rates = {_hertz(match) for line in short for match in _RATE.finditer(line)}
+    rates |= {_hertz_of_step(match) for line in short for match in _STEP.finditer(line)}
     return rates.pop() if len(rates) == 1 and None not in rates else None
 
 

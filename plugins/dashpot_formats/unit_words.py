@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from dashpot.text.quantity import is_unit
 
 _WORDS = {
@@ -28,6 +30,7 @@ _WORDS = {
 _BY_WORD = {word: unit for unit, words in _WORDS.items() for word in words.split()}
 
 
+@lru_cache(maxsize=4096)
 def plain_unit(stated: str) -> str:
     """The unit behind a spelling such as `Sek` or `inches`; what nobody knows stays as it is, `-` is no unit."""
     text = stated.strip().strip("[](){}<>").strip()
@@ -38,6 +41,7 @@ def plain_unit(stated: str) -> str:
     return _BY_WORD.get(text.lower().replace(" ", "_"), _BY_WORD.get(text.lower(), text))
 
 
+@lru_cache(maxsize=4096)
 def names_a_unit(text: str) -> bool:
     """Whether a text is a unit, in whatever spelling."""
     return is_unit(plain_unit(text))

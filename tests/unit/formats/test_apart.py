@@ -75,6 +75,16 @@ def test_what_goes_wrong_is_told_and_the_next_file_is_read(readers, tmp_path, mo
     assert apart.read_apart(readers.sound, tmp_path / "file", "file").notes == {"note": 1}
 
 
+def test_an_interrupted_reading_leaves_nothing_behind(readers, tmp_path, monkeypatch):
+    """The answer to the interrupted request is not taken for that to the next one."""
+    real = apart._Process._answer
+    monkeypatch.setattr(apart._Process, "_answer", lambda process: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        apart.read_apart(readers.stumble, tmp_path / "file", "thing")
+    monkeypatch.setattr(apart._Process, "_answer", real)
+    assert apart.read_apart(readers.sound, tmp_path / "file", "file").notes == {"note": 1}
+
+
 def test_one_process_serves_many_files(readers, tmp_path):
     apart.read_apart(readers.sound, tmp_path / "file", "file")
     first = apart._running[0]

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
+from dashpot.contract.reader import ReadingError
 from dashpot_formats.csv import Csv
 from dashpot_formats.stated_sampling import stated_sampling
 from dashpot_formats.time_stamps import seconds
@@ -155,3 +158,23 @@ def test_a_rate_is_taken_from_the_lines_above(lines, hertz):
 )
 def test_units_are_known_in_other_spellings(stated, unit):
     assert plain_unit(stated) == unit
+
+
+def test_a_row_without_end_is_told_at_once(tmp_path):
+    lines = ["t;x;F"] + ["1;2;3"] * 50_000
+    lines[20_000] = ";".join("1" * 200_000)
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    with pytest.raises(ReadingError, match="expected about 3 values, got 200000") as caught:
+        Csv().read(tmp_path / "a.csv", {})
+    assert caught.value.line == 20_001
+
+
+@pytest.mark.parametrize("sign", [" ", "(", "a (", "1:", "sample rate ", "\t", ";", '"', "/ "])
+def test_long_lines_take_no_long_time(tmp_path, sign):
+    (tmp_path / "a.csv").write_text(sign * 100_000 + "\nt;x\n" + "1;2\n" * 20)
+    began = time.process_time()
+    try:
+        Csv().read(tmp_path / "a.csv", {})
+    except ReadingError as error:
+        assert error.hint
+    assert time.process_time() - began < 2

@@ -13,6 +13,8 @@ from dashpot.data.importing.units import find_unit
 from dashpot.data.trouble import Unusable
 from dashpot.text.quantity import factor
 
+_DISAGREEMENT = 0.02
+
 
 @dataclass(frozen=True)
 class Timing:
@@ -43,6 +45,8 @@ def find_timing(
         step = read_clock(columns[name] * scale, str).step
     except Unusable:
         return _uneven(Timing(name, found.unit, confirm=confirm), columns[name] * scale, stated)
+    if stated and abs(step * stated - 1) > _DISAGREEMENT:
+        confirm = (*confirm, f"the file states {stated:g} Hz, its time column runs at {1 / step:.6g} Hz")
     return Timing(name, found.unit, None, step, confirm)
 
 
