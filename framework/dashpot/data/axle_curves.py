@@ -36,7 +36,8 @@ class SlowCurve:
 
     def at(self, deflection: Array) -> Array:
         """The force N at other deflections m; beyond the ends the curve goes on straight."""
-        slopes = np.diff(self.force)[[0, -1]] / np.diff(self.deflection)[[0, -1]]
+        end = max(2, self.deflection.size // 8)
+        slopes = [np.polyfit(self.deflection[part], self.force[part], 1)[0] for part in (np.s_[:end], np.s_[-end:])]
         inside = np.interp(deflection, self.deflection, self.force)
         below, above = (
             np.minimum(deflection - self.deflection[0], 0.0),
@@ -98,9 +99,8 @@ def end_bias(loop: Loop) -> Array:
 def axle_curves(in_phase: SlowAxle, anti_phase: SlowAxle | None = None, damping: float = 0.0) -> AxleCurves:
     """Suspension curves from a slow run in phase; from one in anti-phase also the anti-roll bar.
 
-    In anti-phase each wheel adds the odd part of its suspension curve, which the run in phase knows; what is left turns
-    the bar, whose two ends move against each other by the difference of the wheel motions. ``damping`` as in
-    ``slow_curve``.
+    In anti-phase each wheel stands on its own suspension curve, which the run in phase knows; what is left turns the
+    bar, whose ends move against each other by the difference of the wheel motions. ``damping`` as in ``slow_curve``.
     """
     dt = in_phase.sample_time
     suspension = tuple(slow_curve(z, f, dt, damping) for z, f in zip(in_phase.wheels, in_phase.forces, strict=True))
@@ -108,7 +108,8 @@ def axle_curves(in_phase: SlowAxle, anti_phase: SlowAxle | None = None, damping:
         return AxleCurves(suspension)  # type: ignore[arg-type]
     wheel, force = (0.5 * (pair[0] - pair[1]) for pair in (anti_phase.wheels, anti_phase.forces))
     roll = slow_curve(wheel, force, anti_phase.sample_time, damping)
-    springs = np.mean([side.at(roll.deflection) - side.at(-roll.deflection) for side in suspension], axis=0) / 2.0
+    middle = float(np.mean([[motion.min(), motion.max()] for motion in anti_phase.wheels]))
+    springs = 0.5 * (suspension[0].at(middle + roll.deflection) - suspension[1].at(middle - roll.deflection))
     rate = _slope(2.0 * roll.deflection, roll.force - springs, INTERIOR)
     friction = roll.friction - float(np.mean([side.friction for side in suspension]))
     return AxleCurves(suspension, roll, rate, friction)  # type: ignore[arg-type]
