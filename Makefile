@@ -20,7 +20,7 @@ types: $(VENV)/installed-for-tests
 	$(BIN)/mypy
 
 docs: $(VENV)/installed-for-tests
-	$(BIN)/sphinx-build --fail-on-warning --keep-going --quiet docs docs/_build/html
+	$(BIN)/sphinx-build --fresh-env --fail-on-warning --keep-going --quiet docs docs/_build/html
 	@echo docs/_build/html/index.html
 
 clean:

@@ -20,6 +20,7 @@ myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 4
 exclude_patterns = ["_build", "building", "notebooks", "README.md"]
 nitpicky = True
+smartquotes = False
 
 html_theme = "furo"
 html_title = f"dashpot {version}"

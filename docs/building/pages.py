@@ -20,6 +20,7 @@ from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.svg import svg
 
 ROOT = Path(__file__).resolve().parents[2]
+WIDTH = 80  # characters that a line of code has room for
 sys.path.insert(0, str(ROOT / "tests"))
 
 from architecture import written  # noqa: E402
@@ -130,12 +131,26 @@ def documented(name: str, thing: Any) -> Iterator[str]:
     if name == "fit":
         thing = dashpot._verb()
     if callable(thing) and not inspect.isclass(thing):
-        yield f"```python\ndp.{name}{inspect.signature(thing)}\n```".replace("'", "")
+        yield f"```python\n{called(name, inspect.signature(thing))}\n```"
     yield from docstring(thing.__doc__ or "")
     if inspect.isclass(thing) and "notebook" in thing.__module__:
         rows = [(f"`{key}`", _first_line(member)) for key, member in vars(thing).items() if not key.startswith("_")]
         if rows := [row for row in rows if row[1]]:
             yield written.table(("has", "which is"), rows)
+
+
+def called(name: str, signature: inspect.Signature) -> str:
+    """How a function is called; a long list of arguments stands one below the other."""
+    text = f"dp.{name}{signature}".replace("'", "")
+    if len(text) < WIDTH:
+        return text
+    arguments = list(signature.parameters.values())
+    named = [argument for argument in arguments if argument.kind is argument.KEYWORD_ONLY]
+    listed = [str(argument).replace("'", "") for argument in arguments]
+    if named:
+        listed.insert(arguments.index(named[0]), "*")
+    lines = "".join(f"    {line},\n" for line in listed)
+    return f"dp.{name}(\n{lines}){text[text.rindex(' ->') :]}"
 
 
 def docstring(text: str) -> Iterator[str]:
@@ -160,14 +175,15 @@ def accuracy() -> Iterator[str]:
         "They share no code with dashpot, and the label was opened after the verdict. So few cases leave wide margins: "
         "mind the intervals. A family are causes whose forms overlap, such as friction and softening with amplitude."
     )
-    for path in sorted((ROOT / "tests" / "blind" / "results").glob("*.json")):
+    for path in sorted((ROOT / "tests" / "blind" / "results").glob("*.json"), key=lambda path: path.stem):
         yield from _kept(path.stem, json.loads(path.read_text(encoding="utf-8")))
 
 
 def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     version, _, kind = name.partition("-")
+    hidden = " with nothing hidden" if kind == "null" else f" with {kind} hidden" if kind else ""
     last = found["seed"] + found["cases"] - 1
-    yield f"## {found['cases']} cases of dashpot {version}" + (f", {kind}: nothing hidden" if kind else "")
+    yield f"## {found['cases']} cases of dashpot {version}{hidden}"
     yield (
         f"Seeds {found['seed']} to {last}; `python tests/blind/run.py --cases {found['cases']} --seed {found['seed']}"
         + (f" --kind {kind}" if kind else "")

@@ -15,6 +15,8 @@ STYLE = """
 .dashpot .scroll { overflow: auto; max-height: 32em; }
 .dashpot table { border-collapse: collapse; font-size: 0.92em; margin: 0; }
 .dashpot th, .dashpot td { text-align: left; padding: 0.2em 0.8em; border-bottom: 1px solid rgba(128, 128, 128, 0.3); }
+.dashpot td { vertical-align: top; }
+.dashpot td:not(.number) { min-width: 4em; }
 .dashpot .number { text-align: right; font-variant-numeric: tabular-nums; }
 .dashpot p { margin: 0.3em 0; }
 .dashpot .note { opacity: 0.75; font-size: 0.9em; }
