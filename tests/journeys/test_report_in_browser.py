@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from unit.report.fit_samples import fit, page_of
 from unit.report.report_samples import comparison, comparison_evidence, diagnosis, evidence
 
 from dashpot.report import comparison_page, diagnosis_page, figures, write_page
@@ -42,6 +43,7 @@ def reports(tmp_path_factory) -> dict[str, str]:
     pages = {
         "diagnosis": diagnosis_page(diagnosis(), evidence()),
         "comparison": comparison_page(comparison(), comparison_evidence()),
+        "fit": page_of(fit()),
         "hostile": hostile_page(),
     }
     return {name: write_page(folder / f"{name}.html", page).as_uri() for name, page in pages.items()}
@@ -63,7 +65,8 @@ class Visit:
     """An open report, and everything it said or asked for."""
 
     def __init__(self, browser, address: str, **options) -> None:
-        self.page = browser.new_page(viewport={"width": 1280, "height": 800}, accept_downloads=True, **options)
+        options = {"viewport": {"width": 1280, "height": 800}, **options}
+        self.page = browser.new_page(accept_downloads=True, **options)
         self.complaints: list[str] = []
         self.requests: list[str] = []
         self.page.on("console", lambda message: self.complaints.append(f"{message.type}: {message.text}"))
@@ -98,21 +101,22 @@ def visit(browser, reports) -> Iterator:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("name", ["diagnosis", "comparison", "hostile"])
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit", "hostile"])
 def test_a_report_opens_silently_and_asks_for_nothing(visit, reports, name, theme):
     opened = visit(name, color_scheme=theme)
     assert opened.complaints == []
     assert opened.requests == [reports[name]]
 
 
-@pytest.mark.parametrize("name", ["diagnosis", "comparison"])
-def test_every_figure_is_drawn_and_nothing_is_wider_than_the_screen(visit, name):
-    opened = visit(name)
+@pytest.mark.parametrize("width", [1366, 420])
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit"])
+def test_every_figure_is_drawn_and_nothing_is_wider_than_the_screen(visit, name, width):
+    opened = visit(name, viewport={"width": width, "height": 768})
     drawn = opened.page.eval_on_selector_all(
         "figure .plot", "plots => plots.map(p => p.querySelectorAll('.main-svg').length)"
     )
     assert drawn and all(drawn)
-    assert opened.page.evaluate("document.documentElement.scrollWidth") <= 1280
+    assert opened.page.evaluate("document.documentElement.scrollWidth") <= width
 
 
 def test_pressing_a_run_adds_it_and_pressing_twice_shows_it_alone(visit):
@@ -227,6 +231,19 @@ def test_a_table_and_the_extended_model_can_be_saved(visit):
     assert name == "causes.csv" and "dry friction" in text
     name, text = saved(opened, opened.page.locator(".code a[download]").click)
     assert name == "kelvin_voigt+friction.yaml" and text == evidence()["patch"]["after"]
+    assert opened.complaints == []
+
+
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit"])
+def test_every_table_and_the_data_of_every_figure_can_be_saved(visit, name):
+    opened = visit(name)
+    for link in opened.page.locator("a.save").all():
+        file, text = saved(opened, link.click)
+        assert file and len(text.splitlines()) > 1
+    for figure in opened.page.locator("figure[data-plot]").all():
+        figure.locator("summary").click()
+        file, text = saved(opened, figure.get_by_role("button", name="CSV").click)
+        assert file.endswith(".csv") and len(text.splitlines()) > 1
     assert opened.complaints == []
 
 

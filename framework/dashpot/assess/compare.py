@@ -110,6 +110,11 @@ def compare(
     return Comparison(setting, tuple(fits), failures, seed)
 
 
+def comparison_of(fit: FitResult) -> Comparison:
+    """A fit as the comparison of a single network."""
+    return Comparison(prepare(fit.dataset, fit.seed), (fit,), {}, fit.seed)
+
+
 def _relative(fit: FitResult, spreads: Mapping[str, float], names: Sequence[str]) -> float | None:
     # pooled like the errors: runs weigh the same
     if not names:

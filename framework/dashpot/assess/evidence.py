@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Mapping, Sequence
+from importlib.metadata import version
 from typing import Any
 
 import dashpot
@@ -44,6 +46,8 @@ def provenance_of(setting: Setting, seed: int) -> dict[str, Any]:
     """Versions, seed and digests: the colophon of a report."""
     return {
         "dashpot": dashpot.__version__,
+        **{library: version(library) for library in ("numpy", "scipy")},
+        "Python": platform.python_version(),
         "seed": seed,
         "data": setting.dataset.digest,
         "held out": ", ".join(setting.split.held_out) or setting.split.reason,

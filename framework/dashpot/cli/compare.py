@@ -43,6 +43,7 @@ def verb(
     measured = session.dataset(dataset)
     folder = session.claim(output, *COMPARISON_FILES)
     comparison = session.run(compare, networks, measured)
-    report = write_comparison(comparison, folder)
+    with session.watch("writing the report"):
+        report = write_comparison(comparison, folder)
     session.talk.result(comparison_text(comparison), comparison.as_dict())
     session.talk.say(f"report: {report}")

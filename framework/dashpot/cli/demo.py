@@ -51,9 +51,11 @@ def verb(specimen: str | None, output: Path, switches: Switches) -> None:
     measured = session.dataset(data)
 
     comparison = session.run(compare, [session.network(name) for name in chosen.networks], measured)
-    first_report = write_comparison(comparison, tables)
+    with session.watch("writing the report"):
+        first_report = write_comparison(comparison, tables)
     diagnosis = session.run(diagnose, session.network(chosen.suspect), measured)
-    second_report = write_diagnosis(diagnosis, causes)
+    with session.watch("writing the report"):
+        second_report = write_diagnosis(diagnosis, causes)
 
     content = {"format": "dashpot-demo/1", "comparison": comparison.as_dict(), "diagnosis": diagnosis.as_dict()}
     session.talk.result(f"{comparison_text(comparison)}\n\n{diagnosis_text(diagnosis)}", content)

@@ -36,6 +36,7 @@ def verb(
     network, measured = session.network(spec), session.dataset(dataset)
     folder = session.claim(output, *diagnosis_files(network.name))
     diagnosis = session.run(diagnose, network, measured)
-    report = write_diagnosis(diagnosis, folder)
+    with session.watch("writing the report"):
+        report = write_diagnosis(diagnosis, folder)
     session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
     session.talk.say(f"report: {report}")

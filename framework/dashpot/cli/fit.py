@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from glob import escape
 from pathlib import Path
 
 import click
 
 from dashpot.cli import complete
+from dashpot.cli.results import fit_files, write_fit
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
@@ -15,7 +15,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.command("fit")
 @click.argument("spec", shell_complete=complete.networks)
 @click.argument("dataset", shell_complete=complete.datasets)
-@output_option("Folder for the identified network NAME.yaml and fit.json.")
+@output_option("Folder for the identified network NAME.yaml, fit.json, tables and report.html.")
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force")
 def verb(
@@ -31,13 +31,12 @@ def verb(
       dashpot fit tire_model_1 my/dataset.yaml --seed 7 -o identified
     """
     from dashpot.fit.api import fit_network
-    from dashpot.report.json_text import json_text
 
     session = Session(switches, optimizer, settings)
     network, measured = session.network(spec), session.dataset(dataset)
-    folder = session.claim(output, "fit.json", f"{escape(network.name)}.yaml")
+    folder = session.claim(output, *fit_files(network.name))
     found = session.run(fit_network, network, measured)
-    folder.write("fit.json", json_text(found.as_dict()))
-    identified = folder.write(f"{network.name}.yaml", found.identified_text)
+    with session.watch("writing the report"):
+        report = write_fit(found, folder)
     session.talk.result(found.summary(), found.as_dict())
-    session.talk.say(f"identified network: {identified}")
+    session.talk.say(f"identified network: {folder.path / network.name}.yaml\nreport: {report}")

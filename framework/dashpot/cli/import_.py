@@ -92,11 +92,15 @@ def as_text(imported: Imported) -> str:
     """The channels, the runs, and what has to be confirmed."""
     from dashpot.data.importing.text import about_runs
 
-    channels = {tuple(map(tuple, channel_rows(run))): run.name for run in reversed(imported.runs)}
+    alike: dict[str, list[str]] = {}
+    for run in imported.runs:
+        alike.setdefault(in_columns(channel_rows(run)), []).append(run.name)
     parts = []
-    for rows, name in reversed(channels.items()):
-        title = "channels" if len(channels) == 1 else f"channels of {name} and runs like it"
-        parts.append(f"{title}\n" + indented(in_columns(rows)))
+    for rows, names in alike.items():
+        title = "channels" if len(alike) == 1 else f"channels of {names[0]}"
+        parts.append(
+            f"{title}{f' and {len(names) - 1} more' if len(alike) > 1 and names[1:] else ''}\n{indented(rows)}"
+        )
     parts.append("runs\n" + indented(in_columns([run_row(run) for run in imported.runs])))
     remarks = [f"- {text}{about_runs(names, len(imported.runs))}" for text, names in imported.confirm.items()]
     return "\n\n".join([*parts, "Confirm before you trust a result:\n" + indented("\n".join(remarks))])

@@ -12,6 +12,7 @@ from dashpot.cli.output import OutputFolder
 if TYPE_CHECKING:
     from dashpot.assess.compare import Comparison
     from dashpot.assess.diagnosis import Diagnosis
+    from dashpot.fit.result import FitResult
     from dashpot.model.network import NetworkSpec
     from dashpot.report.evidence import Evidence
 
@@ -21,6 +22,30 @@ COMPARISON_FILES = ("compare.json", "compare.csv", "report.html")
 def diagnosis_files(network: str) -> tuple[str, ...]:
     """Patterns of the files that the diagnosis of a network may write."""
     return "diagnosis.json", "report.html", f"{escape(network)}+*.yaml"
+
+
+def fit_files(network: str) -> tuple[str, ...]:
+    """Patterns of the files that the fit of a network writes."""
+    return "fit.json", "numbers.csv", "knots.csv", "report.html", f"{escape(network)}.yaml"
+
+
+def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
+    """Write the identified network, and the fit as JSON, table and report; the path of the report."""
+    from dashpot.assess.compare import comparison_of
+    from dashpot.report.fit import fit_page, knots_grid, numbers_grid
+    from dashpot.report.json_text import json_text
+    from dashpot.report.page import render
+    from dashpot.report.tables import to_csv
+
+    content, name = fit.as_dict(), f"{fit.declared.name}.yaml"
+    folder.write("fit.json", json_text(content))
+    for grid in (numbers_grid(content), knots_grid(content)):
+        folder.write(grid.csv_name, to_csv(grid.rows, grid.columns))
+    folder.write(name, fit.identified_text)
+    comparison = comparison_of(fit)
+    patch = {"before": fit.declared.text, "after": fit.identified_text, "before_name": "declared", "after_name": name}
+    evidence = with_schematics({**comparison.evidence(), "patch": patch}, {fit.fitted.name: fit.fitted})
+    return folder.write("report.html", render(fit_page(content, comparison.as_dict(), evidence)))
 
 
 def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
@@ -58,7 +83,14 @@ def with_schematics(evidence: Mapping[str, Any], networks: Mapping[str, NetworkS
     """The evidence with the schematics of networks, each under its title."""
     from dashpot.report.schematic.svg import svg
 
-    return cast("Evidence", {**evidence, "schematic": {title: svg(network) for title, network in networks.items()}})
+    drawn = {title: svg(as_found(network)) for title, network in networks.items()}
+    return cast("Evidence", {**evidence, "schematic": drawn})
+
+
+def as_found(network: NetworkSpec) -> NetworkSpec:
+    """A fitted network whose numbers are no longer starts."""
+    searched = {slot.path: slot.value.as_role("identified") for slot in network.slots() if slot.value.searched}
+    return network.with_values(searched)
 
 
 def comparison_text(comparison: Comparison) -> str:

@@ -2,7 +2,7 @@
 
 - `parts`       what a page consists of
 - `page`        a page as one HTML file
-- `comparison`, `diagnosis`   the pages of the two result files; `evidence` what they show besides
+- `fit`, `comparison`, `diagnosis`, `study`   the pages of the result files; `evidence` what they show besides
 - `headline`    the verdict in one sentence
 - `figures`     the plots; `theme` their colours, `plot_json` their form on the page and in a notebook
 - `grids`       the tables; `tables` writes them as CSV and for the terminal; `patch` two texts line by line

@@ -14,5 +14,7 @@ def colophon(result: Mapping[str, Any], evidence: Evidence) -> tuple[tuple[str, 
     for key in ("model", "dataset"):
         described = result.get(key) or {}
         entries |= {key: described.get("name"), f"{key} digest": described.get("digest")}
-    entries |= {key.replace("_", " "): value for key, value in evidence.get("provenance", {}).items()}
+    told = list(entries.values())
+    provenance = evidence.get("provenance", {})
+    entries |= {key.replace("_", " "): value for key, value in provenance.items() if value not in told}
     return tuple((key, str(value)) for key, value in entries.items() if value is not None)

@@ -42,11 +42,14 @@ def comparison_headline(comparison: Json) -> str:
     error = None if best is None else _error(best)
     if best is None or error is None:
         return "No model could be compared."
+    return f"{best['name']} is closest: {closeness(error, floor)}"
+
+
+def closeness(error: float, floor: float | None) -> str:
+    """An error in N against the noise floor."""
     if not floor:
-        return f"{best['name']} is closest: {quantity(error, 'N')} of error (noise floor unknown)."
-    ratio = number(error / floor, 2)
-    against = f"{ratio} × the noise floor ({quantity(floor, 'N')})"
-    return f"{best['name']} is closest: {quantity(error, 'N')} of error, {against}."
+        return f"{quantity(error, 'N')} of error (noise floor unknown)."
+    return f"{quantity(error, 'N')} of error, {number(error / floor, 2)} × the noise floor ({quantity(floor, 'N')})."
 
 
 def best_model(comparison: Json) -> Json | None:
@@ -58,8 +61,8 @@ def best_model(comparison: Json) -> Json | None:
 def _sections(comparison: Json, evidence: Evidence) -> Iterator[Section]:
     series = _first_shown(comparison)
     yield Section("Result", parts=list(_result(comparison, evidence)))
-    yield Section("Over frequency and amplitude", parts=list(_frequency(evidence, series)))
-    yield Section("Over displacement and time", parts=list(_signals(evidence, series)))
+    yield Section("Over frequency and amplitude", parts=list(frequency_parts(evidence, series)))
+    yield Section("Over displacement and time", parts=list(signal_parts(evidence, series)))
     yield Section("The models", parts=list(_models(comparison, evidence)))
 
 
@@ -72,7 +75,8 @@ def _result(comparison: Json, evidence: Evidence) -> Iterator[Part]:
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 
 
-def _frequency(evidence: Evidence, series: Sequence[str]) -> Iterator[Part]:
+def frequency_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[Part]:
+    """Dynamic stiffness, map of the misfit and harmonics, as far as there are any."""
     if evidence.get("dynamic_stiffness"):
         yield from figures.stiffness_figures(evidence["dynamic_stiffness"], series)
     if evidence.get("misfit_map"):
@@ -81,7 +85,8 @@ def _frequency(evidence: Evidence, series: Sequence[str]) -> Iterator[Part]:
         yield figures.harmonic_bars(evidence["harmonics"], series)
 
 
-def _signals(evidence: Evidence, series: Sequence[str]) -> Iterator[Part]:
+def signal_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[Part]:
+    """Loops and residuals, as far as there are any."""
     if "loops" in evidence:
         yield figures.loops(**evidence["loops"], series=series)
     if "residuals" in evidence:

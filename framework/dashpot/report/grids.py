@@ -36,9 +36,12 @@ def runs_grid(comparison: Json) -> Grid:
     """RMSE of every model on every run of a `dashpot-comparison/1`."""
     models = comparison["models"]
     runs = list(dict.fromkeys(run for model in models for run in model.get("per_run", {})))
-    columns = [Column("run", "run")] + [Column(f"model {i}", m["name"], "N", 3) for i, m in enumerate(models)]
+    held_out = (comparison.get("dataset") or {}).get("held_out") or ()
+    part = [Column("part", "used for")] if held_out else []
+    columns = [Column("run", "run"), *part] + [Column(f"model {i}", m["name"], "N", 3) for i, m in enumerate(models)]
     rows = [
-        {"run": run} | {f"model {i}": model.get("per_run", {}).get(run) for i, model in enumerate(models)}
+        {"run": run, "part": "judging only" if run in held_out else "training"}
+        | {f"model {i}": model.get("per_run", {}).get(run) for i, model in enumerate(models)}
         for run in runs
     ]
     return Grid("RMSE run by run", columns, rows, csv_name="runs.csv")
@@ -47,11 +50,16 @@ def runs_grid(comparison: Json) -> Grid:
 def parameters_grid(comparison: Json) -> Grid:
     """The identified parameters, a column for each model, in rig units where the file says the unit."""
     models = [model for model in comparison["models"] if model.get("parameters")]
-    names = _in_order([list(model["parameters"]) for model in models])
+    names = sorted(_in_order([list(model["parameters"]) for model in models]), key=_is_knot)
     columns = [Column("parameter", "parameter"), UNIT]
     columns += [Column(f"model {i}", model["name"], "", 4) for i, model in enumerate(models)]
     rows = [_parameter_row(name, [model["parameters"].get(name) for model in models]) for name in names]
     return Grid("Identified parameters", columns, rows, csv_name="parameters.csv")
+
+
+def _is_knot(path: str) -> bool:
+    """Whether a path is one of many numbers of a curve; these come last."""
+    return "[" in path
 
 
 def cause_grid(diagnosis: Json) -> Grid:

@@ -13,6 +13,7 @@ from dashpot.contract import registry as registry_module
 from dashpot.contract.origin import Origin, PluginFault
 from dashpot.contract.registry import Registry
 from dashpot.model.network import Group, NetworkSpec
+from dashpot.text.document import Document
 
 
 class Method:
@@ -67,7 +68,9 @@ class FakeResult:
     extended_name = "spring+more.yaml"
     extended_text = "name: extended\n"
     identified_text = "name: identified\n"
-    model = final = NetworkSpec("spring", Group("", "parallel", ()))
+    model = final = declared = fitted = NetworkSpec(
+        "spring", Group("", "parallel", ()), document=Document.parse("a: 1")
+    )
     fits = ()
 
     def as_dict(self) -> dict:
@@ -80,7 +83,16 @@ class FakeResult:
             "noise_floor": {"value": 0.5, "from": "repeats"},
             "models": [model],
             "verdict": "unexplained",
-            "rmse": {"before": rmse, "after": rmse},
+            "rmse": {"before": rmse, "after": rmse, **rmse},
+            "held_out": [],
+            "per_run": {},
+            "parameters": {},
+            "optimizer": "swarm",
+            "evaluations": 7,
+            "ending": "converged",
+            "spread": [],
+            "at_bound": [],
+            "without_influence": [],
             "misfit": [],
             "causes": [],
             "extended_model": None,
@@ -119,7 +131,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
         "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
         "dashpot.kernel.trace": {"trace_network": lambda network: ()},
         "dashpot.fit.api": {"fit_network": work("fit")},
-        "dashpot.assess.compare": {"compare": work("compare")},
+        "dashpot.assess.compare": {"compare": work("compare"), "comparison_of": lambda fit: fit},
         "dashpot.assess.diagnose": {"diagnose": work("diagnose")},
     }
     for module, names in replaced.items():

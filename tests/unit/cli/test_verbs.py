@@ -8,7 +8,7 @@ import sys
 import pytest
 
 VERBS = {
-    "fit": (["fit", "spring", "bench.yaml"], {"fit.json", "spring.yaml"}),
+    "fit": (["fit", "spring", "bench.yaml"], {"fit.json", "numbers.csv", "knots.csv", "spring.yaml", "report.html"}),
     "compare": (
         ["compare", "spring", "--data", "bench.yaml"],
         {"compare.json", "compare.csv", "report.html"},

@@ -1,0 +1,127 @@
+"""The report of a single fit: how good it is, the numbers that were found, and where it still errs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from dashpot.report import figures
+from dashpot.report.colophon import colophon
+from dashpot.report.comparison import closeness, frequency_parts, signal_parts
+from dashpot.report.evidence import Evidence
+from dashpot.report.grids import floor_origin, floor_value, runs_grid
+from dashpot.report.headline import RUNS
+from dashpot.report.parts import Code, Column, Grid, KeyFigures, Notice, Page, Part, Picture, Section
+from dashpot.report.patch import diff
+from dashpot.report.readable import rig_unit, shown_with_unit
+
+Json = Mapping[str, Any]
+
+GOOD_RATIO = 1.2
+
+
+def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
+    """The report of a `dashpot-fit/1`; ``comparison`` is the `dashpot-comparison/1` of this model alone.
+
+    Used keys of the evidence: those of a comparison, and `patch`, the text before and after.
+    """
+    tables = [grid for grid in (numbers_grid(fit), knots_grid(fit)) if grid.rows]
+    sections = [
+        Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
+        Section("The numbers", _ending(fit), parts=tables),
+        Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
+        Section("Over displacement and time", parts=list(signal_parts(evidence))),
+        Section("The runs", parts=[runs_grid(comparison)]),
+        Section("The model", parts=list(_model(fit, evidence))),
+    ]
+    return Page(
+        title=f"Fit of {fit['model']} to {fit['dataset']['name']}",
+        headline=fit_headline(fit),
+        lead=_lead(fit),
+        sections=[section for section in sections if section.parts],
+        colophon=colophon({**fit, "model": {"name": fit["model"]}}, evidence),
+    )
+
+
+def fit_headline(fit: Json) -> str:
+    """The error on unseen runs against what the measurement can resolve."""
+    return f"{fit['model']}: {closeness(fit['rmse'][_judged_on(fit)], floor_value(fit))}"
+
+
+def numbers_grid(fit: Json) -> Grid:
+    """Every number that was searched, but knots: its value, 95 % interval, and what is to be said of it."""
+    return _grid(fit, "Numbers found", "numbers.csv", knots=False)
+
+
+def knots_grid(fit: Json) -> Grid:
+    """The knots and coefficients of the curves, likewise."""
+    return _grid(fit, "Knots and coefficients of the curves", "knots.csv", knots=True)
+
+
+def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
+    columns = [
+        Column("number", "number"),
+        Column("value", "value", "", 4),
+        Column("low", "95 % from", "", 4),
+        Column("high", "to", "", 4),
+        Column("unit", "unit"),
+        Column("remark", "remark"),
+    ]
+    remarks = dict.fromkeys(fit["at_bound"], "at the end of its range: widen its bounds or drop it")
+    remarks |= dict.fromkeys(fit["without_influence"], "without influence on these data")
+    found = {
+        path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
+    }
+    rows = [{"number": path, **_in_rig_units(entry), "remark": remarks.get(path)} for path, entry in found.items()]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    return Grid(title, used or columns[:2], rows, csv_name=file)
+
+
+def _in_rig_units(entry: Json) -> dict[str, Any]:
+    factor, unit = rig_unit(entry["unit"], abs(entry["value"]))
+    low, high = entry["interval"] or (None, None)
+    shown = {"value": entry["value"], "low": low, "high": high}
+    return {key: None if value is None else value * factor for key, value in shown.items()} | {"unit": unit or None}
+
+
+def _result(fit: Json, status: str, evidence: Evidence) -> Iterator[Part]:
+    errors = [("error on held-out runs", "held_out"), ("error on training runs", "train")]
+    shown = [(label, *shown_with_unit(fit["rmse"][key], "N"), "RMSE") for label, key in errors if fit["rmse"][key]]
+    floor = floor_value(fit)
+    if floor is not None:
+        shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {fit['noise_floor']['from']}"))
+    searched = sum(entry["role"] != "fixed" for entry in fit["parameters"].values())
+    yield KeyFigures([*shown, ("numbers found", str(searched), "", f"by {fit['optimizer']}")])
+    if status != "ok":
+        yield Notice("warning", f"The fit did not come to rest: {status}.")
+    yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
+    if floor and fit["rmse"][_judged_on(fit)] > GOOD_RATIO * floor:
+        yield Notice("info", "The error is above the noise floor: 'dashpot diagnose' says what the model lacks.")
+
+
+def _model(fit: Json, evidence: Evidence) -> Iterator[Part]:
+    yield from (Picture(title, svg) for title, svg in evidence.get("schematic", {}).items())
+    patch = evidence.get("patch")
+    if patch:
+        title = f"{patch['before_name']} → {patch['after_name']}"
+        yield Code(title, diff(patch["before"], patch["after"]), "diff", patch["after_name"], patch["after"])
+    if evidence.get("history"):
+        yield figures.convergence_history(evidence["history"])
+
+
+def _ending(fit: Json) -> str:
+    spread = fit["spread"]
+    alike = sum(loss <= 1.01 * spread[0] for loss in spread)
+    starts = f" {alike} of {len(spread)} starts end within 1 % of the best." if len(spread) > 1 else ""
+    return f"{fit['evaluations']} parameter vectors were tried.{starts}"
+
+
+def _lead(fit: Json) -> str:
+    held_out = len(fit["held_out"])
+    trained = len(fit["per_run"]) - held_out
+    judged = f", judged on {held_out} others" if held_out else ""
+    return f"Identified on {trained} runs{judged}. {floor_origin(fit)}".strip()
+
+
+def _judged_on(fit: Json) -> str:
+    return next(key for key in RUNS if fit["rmse"].get(key) is not None)
