@@ -74,6 +74,7 @@ def kelvin_voigt(motion, noise=0.0, stiffness=200e3, damping=500.0):
             {"RUNTIME": "s", "DISTGRND": "mm", "FZW": "N"},
             ["RUNTIME", "DISTGRND", "FZW"],
         ),
+        (["sec", "mm", "kN"], {}, ["sec", "mm", "kN"]),
         (["m(1)", "m(2)"], {}, [None, None, None]),
     ],
 )
@@ -109,6 +110,7 @@ def test_a_raw_voltage_beside_its_signal_is_passed_over():
         ("displacement", "Weg", "V", [0.0, 12.0], "mm", "guessed"),
         ("displacement", "Weg", "", [0.0, 0.012], "m", "guessed"),
         ("force", "Load.kN", "", [0, 1], "kN", "in the name"),
+        ("force", "kN", "", [0, 1], "kN", "in the name"),
         ("force", "F", "", [0, 1], "N", "guessed"),
         ("time", "t", "", [0.0, 10.0, 20.0], "ms", "guessed"),
     ],
@@ -138,6 +140,12 @@ def test_pieces_lie_between_gaps():
     time = np.concatenate([[0.0], 5 + TIME[:1000], 60 + TIME[:500]])
     assert pieces(time) == [(1, 1001), (1001, 1501)]
     assert pieces(TIME) == [(0, TIME.size)]
+
+
+def test_pieces_lie_between_restarts_and_lines_of_text():
+    assert pieces(np.concatenate([TIME, TIME[:900]])) == [(0, 5000), (5000, 5900)]
+    assert pieces(np.concatenate([TIME[:900], [np.nan] * 3, TIME[:900]])) == [(0, 900), (903, 1803)]
+    assert pieces(np.where(np.arange(5000) == 7, np.nan, TIME)) == [(0, 5000)]
 
 
 # --- signs ---------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ import numpy as np
 from dashpot.data.importing.files import find_files, run_names
 from dashpot.data.importing.finding import Agreed, Finding, find_all
 from dashpot.data.importing.likeness import find_repeats
+from dashpot.data.importing.roles import named_roles
 from dashpot.data.importing.rows import numeric
 from dashpot.data.importing.timing import pieces
 from dashpot.data.importing.units import GUESSED
@@ -19,6 +20,9 @@ from dashpot.data.source import choose_reader
 from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Unusable
 from dashpot.text.problem import InputError, Place, Problem
+
+# a clock in more pieces than that is no clock
+_MOST_PIECES = 50
 
 DIRECTION = "that deflection > 0 squeezes the specimen and force > 0 presses its ends apart; else write 'sign: -1'"
 
@@ -90,10 +94,11 @@ def import_files(
 def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:
     """A file as one, or the pieces between the gaps of its clock."""
     whole = _Part(file, table, find_all(table, sampling))
-    clock = whole.finding.timing.column
+    named = named_roles(list(table.columns), table.units).get("time")
+    clock = named.column if named else whole.finding.timing.column
     time = numeric(table.columns[clock]) if clock is not None else np.zeros(0)
-    found = pieces(time) if np.isfinite(time).all() else []
-    if len(found) == 0 or found == [(0, time.size)]:
+    found = pieces(time)
+    if sampling or found == [(0, time.size)] or not 1 <= len(found) <= _MOST_PIECES:
         return [whole]
     cut = [(first, _cut(table, first, last)) for first, last in found]
     return [
@@ -173,7 +178,7 @@ def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str
         for remark in run.finding.confirm:
             about.setdefault(remark, []).append(run.name)
         if run.rows:
-            remark = "only the rows under 'rows' are used: others lie behind a gap of the clock, or hold no numbers"
+            remark = "only the rows under 'rows' are used: others lie beyond a break of the clock, or hold no numbers"
             about.setdefault(remark, []).append(run.name)
         if run.repeats:
             about.setdefault("the runs that repeat others: they do so after motion and force", []).append(run.name)

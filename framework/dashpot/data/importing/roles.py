@@ -14,7 +14,7 @@ from dashpot.text.quantity import factor
 
 # whole names, and parts of names, in English and German; letters count as written
 _NAMES = {
-    "time": "t time zeit tout runtime x_value timestamp uhrzeit zeitstempel",
+    "time": "t sec sek time zeit tout runtime x_value timestamp uhrzeit zeitstempel",
     "displacement": "x X s z d u disp dist pos lvdt weg hub way",
     "force": "F Fx Fy Fz FZ FX FY FZW f load last kraft forc",
     "velocity": "v vel speed",
@@ -55,8 +55,9 @@ def named_roles(columns: Sequence[str], units: Mapping[str, str]) -> dict[str, R
     """The best column for every channel, by name and unit; the first of several that are as good."""
     found: dict[str, tuple[float, Role]] = {}
     for column in columns:
+        unit = units.get(column) or (column if len(column) > 1 else "")
         for channel in CHANNEL_UNITS:
-            score, by = _score(column, units.get(column, ""), channel)
+            score, by = _score(column, unit, channel)
             if score > 0 and score > found.get(channel, (0.0, None))[0]:
                 found[channel] = score, Role(channel, column, by)
     return {channel: role for channel, (_, role) in found.items()}
@@ -64,7 +65,7 @@ def named_roles(columns: Sequence[str], units: Mapping[str, str]) -> dict[str, R
 
 def _score(column: str, unit: str, channel: str) -> tuple[float, str]:
     by_name, measures = name_score(column, channel), measures_channel(unit, channel)
-    if measures is False or (channel != "time" and is_counter(column)):
+    if (measures is False and unit != column) or (channel != "time" and is_counter(column)):
         return 0.0, ""
     unwanted = any(part in column.lower() for part in _WANTED_PARTS)
     # columns of a matrix have its name only

@@ -14,6 +14,8 @@ from dashpot.data.trouble import Unusable
 from dashpot.text.quantity import factor
 
 _DISAGREEMENT = 0.02
+# one line without a time is a hole in a run, more are the heading of the next one
+_LONGEST_HOLE = 1
 
 
 @dataclass(frozen=True)
@@ -64,13 +66,18 @@ def _uneven(timing: Timing, time: np.ndarray, stated: float | None) -> Timing:
 
 
 def pieces(time: np.ndarray) -> list[tuple[int, int]]:
-    """First sample and one past the last of the pieces between gaps; those of less than a hundredth are left out."""
-    steps = np.diff(time)
-    if not steps.size or np.any(steps < 0):
+    """First sample and one past the last of the pieces of a clock (n,).
+
+    They lie between gaps, restarts, and lines without a time; those of less than a hundredth of all samples are left
+    out.
+    """
+    known = np.flatnonzero(np.isfinite(time))
+    steps = np.diff(time[known])
+    if not steps.size:
         return [(0, time.size)]
-    ends = np.flatnonzero(steps > LONGEST_GAP * np.median(steps)) + 1
-    edges = [0, *ends.tolist(), time.size]
-    return [(first, last) for first, last in zip(edges, edges[1:], strict=False) if last - first > 0.01 * time.size]
+    breaks = (steps < 0) | (steps > LONGEST_GAP * np.median(steps)) | (np.diff(known) > 1 + _LONGEST_HOLE)
+    starts, ends = known[np.append(True, breaks)], known[np.append(breaks, True)] + 1
+    return [(int(a), int(b)) for a, b in zip(starts, ends, strict=True) if b - a > 0.01 * time.size]
 
 
 def _unnamed_clock(columns: Mapping[str, np.ndarray], units: Mapping[str, str]) -> str | None:

@@ -27,7 +27,8 @@ def find_unit(channel: str, column: str, stated: str, values: np.ndarray) -> Uni
     if stated and measures_channel(stated, channel):
         return UnitFound(stated, STATED)
     for word in reversed(re.split(r"[\s_.\[\]():-]+", column)):
-        if word != column and measures_channel(word, channel):
+        # a single letter alone is rather the symbol of the channel
+        if (word != column or len(word) > 1) and measures_channel(word, channel):
             return UnitFound(word, IN_NAME)
     return UnitFound(_guess(channel, values), GUESSED)
 
