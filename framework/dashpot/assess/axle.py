@@ -143,7 +143,8 @@ def tire_curve(network: NetworkSpec, platform: str, force: float) -> SlowCurve:
     while True:
         step = depth / 400.0
         path = np.interp(np.arange(1601) % 800, [0.0, 400.0, 800.0], [0.0, depth, 0.0])
-        answer = tire.simulate(tire.prepare(drive_from_samples(step / TIRE_SPEED, path, smooth=False)))
+        drive = drive_from_samples(step / TIRE_SPEED, path, smooth=False)
+        [answer] = solve(tire, Excitation.of_drive(drive)).force.values()
         if answer.max() > 1.05 * force or depth > 1.0:
             return slow_curve(path, answer, step / TIRE_SPEED)
         depth *= 1.5
