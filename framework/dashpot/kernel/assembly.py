@@ -11,7 +11,9 @@ import struct
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import TypeVar
 
+T = TypeVar("T")
 LANES = 8  # in a vector; processors with narrower ones take several steps
 NUMBER, BITS, TRUTH = f"<{LANES} x double>", f"<{LANES} x i64>", f"<{LANES} x i1>"
 INTRINSICS = {"fabs": 1, "sqrt": 1, "fmuladd": 3}
@@ -194,6 +196,18 @@ class Assembly:
         form = f"call {NUMBER} @llvm.masked.gather.v{LANES}f64.v{LANES}p0(<{LANES} x ptr> {{}}, i32 8, {TRUTH} "
         return Bundle(self, NUMBER, tuple(
             self.new(form.format(each) + f"{splat(True, TRUTH)}, {NUMBER} poison)") for each in pointers))  # fmt: skip
+
+    def woven(self, parts: Sequence[Callable[[], T]]) -> list[T]:
+        """What parts without branches answer that do not need each other, their instructions taken in turn."""
+        whole, answers, pieces = self.lines, [], []
+        for part in parts:
+            self.lines = []
+            answers.append(part())
+            pieces.append(self.lines)
+        order = [((place + 0.5) / len(piece), number, line) for number, piece in enumerate(pieces)
+                 for place, line in enumerate(piece)]  # fmt: skip
+        self.lines = whole + [line for *_, line in sorted(order, key=lambda entry: entry[:2])]
+        return answers
 
     @contextmanager
     def loop(self, first: str | int, end: str | int, step: int = 1) -> Iterator[str]:

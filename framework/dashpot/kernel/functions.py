@@ -59,11 +59,17 @@ def log(x: Bundle) -> Bundle:
 
 def wrightomega(p: Bundle) -> Bundle:
     """The solution y of y + log(y) = p."""
-    below, high = _omega_below(p), p.compare("ogt", OMEGA_HIGH)
+    return wrightomega_above(p, wrightomega_below(p))
+
+
+def wrightomega_above(p: Bundle, below: Bundle) -> Bundle:
+    """The same from what ``wrightomega_below`` answers."""
+    high = p.compare("ogt", OMEGA_HIGH)
     return p.assembly.amended(high, below, lambda: high.choose(_omega_above(p), below))
 
 
-def _omega_below(p: Bundle) -> Bundle:
+def wrightomega_below(p: Bundle) -> Bundle:
+    """The Wright omega function of what is not above ``OMEGA_HIGH``."""
     # y = exp(L) with L + exp(L) = p. Start: log2(y), below OMEGA_LOW a straight line. Then the series of y around the
     # start, in m and in b = dL/dp there; what is left out is m**4/24
     low = p.compare("olt", OMEGA_LOW).choose(OMEGA_LOW, p)
@@ -75,7 +81,8 @@ def _omega_below(p: Bundle) -> Bundle:
     b = _inverse(y + 1.0)
     m = (start.times_plus(-LN_2, p) - y) * b
     bend = m.times_plus(b.times_plus(0.5, -1.0 / 3.0), 0.5)
-    return (y * m).times_plus((b * m).times_plus(bend, 1.0), y)
+    # y times a number near 1: a product of tiny numbers would take the processor a hundred times as long
+    return y * m.times_plus((b * m).times_plus(bend, 1.0), 1.0)
 
 
 def _omega_above(p: Bundle) -> Bundle:

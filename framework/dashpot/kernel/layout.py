@@ -32,6 +32,15 @@ class Shelf:
     count: int
 
 
+@dataclass(frozen=True)
+class Fusion:
+    """A ``product`` that nobody needs but a sum, with the ``term`` of the sum that it is, ``negative`` or not."""
+
+    product: Node
+    term: Node
+    negative: bool
+
+
 class Layout:
     """The places of a program's nodes during one pass over the lanes; ``updates`` are the states that it moves.
 
@@ -80,12 +89,21 @@ class Layout:
                 stack.extend((argument, False) for argument in reversed(node.arguments))
         return list(found.values())
 
-    def _fused(self, results: Sequence[Node], roots: Sequence[Node]) -> dict[int, Node]:
-        """By serial of a sum or difference, the product among its arguments that nobody else needs."""
+    def _fused(self, results: Sequence[Node], roots: Sequence[Node]) -> dict[int, Fusion]:
         uses = Counter(node.serial for node in (*roots, *_arguments(results)))
-        return {node.serial: argument for node in results if node.operation in ("add", "subtract")
-                for argument in node.arguments if argument.operation == "multiply" and uses[argument.serial] == 1
-                and self.kind(argument) == "result"}  # fmt: skip
+
+        def own(node: Node, operation: str) -> bool:
+            return node.operation == operation and uses[node.serial] == 1 and self.kind(node) == "result"
+
+        found = {}
+        for node in results:
+            for argument in node.arguments if node.operation in ("add", "subtract") else ():
+                turned = own(argument, "negative")
+                product = argument.arguments[0] if turned else argument
+                if own(product, "multiply"):
+                    minus = node.operation == "subtract" and argument is node.arguments[1]
+                    found[node.serial] = Fusion(product, argument, turned != minus)
+        return found
 
 
 def _arguments(nodes: Sequence[Node]) -> list[Node]:

@@ -40,7 +40,7 @@ class Native:
 
 
 def _place(argument: np.ndarray | int | None) -> int | None:
-    return argument.ctypes.data if isinstance(argument, np.ndarray) else argument
+    return argument.__array_interface__["data"][0] if isinstance(argument, np.ndarray) else argument
 
 
 def cache_folder() -> Path:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 from dashpot.expr.node import Node, is_logical
 from dashpot.kernel import functions
 from dashpot.kernel.assembly import BITS, LANES, NUMBER, TRUTH, Assembly, Bundle, joined, parted
-from dashpot.kernel.layout import Layout, Shelf
+from dashpot.kernel.layout import Fusion, Layout, Shelf
 
 POWERS = 4  # coefficients of a cubic
 COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
@@ -33,7 +34,7 @@ ARITHMETIC: dict[str, Callable[..., Bundle]] = {
     "maximum": functions.maximum,
     "sign": functions.sign,
 }
-LONG = {"exp": functions.exp, "log": functions.log, "wrightomega": functions.wrightomega}
+LONG = {"exp": functions.exp, "log": functions.log, "wrightomega": functions.wrightomega_below}
 
 
 @dataclass(frozen=True)
@@ -68,19 +69,25 @@ class Pass:
         """Compute everything, then move the states."""
         for node in self.layout.driven:
             self.bundles[node.serial] = self._driven(node)
-        hidden = {product.serial for product in self.layout.fused.values()}
+        hidden = {part.serial for fusion in self.layout.fused.values() for part in (fusion.product, fusion.term)}
         for stage in self.layout.stages:
-            for node in stage.nodes:
-                if node.serial not in hidden:
-                    self.bundles[node.serial] = self._result(node)
-            for operation, calls in stage.kinds.items():
-                answer = LONG[operation](joined([self.value(call.arguments[0]) for call in calls]))
-                for call, part in zip(calls, parted(answer, len(calls)), strict=True):
+            self._compute([node for node in stage.nodes if node.serial not in hidden])
+            kinds = {kind: joined([self.value(call.arguments[0]) for call in calls])
+                     for kind, calls in stage.kinds.items()}  # fmt: skip
+            beside = partial(self._compute, [node for node in stage.beside if node.serial not in hidden])
+            *answers, _ = self.assembly.woven([*(partial(LONG[kind], x) for kind, x in kinds.items()), beside])
+            for (kind, calls), answer in zip(stage.kinds.items(), answers, strict=True):
+                whole = functions.wrightomega_above(kinds[kind], answer) if kind == "wrightomega" else answer
+                for call, part in zip(calls, parted(whole, len(calls)), strict=True):
                     self.bundles[call.serial] = part
         # all are read before any is moved
         moved = [(self.layout.states[name], self.number(node)) for name, node in self.layout.updates.items()]
         for row, bundle in moved:
             self.store(row, bundle)
+
+    def _compute(self, nodes: Sequence[Node]) -> None:
+        for node in nodes:
+            self.bundles[node.serial] = self._result(node)
 
     def value(self, node: Node) -> Bundle:
         """The bundle of a node."""
@@ -127,12 +134,12 @@ class Pass:
             return _one_by_one(LIBRARY[node.operation][0], arguments)
         return ARITHMETIC[node.operation](*arguments)
 
-    def _fused(self, node: Node, product: Node) -> Bundle:
-        first, second = (self.value(argument) for argument in product.arguments)
-        other = self.value(next(argument for argument in node.arguments if argument is not product))
-        if node.operation == "add":
-            return first.times_plus(second, other)
-        return first.times_plus(second, -other) if node.arguments[0] is product else (-first).times_plus(second, other)
+    def _fused(self, node: Node, fusion: Fusion) -> Bundle:
+        first, second = (self.value(argument) for argument in fusion.product.arguments)
+        other = node.arguments[1] if fusion.term is node.arguments[0] else node.arguments[0]
+        minus = node.operation == "subtract" and other is node.arguments[1]
+        rest = -self.value(other) if minus else self.value(other)
+        return (-first if fusion.negative else first).times_plus(second, rest)
 
     def _along(self, node: Node) -> Bundle:
         # a table whose segment the drive knows

@@ -1,4 +1,4 @@
-"""The order of a pass: long functions that do not need each other side by side.
+"""The order of a pass: long functions side by side, and beside them whatever does not need them.
 
 The chain of operations of a long function such as the exponential leaves most of the processor idle; several of them
 together fill it. So a pass is a chain of stages: what is needed for arguments, then long functions, each kind at once.
@@ -16,10 +16,11 @@ LONG = frozenset({"exp", "log", "wrightomega"})
 
 @dataclass(frozen=True)
 class Stage:
-    """``nodes``, arguments first, and the long functions computed after them."""
+    """``nodes``, arguments first, then the long functions ``calls``, and ``beside`` them what does not need them."""
 
     nodes: tuple[Node, ...]
     calls: tuple[Node, ...]
+    beside: tuple[Node, ...]
 
     @property
     def kinds(self) -> dict[str, list[Node]]:
@@ -35,10 +36,12 @@ def cut_stages(nodes: Sequence[Node]) -> tuple[Stage, ...]:
     depth = _depths(nodes)
     last = max(depth.values(), default=0)
     at = _latest(nodes, depth, last)
+    short = [node for node in nodes if node.operation not in LONG]
     return tuple(
         Stage(
-            tuple(node for node in nodes if node.operation not in LONG and at[node.serial] == number),
+            tuple(node for node in short if at[node.serial] == number == depth[node.serial]),
             tuple(node for node in nodes if node.operation in LONG and depth[node.serial] == number + 1),
+            tuple(node for node in short if at[node.serial] == number + 1 > depth[node.serial]),
         )
         for number in range(last + 1)
     )

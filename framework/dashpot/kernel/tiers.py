@@ -191,10 +191,11 @@ class Regrouping:
         for group in groups:
             self.settle(group)
         inner = [part for part in above.values() if part is not ONE]
-        if len(inner) == 1 and hoisted == [Tier.LANE] and not below:
-            spread = self.spread(groups[0], inner[0])
+        if len(inner) == 1 and Tier.LANE in hoisted and not below:
+            spread = self.spread(groups[hoisted.index(Tier.LANE)], inner[0])
             if spread is not None:
-                return spread
+                groups.pop(hoisted.index(Tier.LANE))
+                inner = [spread]
         total = groups[0] if groups else ONE
         for part in (*groups[1:], *inner):
             total = apply("multiply", total, part)
@@ -208,7 +209,12 @@ class Regrouping:
         if total.operation in ("add", "subtract") and total.serial not in self.kept:
             first, second = (self.spread(factor, argument) for argument in total.arguments)
             return None if first is None or second is None else apply(total.operation, first, second)
-        if total.operation != "multiply" or self.tiers[total.arguments[0].serial] != Tier.LANE:
+        if not _is_inner(self.tiers[total.serial]):
+            return None if Tier.DRIVE in self.tiers[total.serial] else self.settle(apply("multiply", factor, total))
+        if total.operation == "negative":
+            rest = self.spread(factor, total.arguments[0])
+            return None if rest is None else apply("negative", rest)
+        if total.operation != "multiply" or self.tiers[total.arguments[0].serial] not in (Tier.NOTHING, Tier.LANE):
             return None
         lane, rest = total.arguments
         return apply("multiply", self.settle(apply("multiply", factor, lane)), rest)

@@ -44,10 +44,10 @@ def test_long_functions_inside_each_other_follow_each_other():
     assert [[node.operation for node in stage.calls] for stage in stages] == [["log"], ["exp"], []]
 
 
-def test_what_is_not_needed_early_waits_for_the_last_stage():
+def test_what_is_not_needed_early_stands_beside_the_last_long_function():
     late = X * 3.0
-    first, second = cut(np.exp(P * X) + late)
-    assert all(node is not late for node in first.nodes) and any(node is late for node in second.nodes)
+    first, second = cut(np.exp(np.exp(P * X)) + late)[:2]
+    assert late not in {*first.nodes, *first.beside, *second.nodes} and late in set(second.beside)
 
 
 def random_roots(rng):
@@ -68,11 +68,12 @@ def test_every_node_is_computed_once_and_after_its_arguments():
         wanted = [node for node in walk(roots) if node.arguments]
         done = set()
         for stage in cut_stages(wanted):
-            for node in (*stage.nodes, *stage.calls):
+            for node in (*stage.nodes, *stage.calls, *stage.beside):
                 assert node.serial not in done
                 assert all(a.serial in done or not a.arguments for a in node.arguments)
                 done.add(node.serial)
             assert all(node.operation in LONG for node in stage.calls)
+            assert not {argument for node in stage.beside for argument in node.arguments} & set(stage.calls)
         assert done == {node.serial for node in wanted}
 
 
