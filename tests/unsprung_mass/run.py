@@ -50,6 +50,7 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
             for model in content["models"] for mass in model["masses"]
         ],
         "tire": content["models"][0]["rmse"]["train"],
+        "noise_floor": content["noise_floor"],
         "masses_without_tire": [model["masses_without_tire"] for model in content["models"][1:]],
     }  # fmt: skip
 

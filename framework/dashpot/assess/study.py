@@ -101,12 +101,23 @@ def _model(model: ModelResult) -> dict[str, Any]:
 
 
 def _masses(model: ModelResult) -> list[dict[str, Any]]:
-    """The masses that were identified, in kg, with their intervals."""
+    """The masses that were identified, in kg, with their intervals and what they owe to the errors of parts."""
     fitted = model.fit.fitted
     slots = {slot.path: slot.value for slot in fitted.slots()}
     paths = [f"{joint.numbers}.{key}" for joint in fitted.joints.values() for key in joint.masses]
-    return [{"node": path.rpartition(".")[0], "value": slots[path].number, "interval": list(slots[path].interval or ())}
-            for path in dict.fromkeys(paths) if slots[path].searched]  # fmt: skip
+    return [
+        {
+            "node": path.rpartition(".")[0],
+            "value": slots[path].number,
+            "interval": list(slots[path].interval or ()),
+            "owed": [
+                {"branch": each.branch, "model": each.model, "share": each.share, "moved": each.numbers[path]}
+                for each in model.owed
+            ],
+        }
+        for path in dict.fromkeys(paths)
+        if slots[path].searched
+    ]
 
 
 def _known(known: Identifiability) -> dict[str, Any]:

@@ -112,7 +112,7 @@ def fit_prepared(
     polished = refine(
         objective, coordinates, coordinates.start, POLISH_STEPS, watch=watch.steps("polish", POLISH_STEPS)
     )
-    known = assess_uncertainty(objective, coordinates, polished.point)
+    known = assess_uncertainty(objective, coordinates, polished.point, noise=setting.floor.value)
     fitted = with_point(corrected, coordinates, polished.point)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(

@@ -78,14 +78,25 @@ def refine(
 
 
 def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
-    """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates."""
+    """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates.
+
+    A coordinate that cannot be moved one way is moved the other way; a row that neither gives is not finite.
+    """
     shifts = STEP * coordinates.unit
     shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
-    values = coordinates.to_values(np.concatenate([point[None], point + np.diag(shifts)]))
-    moves = values[np.arange(1, len(values)), coordinates.which] - values[0, coordinates.which]
-    residual, changes = objective.linearise(values[0], coordinates.which.tolist(), moves)
+    residual, changes = _changes(objective, coordinates, point, shifts)
+    unsolved = ~np.isfinite(changes).all(axis=1) & (point - np.abs(shifts) >= coordinates.low)
+    if unsolved.any():
+        shifts = np.where(unsolved, -shifts, shifts)
+        changes[unsolved] = _changes(objective, coordinates, point, shifts)[1][unsolved]
     changes *= (coordinates.unit / shifts)[:, None]
     return residual, changes
+
+
+def _changes(objective: Objective, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:
+    values = coordinates.to_values(np.concatenate([point[None], point + np.diag(shifts)]))
+    moves = values[np.arange(1, len(values)), coordinates.which] - values[0, coordinates.which]
+    return objective.linearise(values[0], coordinates.which.tolist(), moves)
 
 
 def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:

@@ -10,7 +10,7 @@ from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import refine
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.uncertainty import _quantiles, _sandwich, assess_uncertainty
+from dashpot.fit.uncertainty import _quantiles, _sandwich, assess_uncertainty, widening
 from dashpot.kernel.network import compile_network
 
 NOISE = 20.0
@@ -118,3 +118,48 @@ def test_a_number_that_shows_in_few_blocks_has_few_degrees_of_freedom():
     assert freedom[0] == pytest.approx(2.0)
     # Student's t: 4.303 for two degrees of freedom, 1.960 for very many
     assert _quantiles(np.array([2.0, 1e9])) == pytest.approx([4.302653, 1.959964], rel=1e-5)
+
+
+class Unsolved(Objective):
+    """An objective without a solution where the slots in ``walls`` move up; or down, where ``both`` is set."""
+
+    walls: tuple[int, ...] = ()
+    both = False
+
+    def linearise(self, values, which, shifts):
+        residual, changes = super().linearise(values, which, shifts)
+        for row, (slot, shift) in enumerate(zip(which, shifts, strict=True)):
+            if slot in self.walls and (self.both or shift > 0.0):
+                changes[row] = np.nan
+        return residual, changes
+
+
+def at_a_wall(both: bool):
+    scored = noisy(np.random.default_rng())
+    spec, plain, coordinates = ready(KELVIN_VOIGT, scored)
+    walled = Unsolved(compile_network(spec), scored)
+    walled.walls, walled.both = (int(coordinates.which[0]),), both
+    point = refine(plain, coordinates, coordinates.start).point
+    return [assess_uncertainty(each, coordinates, point) for each in (plain, walled)], coordinates
+
+
+def test_a_number_that_can_move_one_way_only_is_known_as_well():
+    (plain, walled), _ = at_a_wall(both=False)
+    assert np.array(walled.intervals) == pytest.approx(np.array(plain.intervals), rel=1e-4)
+
+
+def test_the_interval_of_a_number_that_cannot_move_is_its_whole_range():
+    (_, walled), coordinates = at_a_wall(both=True)
+    assert walled.intervals[0] == pytest.approx(np.exp([coordinates.low[0], coordinates.high[0]]))
+    assert np.isfinite(walled.widths[1])
+    assert walled.idle == ()
+
+
+def test_a_model_that_errs_has_wider_intervals_and_one_at_the_noise_has_not():
+    _, objective, coordinates = ready(KELVIN_VOIGT, noisy(np.random.default_rng()))
+    found = refine(objective, coordinates, coordinates.start)
+    plain, right, wrong = (assess_uncertainty(objective, coordinates, found.point, noise=noise).widths
+                           for noise in (None, 1.01 * found.loss, 0.5 * found.loss))  # fmt: skip
+    assert right == pytest.approx(plain)
+    assert wrong == pytest.approx(plain * widening(1.0, 0.5))
+    assert widening(1.0, 0.5) > 2.0

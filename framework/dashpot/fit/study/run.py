@@ -27,6 +27,7 @@ from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.study.allowance import Owed, allowance, effect, force_error
 from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
@@ -45,7 +46,8 @@ SLOW = ("quasi_static", "hold")
 class ModelResult:
     """An identified model: the fit, how its stages went, and what the data tell about its numbers.
 
-    ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them.
+    ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them. ``owed`` says
+    for each part how far its own error moves the numbers: see ``allowance``.
     """
 
     setting: Setting
@@ -54,6 +56,7 @@ class ModelResult:
     known: Identifiability
     bootstrap: Mapping[str, tuple[float, float]]
     profiles: tuple[Profile, ...]
+    owed: tuple[Owed, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,19 +164,18 @@ class _Conduct:
 
     def models(self) -> Iterator[ModelResult]:
         """Every model; those identified before may be starting points."""
-        done: dict[str, NetworkSpec] = {}
-        texts: dict[str, str] = {}
+        done: dict[str, ModelResult] = {}
         whole = self.setting
         for plan in self.study.models:
             self.setting = restricted(whole, plan)
+            texts = {name: result.fit.identified_text for name, result in done.items()}
             network = with_parts(plan.network, plan.parts, texts, self.registry) if plan.parts else plan.network
-            result = self._model(replace(plan, network=network), done)
-            done[plan.name], texts[plan.name] = result.fit.fitted, result.fit.identified_text
-            yield result
+            done[plan.name] = self._model(replace(plan, network=network), done)
+            yield done[plan.name]
 
-    def _model(self, plan: ModelPlan, done: Mapping[str, NetworkSpec]) -> ModelResult:
+    def _model(self, plan: ModelPlan, done: Mapping[str, ModelResult]) -> ModelResult:
         train = self.setting.train
-        spec = carry_over(plan.network, done[plan.start_from]) if plan.start_from else plan.network
+        spec = carry_over(plan.network, done[plan.start_from].fit.fitted) if plan.start_from else plan.network
         results = []
         for number, stage in enumerate(plan.stages):
             if isinstance(stage, SearchStage):
@@ -182,7 +184,8 @@ class _Conduct:
                 results.append(result)
             else:
                 spec = take_numbers(spec, stage.take, train)
-        return self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results))
+        parts = {branch: done[model] for branch, model in plan.parts.items()}
+        return self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results), parts)
 
     def _search(
         self, plan: ModelPlan, number: int, stage: SearchStage, spec: NetworkSpec
@@ -204,10 +207,15 @@ class _Conduct:
         self.spent += stage.budget
         return found
 
-    def _judge(self, plan: ModelPlan, spec: NetworkSpec, stages: tuple[StageResult, ...]) -> ModelResult:
+    def _judge(
+        self, plan: ModelPlan, spec: NetworkSpec, stages: tuple[StageResult, ...], parts: Mapping[str, ModelResult]
+    ) -> ModelResult:
         train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
-        known = assess_uncertainty(objective, coordinates, coordinates.start)
+        allowed = [allowance(objective, branch, part.fit.declared.name, force_error(part.fit, part.setting))
+                   for branch, part in parts.items()]  # fmt: skip
+        shifts = [each.shift for each in allowed]
+        known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
         errors = measure_errors(spec, self.setting, self.jobs)
         fit = FitResult(
             declared=plan.network,
@@ -227,8 +235,10 @@ class _Conduct:
         )
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)
+        owed = tuple(Owed(each.branch, each.model, each.share, effect(coordinates, moved))
+                     for each, moved in zip(allowed, known.moved, strict=True))  # fmt: skip
         return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
-                           self._profiles(plan, objective, coordinates))  # fmt: skip
+                           self._profiles(plan, objective, coordinates), owed)  # fmt: skip
 
     def _resampled(
         self, plan: ModelPlan, objective: Objective, coordinates: Coordinates
