@@ -266,7 +266,7 @@ def test_what_holds_nothing_is_an_error(tmp_path):
         import_files([tmp_path], {"tab": Tables({})})
     with pytest.raises(InputError, match="there is no such file or folder"):
         import_files([tmp_path / "nothing.tab"], {"tab": Tables({})})
-    with pytest.raises(InputError, match="it holds no numbers"):
+    with pytest.raises(InputError, match="it holds no column of numbers of at least 16 samples"):
         imported(tmp_path, {"a.tab": Table({"t": np.array(["a", "b"], dtype=object)})})
 
 
@@ -292,6 +292,11 @@ def test_names_of_runs_are_distinct_and_safe():
 def test_any_name_survives_the_text(tmp_path, name):
     node = Document.parse(f"key: {quoted(name)}\n").root.entries["key"]
     assert str(node.value) == name
+
+
+def test_a_name_that_cannot_be_written_is_a_number(tmp_path):
+    found = find_all(Table({"t": TIME, "x\x07": chirp(1, 20), "F": kelvin_voigt(chirp(1, 20))}))
+    assert (found.column("x\x07"), found.column("F")) == (2, "F")
 
 
 def test_the_text_tells_what_to_confirm(tmp_path):

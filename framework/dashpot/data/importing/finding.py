@@ -34,8 +34,8 @@ class ChannelFound:
 class Finding:
     """What a file holds.
 
-    rows: first row and one past the last (from 0), None for all; unused: columns that are no channel; confirm: what a
-    person has to look at; displacement and force (n,) in SI where both were found.
+    rows: first row and one past the last (from 0), None for all; columns: all of the file, in order; confirm: what a
+    person has to look at; signals: displacement and force (n,) in SI where both were found.
     """
 
     timing: Timing
@@ -43,9 +43,19 @@ class Finding:
     kind: str
     settings: Mapping[str, float]
     rows: tuple[int, int] | None
-    unused: tuple[str, ...]
+    columns: tuple[str, ...]
     confirm: tuple[str, ...]
     signals: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def unused(self) -> tuple[str, ...]:
+        """The columns that are no channel."""
+        used = {self.timing.column, *(channel.role.column for channel in self.channels.values())}
+        return tuple(name for name in self.columns if name not in used)
+
+    def column(self, name: str) -> str | int:
+        """A column as a dataset file can say it: by its name, or by its number where the name cannot be written."""
+        return name if name.isprintable() and name.strip() else self.columns.index(name) + 1
 
 
 # channel -> the unit of a column that states none, and the sign
@@ -66,7 +76,8 @@ def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None 
     others = {name: values for name, values in _filled(columns).items() if name != timing.column}
     roles = motion_roles(_moving(others), {channel: role for channel, role in roles.items() if channel != "time"})
     chosen = _chosen(roles, columns)
-    rows = usable_rows([columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name])
+    needed = [columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name is not None]
+    rows = usable_rows(needed) if needed else (0, _length(columns))
     cut = {name: values[slice(*rows)] for name, values in columns.items()}
     channels = {channel: _found(role, table, cut) for channel, role in chosen.items()}
     channels = _agreed(channels, agreed) if agreed else channels
@@ -137,10 +148,8 @@ def _finding(
         channels |= {name: replace(found[name], sign=signs[name]) for name in NEEDED}
         signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
         motion = find_motion(signals["displacement"], timing.step or 1.0)
-    used = {timing.column, *(channel.role.column for channel in found.values())}
-    unused = tuple(name for name in table.columns if name not in used)
     settings = motion.settings if timing.step else {}
-    return Finding(timing, channels, motion.kind, settings, rows, unused, tuple(confirm), signals)
+    return Finding(timing, channels, motion.kind, settings, rows, tuple(table.columns), tuple(confirm), signals)
 
 
 def _scale(channel: ChannelFound) -> float:

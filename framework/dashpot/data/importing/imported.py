@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from dashpot.data.checks import FEWEST_SAMPLES
 from dashpot.data.importing.files import find_files, run_names
 from dashpot.data.importing.finding import Agreed, Finding, find_all
 from dashpot.data.importing.likeness import find_repeats
@@ -132,8 +133,10 @@ def _read(
 
 
 def _with_numbers(table: Table) -> Table:
-    if not any(np.isfinite(numeric(values)).any() for values in table.columns.values()):
-        raise ReadingError("it holds no numbers", "check that this is the file of the measurement")
+    counts = [int(np.isfinite(numeric(values)).sum()) for values in table.columns.values()]
+    if max(counts, default=0) < FEWEST_SAMPLES:
+        message = f"it holds no column of numbers of at least {FEWEST_SAMPLES} samples"
+        raise ReadingError(message, "check that this is the file of the measurement")
     return table
 
 

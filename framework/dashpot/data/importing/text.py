@@ -12,7 +12,6 @@ from dashpot.data.declaration import SETTING_UNITS
 from dashpot.data.description import FORMAT
 from dashpot.data.importing.finding import ChannelFound, Finding
 from dashpot.data.importing.imported import Imported, ImportedRun
-from dashpot.data.importing.timing import Timing
 from dashpot.data.importing.units import GUESSED
 from dashpot.text.quantity import pretty
 
@@ -82,23 +81,29 @@ def _channels_text(finding: Finding) -> str:
 
 
 def _channel_lines(finding: Finding) -> list[str]:
-    lines = [*_timing(finding.timing)]
-    lines += [f"  {name}: {_channel(found)}{_remark(found)}" for name, found in finding.channels.items()]
+    lines = [*_timing(finding)]
+    lines += [f"  {name}: {_channel(finding, found)}{_remark(found)}" for name, found in finding.channels.items()]
     return ["channels:", *lines]
 
 
-def _timing(timing: Timing) -> Iterable[str]:
+def _timing(finding: Finding) -> Iterable[str]:
+    timing = finding.timing
     if timing.column is not None:
         remark = "   # CONFIRM: as told above" if timing.confirm else ""
-        yield f"  time: {_flow({'column': quoted(timing.column), 'unit': quoted(timing.unit or 's')})}{remark}"
+        entries = {"column": _column(finding, timing.column), "unit": quoted(timing.unit or "s")}
+        yield f"  time: {_flow(entries)}{remark}"
     elif timing.sampling:
         yield f"  sampling: {timing.sampling:.10g} Hz"
     else:
         yield "  # CONFIRM: sampling: ... Hz   (no time and no sampling rate was found)"
 
 
-def _channel(found: ChannelFound) -> str:
-    entries = {"column": quoted(found.role.column), "unit": quoted(found.unit.unit)}
+def _column(finding: Finding, name: str) -> str:
+    return quoted(str(finding.column(name)))
+
+
+def _channel(finding: Finding, found: ChannelFound) -> str:
+    entries = {"column": _column(finding, found.role.column), "unit": quoted(found.unit.unit)}
     return _flow(entries | ({"sign": "-1"} if found.sign < 0 else {}))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dashpot.data.checks import FEWEST_SAMPLES
 from dashpot.data.clock import LONGEST_GAP, read_clock
 from dashpot.data.importing.roles import Role, is_counter, name_score
 from dashpot.data.importing.units import find_unit
@@ -68,8 +69,8 @@ def _uneven(timing: Timing, time: np.ndarray, stated: float | None) -> Timing:
 def pieces(time: np.ndarray) -> list[tuple[int, int]]:
     """First sample and one past the last of the pieces of a clock (n,).
 
-    They lie between gaps, restarts, and lines without a time; those of less than a hundredth of all samples are left
-    out.
+    They lie between gaps, restarts, and lines without a time; those of less than a hundredth of all samples, and those
+    too short for anything, are left out.
     """
     known = np.flatnonzero(np.isfinite(time))
     steps = np.diff(time[known])
@@ -77,7 +78,9 @@ def pieces(time: np.ndarray) -> list[tuple[int, int]]:
         return [(0, time.size)]
     breaks = (steps < 0) | (steps > LONGEST_GAP * np.median(steps)) | (np.diff(known) > 1 + _LONGEST_HOLE)
     starts, ends = known[np.append(True, breaks)], known[np.append(breaks, True)] + 1
-    return [(int(a), int(b)) for a, b in zip(starts, ends, strict=True) if b - a > 0.01 * time.size]
+    return [
+        (int(a), int(b)) for a, b in zip(starts, ends, strict=True) if b - a >= max(FEWEST_SAMPLES, 0.01 * time.size)
+    ]
 
 
 def _unnamed_clock(columns: Mapping[str, np.ndarray], units: Mapping[str, str]) -> str | None:
