@@ -74,8 +74,13 @@ class Pass:
             self._compute([node for node in stage.nodes if node.serial not in hidden])
             kinds = {kind: joined([self.value(call.arguments[0]) for call in calls])
                      for kind, calls in stage.kinds.items()}  # fmt: skip
-            beside = partial(self._compute, [node for node in stage.beside if node.serial not in hidden])
-            *answers, _ = self.assembly.woven([*(partial(LONG[kind], x) for kind, x in kinds.items()), beside])
+            beside = [node for node in stage.beside if node.serial not in hidden]
+            if any(node.operation == "lookup" for node in beside):  # it has branches
+                self._compute(beside)
+                beside = []
+            *answers, _ = self.assembly.woven(
+                [*(partial(LONG[kind], x) for kind, x in kinds.items()), partial(self._compute, beside)]
+            )
             for (kind, calls), answer in zip(stage.kinds.items(), answers, strict=True):
                 whole = functions.wrightomega_above(kinds[kind], answer) if kind == "wrightomega" else answer
                 for call, part in zip(calls, parted(whole, len(calls)), strict=True):
