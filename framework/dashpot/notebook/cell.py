@@ -9,19 +9,21 @@ from html import escape
 from dashpot.report.parts import Code, Column, Grid, Notice, Part, Picture
 from dashpot.report.tables import cell_text
 
+# what is marked important stands against the styles that Jupyter gives to every table and text
 STYLE = """
 .dashpot { max-width: 100%; }
 .dashpot h4 { margin: 0.9em 0 0.3em; font-weight: 600; }
 .dashpot .scroll { overflow: auto; max-height: 32em; }
 .dashpot table { border-collapse: collapse; font-size: 0.92em; margin: 0; }
-.dashpot th, .dashpot td { text-align: left; padding: 0.2em 0.8em; border-bottom: 1px solid rgba(128, 128, 128, 0.3); }
-.dashpot td { vertical-align: top; }
+.dashpot th, .dashpot td { padding: 0.2em 0.8em; border-bottom: 1px solid rgba(128, 128, 128, 0.3); }
+.dashpot th, .dashpot td { text-align: left !important; vertical-align: top; }
 .dashpot td:not(.number) { min-width: 4em; }
-.dashpot .number { text-align: right; font-variant-numeric: tabular-nums; }
+.dashpot .number { text-align: right !important; font-variant-numeric: tabular-nums; }
 .dashpot p { margin: 0.3em 0; }
 .dashpot .note { opacity: 0.75; font-size: 0.9em; }
 .dashpot .warning, .dashpot .bad { border-left: 3px solid #c77700; padding-left: 0.6em; }
 .dashpot pre { padding: 0.6em; background: rgba(128, 128, 128, 0.1); overflow: auto; }
+.dashpot pre, .dashpot pre span { font-family: monospace !important; }
 .dashpot pre .added { background: rgba(10, 122, 85, 0.22); }
 .dashpot pre .removed { background: rgba(179, 38, 30, 0.22); }
 .dashpot img { max-width: 100%; }
