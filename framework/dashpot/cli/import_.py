@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from dashpot.cli import complete
 from dashpot.cli.columns import in_columns
 from dashpot.cli.output import OutputFolder
 from dashpot.cli.session import Session
@@ -29,7 +30,12 @@ FORMAT = "dashpot-import/1"
     help="The dataset file; by default dataset.yaml beside the files.",
 )
 @click.option("--sampling", metavar="RATE", help="The sampling rate, e.g. '1 kHz', where the files do not tell it.")
-@click.option("--reader", metavar="NAME", help="The format, where the names do not tell it: `dashpot list formats`.")
+@click.option(
+    "--reader",
+    metavar="NAME",
+    help="The format, where the names do not tell it: `dashpot list formats`.",
+    shell_complete=complete.installed("formats"),
+)
 @switches("json", "quiet", "force")
 def verb(
     files: tuple[Path, ...], output: Path | None, sampling: str | None, reader: str | None, switches: Switches
@@ -49,7 +55,8 @@ def verb(
     from dashpot.data.importing.text import dataset_text
 
     session = Session(switches)
-    imported = import_files(files, session.readers(), reader, read_rate(sampling))
+    with session.watch("reading the files"):
+        imported = import_files(files, session.readers(), reader, read_rate(sampling))
     target = place_of(output, common_folder([run.file for run in imported.runs]))
     folder = OutputFolder(target.parent, switches.force)
     folder.claim(target.name)
