@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Series, Symbol
+from dashpot.model.special import wrightomega
 
 NEWTON_STEPS = 5
 TINY = 1e-75  # its fourth power is still a number
@@ -37,9 +38,6 @@ class Prandtl(Element):
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Move u, the distance to sliding, along the travel of the step."""
-        # scipy takes longer to load than everything else that lists and completions need
-        from scipy.special import wrightomega
-
         side = np.where(x.travel < 0.0, -1.0, 1.0)
         distance = np.maximum(1.0 - side * z.force / p.limit, TINY)
         way = p.sharpness * p.stiffness * np.abs(x.travel) / p.limit

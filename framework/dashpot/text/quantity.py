@@ -107,6 +107,14 @@ _CONFUSED = {
 }
 
 
+# factors of the units that stand in nearly every file: reading those needs no library of units
+USUAL = {
+    ("N/mm", "N/m"): "1e3", ("kN/mm", "N/m"): "1e6", ("N*s/mm", "N*s/m"): "1e3", ("N*s/m", "N/(m/s)"): "1",
+    ("N*s/mm", "N/(m/s)"): "1e3", ("mm", "m"): "1e-3", ("mm/s", "m/s"): "1e-3", ("ms", "s"): "1e-3", ("kN", "N"): "1e3",
+    ("%", "1"): "0.01",
+}  # fmt: skip
+
+
 def si(quantity: str | float, unit: str) -> float:
     """A quantity as a number in `unit`, which is an SI unit: `si("220 N/mm", "N/m")` is 220000.
 
@@ -224,6 +232,9 @@ def _read(text: str, unit: str) -> float:
 
 @cache
 def _exact_factor(unit_text: str, unit: str) -> tuple[Decimal, Decimal]:
+    known = "1" if unit_text == unit else USUAL.get((unit_text, unit))
+    if known is not None and (unit_text == "1" or _UNIT.fullmatch(unit_text)):
+        return Decimal(known), Decimal(0)
     given, wanted = _parse(unit_text), _parse(unit)
     if given.dimensionality != wanted.dimensionality:
         hint = _CONFUSED.get((unit_text.strip(), unit), f"write it in {unit} or a unit of the same kind")
@@ -264,7 +275,7 @@ def _powers(unit: str) -> dict[str, float]:
 
 
 def _unknown_unit(unit_text: str, word: str) -> ValueError:
-    hint = nearest(word, _FAMILIAR) or "units look like N, N/mm, N*s/mm, ms, Hz, %"
+    hint = nearest(unit_text, _FAMILIAR) or nearest(word, _FAMILIAR) or "units look like N, N/mm, N*s/mm, ms, Hz, %"
     return ValueError(f"unknown unit '{unit_text}'; {hint}")
 
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dashpot.text.quantity import base_unit, factor, force_dimension, is_unit, measure, pretty, si
+from dashpot.text.quantity import USUAL, base_unit, factor, force_dimension, is_unit, measure, pretty, si
 
 
 @pytest.mark.parametrize(
@@ -141,3 +141,14 @@ def test_a_quantity_of_any_kind_is_measured_in_base_units(text, value):
 def test_what_is_no_quantity_is_not_measured(text):
     with pytest.raises(ValueError):
         measure(text)
+
+
+@pytest.mark.parametrize(("given", "wanted"), list(USUAL))
+def test_the_factors_of_usual_units_are_those_of_the_library_of_units(given, wanted):
+    assert factor(given, wanted) == factor(f"1*{given}", wanted)
+
+
+@pytest.mark.parametrize("unit", ["N/mmm", "", "parsec?", "N N N"])
+def test_a_unit_that_is_wanted_from_itself_is_still_looked_up_where_it_is_odd(unit):
+    with pytest.raises(ValueError, match="unknown unit|expected"):
+        factor(unit, "N")
