@@ -7,6 +7,7 @@ from typing import Any
 
 from dashpot.assess.axle_study import axle_content, axle_evidence, model_content
 from dashpot.assess.compare import Comparison
+from dashpot.assess.masses import identified_masses
 from dashpot.fit.identifiability import Identifiability
 from dashpot.fit.study.preview import Preview
 from dashpot.fit.study.run import ModelResult, StudyResult
@@ -33,7 +34,9 @@ def study_content(result: StudyResult) -> dict[str, Any]:
         "compared": family,
     }
     axle = axle_content(result.models)
-    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models, "axle": axle}
+    masses = identified_masses(models, result.models[-1].setting.floor.value)
+    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models, "axle": axle,
+            "masses": masses}  # fmt: skip
 
 
 def study_evidence(result: StudyResult) -> Any:

@@ -96,6 +96,7 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
 
 def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> None:
     """Write the networks, the result file, the table and the report."""
+    from dashpot.assess.masses import mass_sentence
     from dashpot.assess.study import study_content, study_evidence
     from dashpot.report.grids import comparison_grid
     from dashpot.report.json_text import json_text
@@ -110,5 +111,6 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
     folder.write("study.json", json_text(content))
     folder.write("models.csv", to_csv(grid.rows, grid.columns))
     report = folder.write("report.html", render(study_page(content, study_evidence(result))))
-    session.talk.result(plain_table(grid), content)
+    answers = [mass_sentence(mass) for mass in content["masses"]]
+    session.talk.result("\n".join([plain_table(grid), *answers]), content)
     session.talk.say(f"report: {report}")

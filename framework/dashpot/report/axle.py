@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from dashpot.assess.masses import mass_sentence, mass_warnings
 from dashpot.report import figures
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Part, Section
@@ -41,7 +42,7 @@ def masses_grid(study: Json) -> Grid:
         Column("model", "model"),
         Column("node", "node"),
         Column("value", "mass", "kg", 5),
-        Column("interval", "95 % interval, the structure taken as right"),
+        Column("interval", "95 % interval"),
         Column("without", "without the tire", "kg", 5),
         Column("without_interval", "its 95 % interval"),
         Column("rmse", "its RMSE", "N", 3),
@@ -119,8 +120,9 @@ def slow_grid(axle: Json) -> Grid:
 
 
 def disagreements(study: Json) -> Iterator[str]:
-    """What the masses say about one another, in words."""
-    yield from _structures(study)
+    """What the masses say about one another, and what their intervals take for granted, in words."""
+    for mass in study["masses"]:
+        yield from (f"{text}." for text in mass_warnings(mass))
     for row in masses_grid(study).rows:
         if row.get("without") is not None:
             yield _tire_sentence(row)
@@ -131,6 +133,7 @@ def _masses(study: Json) -> Iterator[Part]:
     grid = masses_grid(study)
     if not grid.rows:
         return
+    yield from (Notice("info", f"{mass_sentence(mass)}.") for mass in study["masses"])
     yield grid
     if (study.get("axle") or {}).get("wheels"):
         yield wheels_grid(study["axle"])
@@ -159,17 +162,6 @@ def _mass_row(model: Json, mass: Json) -> dict[str, Any]:
         return row
     return row | {"without": without["value"], "without_interval": _pair(without["interval"]), "rmse": without["rmse"],
                   "without_within": without["interval"]}  # fmt: skip
-
-
-def _structures(study: Json) -> Iterator[str]:
-    rows = masses_grid(study).rows
-    for node in dict.fromkeys(row["node"] for row in rows):
-        values = {row["model"]: row["value"] for row in rows if row["node"] == node}
-        low, high = min(values, key=lambda name: values[name]), max(values, key=lambda name: values[name])
-        if low != high:
-            yield (f"The mass of {node} depends on the structure: {number(values[low], 4)} kg with {low}, "
-                   f"{number(values[high], 4)} kg with {high}. The intervals do not hold this difference; compare the "
-                   "errors of the models.")  # fmt: skip
 
 
 def _tire_sentence(row: Mapping[str, Any]) -> str:

@@ -17,6 +17,8 @@ from dashpot.text.quantity import force_dimension
 
 Array = NDArray[np.float64]
 
+LEAST_SHARE = 1e-3
+
 
 @dataclass(frozen=True, eq=False)
 class Allowance:
@@ -57,11 +59,14 @@ def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
 
 
 def force_error(fit: FitResult, setting: Setting) -> float:
-    """The misfit of a model above the noise, as a share of how much the forces vary in its training runs."""
+    """The misfit of a model above the noise, as a share of how much the forces vary in its training runs.
+
+    It is never below what load cells disagree by from one rig to another.
+    """
     forces = [run.force[run.first :] for run in setting.train]
     swing = np.sqrt(np.mean([np.var(force) for force in forces]))
     misfit = max(fit.errors.train**2 - (setting.floor.value or 0.0) ** 2, 0.0)
-    return float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0
+    return max(float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0, LEAST_SHARE)
 
 
 def effect(coordinates: Coordinates, moved: Array) -> dict[str, float]:

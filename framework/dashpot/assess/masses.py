@@ -1,0 +1,60 @@
+"""The answer of a study about each mass: the value of the model that errs least, and what could make it another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+Json = Mapping[str, Any]
+
+PERCENT = 0.01
+
+
+def identified_masses(models: Iterable[Json], noise_floor: float | None) -> list[dict[str, Any]]:
+    """For each node whose mass was identified: its mass (kg), 95 % interval, model, and what other models say.
+
+    ``models`` are those of a study's result. The model is the one with the smallest error on held-out runs, or on the
+    training runs where there are none.
+    """
+    found: dict[str, list[tuple[Json, Json]]] = {}
+    for model in models:
+        for mass in model["masses"]:
+            found.setdefault(mass["node"], []).append((model, mass))
+    return [_answer(node, pairs, noise_floor) for node, pairs in found.items()]
+
+
+def mass_sentence(mass: Json) -> str:
+    """The answer in words."""
+    within = f", 95 % interval {mass['interval'][0]:.2f} to {mass['interval'][1]:.2f} kg" if mass["interval"] else ""
+    error = "" if mass["error"] is None else f", which errs least ({mass['error']:.3g} N{_floor(mass)})"
+    return f"{mass['node']}: {mass['value']:.2f} kg{within}; from {mass['model']}{error}"
+
+
+def mass_warnings(mass: Json) -> Iterator[str]:
+    """What is not in the interval, or is an assumption of it."""
+    for part in mass["owed"]:
+        percent = PERCENT / part["share"] * part["moved"]
+        way = "large" if percent < 0.0 else "small"
+        yield (f"{mass['node']}: the interval allows {100.0 * part['share']:.2g} % for the force of {part['branch']}, "
+               f"by which {part['model']} erred by itself. Were it 1 % stiffer here than where it was identified, this "
+               f"mass would be {abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
+    others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
+    if others:
+        yield f"{mass['node']}: other structures say {', '.join(others)}"
+
+
+def _answer(node: str, pairs: list[tuple[Json, Json]], noise_floor: float | None) -> dict[str, Any]:
+    model, mass = min(pairs, key=lambda pair: _error(pair[0]))
+    others = [{"model": other["name"], "value": each["value"], "error": _error(other)}
+              for other, each in pairs if other is not model]  # fmt: skip
+    return {"node": node, "value": mass["value"], "interval": mass["interval"], "model": model["name"],
+            "error": _error(model), "noise_floor": noise_floor, "owed": mass["owed"], "others": others}  # fmt: skip
+
+
+def _error(model: Json) -> float:
+    held_out = model["rmse"]["held_out"]
+    return float(model["rmse"]["train"] if held_out is None else held_out)
+
+
+def _floor(mass: Json) -> str:
+    return f" at a noise floor of {mass['noise_floor']:.3g} N" if mass["noise_floor"] else ""
