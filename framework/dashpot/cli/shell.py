@@ -26,6 +26,7 @@ VERBS = (
     "study",
     "schema",
     "doctor",
+    "warm",
     "completion",
 )
 

@@ -22,5 +22,6 @@ elimination   - solving a small symmetric system of equations, as a graph
 mechanics     - kinematics, balance of forces and Newton's step, as graphs
 system_source - the passes become one text
 system        - CompiledSystem: the same as CompiledNetwork, for several forces and with an estimate of the error
+ahead         - compiling before it is needed
 settings      - numbers of a network that a run gives by its settings
 """

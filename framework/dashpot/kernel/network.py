@@ -29,7 +29,7 @@ from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 
-SIDE_BY_SIDE = 2  # vectors in a group: enough that none waits for itself
+GROUPS = (1, 2)  # vectors in a group: one for single lanes, else as many as keep the processor from waiting
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class CompiledNetwork(Compiled):
             return np.array(list(pool.map(work, runs, measured, weights)))
 
     def _group(self, count: int) -> tuple[Native, int]:
-        vectors = 1 if count <= LANES else SIDE_BY_SIDE
+        vectors = GROUPS[count > LANES]
         return self.native(vectors), vectors * LANES
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:

@@ -1,0 +1,46 @@
+"""``dashpot warm``: compile networks before they are needed."""
+
+from __future__ import annotations
+
+import click
+
+from dashpot.cli import complete
+from dashpot.cli.session import Session
+from dashpot.cli.switches import Switches, switches
+
+
+@click.command("warm")
+@click.argument("specs", nargs=-1, metavar="[SPEC]...", shell_complete=complete.networks)
+@switches("json", "quiet")
+def verb(specs: tuple[str, ...], switches: Switches) -> None:
+    """Compile networks now, so that the first simulation or fit with them starts at once.
+
+    Without SPEC all shipped ones. What is compiled already is left as it is.
+
+    \b
+    Example:
+      dashpot warm
+      dashpot warm my_network.yaml
+    """
+    from dashpot.kernel.ahead import compile_ahead
+    from dashpot.kernel.native import cache_folder
+    from dashpot.model.shipped import shipped_networks
+
+    session = Session(switches)
+    before, names = compiled_files(), specs or tuple(shipped_networks())
+    with session.watch("compiling") as progress:
+        for number, spec in enumerate(names):
+            progress(spec, number / len(names))
+            compile_ahead(session.network(spec))
+    new = len(compiled_files() - before)
+    content = {"format": "dashpot-warm/1", "networks": list(names), "new": new, "folder": str(cache_folder())}
+    many = f"{len(names)} network{'s' * (len(names) != 1)}"
+    text = f"{many} ready: {new} of their kernels compiled now, the others known" if new else f"{many} ready already"
+    session.talk.result(f"{text}; kept in {cache_folder()}", content)
+
+
+def compiled_files() -> set[str]:
+    """The names of what is compiled."""
+    from dashpot.kernel.native import cache_folder
+
+    return {path.name for path in (cache_folder() / "kernels").glob("*.o")}

@@ -1,0 +1,60 @@
+"""``dashpot warm``: compiled once, then known; and a fit finds what it needs."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from dashpot import load_registry
+from dashpot.data.drive import drive_from_samples
+from dashpot.kernel import native
+from dashpot.kernel.network import compile_network
+from dashpot.kernel.parts import take_apart
+from dashpot.model.reading import read_network
+
+NETWORK = """format: dashpot-network/1
+name: pair
+branches:
+  spring: {element: spring, stiffness: {from: quasi_static}}
+  relaxation: {element: maxwell, stiffness: 7 N/mm, relaxation_time: 20 ms}
+"""
+TABLE = "{deflection: [0 mm, 2 mm, 5 mm, 9 mm], force: [0 N, 40 N, 90 N, 200 N]}"
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    monkeypatch.setenv("DASHPOT_CACHE", str(tmp_path / "cache"))
+    (tmp_path / "pair.yaml").write_text(NETWORK)
+    return tmp_path / "pair.yaml"
+
+
+def test_a_second_call_compiles_nothing(call, file, monkeypatch):
+    code, text, error = call("warm", file, "--json")
+    assert code == 0, error
+    assert json.loads(text)["new"] > 0
+    monkeypatch.setattr(native, "compiled", None)
+    code, text, error = call("warm", file, "--json")
+    assert code == 0, error
+    assert json.loads(text)["new"] == 0
+
+
+def test_after_it_nothing_is_left_to_compile(call, file, monkeypatch):
+    assert call("warm", file)[0] == 0
+    monkeypatch.setattr(native, "compiled", None)
+    native._native.cache_clear()
+    file.write_text(NETWORK.replace("{from: quasi_static}", TABLE))
+    spec = read_network(file, load_registry().elements)
+    drive = drive_from_samples(1e-3, 1e-3 * np.sin(np.arange(200.0)))
+    whole = compile_network(spec)
+    for network in (whole, *(part.network for part in take_apart(spec).members)):
+        for lanes in (1, 40):
+            force = network.simulate(network.prepare(drive), np.repeat(network.start[None], lanes, axis=0))
+            assert np.isfinite(force).all()
+
+
+def test_a_network_with_a_mistake_is_told(call, file):
+    file.write_text(NETWORK.replace("maxwell", "maxwel"))
+    code, _, error = call("warm", file)
+    assert code == 1 and "maxwell" in error
