@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from dashpot.data.dataset import read_dataset
 from dashpot.data.importing.files import find_files, run_names
 from dashpot.data.importing.finding import find_all
 from dashpot.data.importing.imported import import_files
@@ -297,6 +298,35 @@ def test_any_name_survives_the_text(tmp_path, name):
 def test_a_name_that_cannot_be_written_is_a_number(tmp_path):
     found = find_all(Table({"t": TIME, "x\x07": chirp(1, 20), "F": kelvin_voigt(chirp(1, 20))}))
     assert (found.column("x\x07"), found.column("F")) == (2, "F")
+
+
+def test_what_most_runs_have_stands_once(tmp_path):
+    motion = chirp(1, 20)
+    other = Table({"Zeit": TIME, "Weg": 2 * motion, "Kraft": kelvin_voigt(2 * motion)}, {"Zeit": "s", "Kraft": "N"})
+    found = imported(tmp_path, {"a.tab": table(motion), "b.tab": table(3 * motion), "c.tab": other})
+    text = dataset_text(found, tmp_path, "rig")
+    assert text.count("column: x") == 1 and text.index("column: x") < text.index("\nruns:") < text.index("column: Weg")
+    runs = read_dataset_of(tmp_path, text, found)
+    assert [np.ptp(run.displacement) for run in runs] == pytest.approx([2e-3, 6e-3, 4e-3], rel=1e-3)
+
+
+def test_a_sign_is_not_inherited_by_files_of_another_kind(tmp_path):
+    motion = 10 + chirp(1, 20)
+    turned = [Table({"t": TIME, "x": k * motion, "F": -kelvin_voigt(k * motion)}, {"t": "s", "F": "N"}) for k in (1, 2)]
+    other = Table({"Zeit": TIME, "Weg": motion, "Kraft": kelvin_voigt(motion)}, {"Zeit": "s", "Kraft": "N"})
+    text = dataset_text(imported(tmp_path, {"a.tab": turned[0], "b.tab": turned[1], "c.tab": other}), tmp_path, "rig")
+    assert "defaults" not in text and text.count("sign: -1}") == 2
+
+
+def read_dataset_of(folder, text, found):
+    """The runs of a dataset with this text, over the tables that were imported."""
+    (folder / "dataset.yaml").write_text(text)
+    tables = {}
+    for run in found.runs:
+        columns = {"t": TIME, "x": run.finding.signals["displacement"] * 1e3, "F": run.finding.signals["force"]}
+        named = dict(zip(run.finding.columns, columns.values(), strict=True))
+        tables[run.file.name] = Table(named)
+    return read_dataset(folder, {"tab": Tables(tables)}).runs
 
 
 def test_the_text_tells_what_to_confirm(tmp_path):

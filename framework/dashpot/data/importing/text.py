@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from dashpot.data.declaration import SETTING_UNITS
@@ -22,15 +23,22 @@ _NEGLIGIBLE = 0.05
 
 def dataset_text(imported: Imported, folder: Path, name: str) -> str:
     """The dataset file over these runs, to be written into `folder`."""
-    alike = len({_channels_text(run.finding) for run in imported.runs}) == 1
+    common = _common(imported.runs)
     outside = any(_relative(run.file, folder).startswith("..") for run in imported.runs)
     lines = [*_head(imported), f"format: {FORMAT}", f"name: {quoted(name)}"]
     lines += ["allow_outside: true"] if outside else []
-    if alike:
-        lines += ["defaults:", *(f"  {line}" for line in _channel_lines(imported.runs[0].finding))]
-        lines += _unused(imported.runs[0].finding, "  ")
-    lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, alike))]
+    lines += ["defaults:", *(f"  {line}" for line in common)] if common else []
+    lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, common))]
     return "\n".join(lines) + "\n"
+
+
+def _common(runs: Sequence[ImportedRun]) -> list[str]:
+    """The channels that most runs have, where all others say everything that these say: a run inherits the rest."""
+    blocks = {tuple(_channel_lines(run.finding)): set(run.finding.channels) for run in runs}
+    counts = Counter(tuple(_channel_lines(run.finding)) for run in runs)
+    block, count = counts.most_common(1)[0]
+    overruled = all(blocks[block] <= names for names in blocks.values()) and "sign: " not in "".join(block)
+    return list(block) if len(blocks) == 1 or (overruled and count > len(runs) / 2) else []
 
 
 def quoted(text: str) -> str:
@@ -55,7 +63,7 @@ def about_runs(names: Iterable[str], count: int) -> str:
     return f" ({_one_line(', '.join(names[:6]))}{f' and {len(names) - 6} more' if len(names) > 6 else ''})"
 
 
-def _run_lines(run: ImportedRun, folder: Path, alike: bool) -> list[str]:
+def _run_lines(run: ImportedRun, folder: Path, common: list[str]) -> list[str]:
     finding = run.finding
     lines = [f"name: {quoted(run.name)}", f"file: {quoted(_relative(run.file, folder))}", f"kind: {finding.kind}"]
     lines += [f"reader: {run.reader}"] if run.reader else []
@@ -63,8 +71,8 @@ def _run_lines(run: ImportedRun, folder: Path, alike: bool) -> list[str]:
     settings = told_settings(finding.settings)
     lines += [f"settings: {_flow(settings)}"] if settings and not run.repeats else []
     lines += [f"rows: [{run.rows[0]}, {run.rows[1]}]"] if run.rows else []
-    if not alike:
-        lines += [*_channel_lines(finding), *_unused(finding, "")]
+    channels = _channel_lines(finding)
+    lines += channels if channels != common else []
     return ["  - " + lines[0], *("    " + line for line in lines[1:])]
 
 
@@ -76,14 +84,10 @@ def _relative(file: Path, folder: Path) -> str:
         return file.resolve().as_posix()
 
 
-def _channels_text(finding: Finding) -> str:
-    return "\n".join(_channel_lines(finding))
-
-
 def _channel_lines(finding: Finding) -> list[str]:
     lines = [*_timing(finding)]
     lines += [f"  {name}: {_channel(finding, found)}{_remark(found)}" for name, found in finding.channels.items()]
-    return ["channels:", *lines]
+    return ["channels:", *lines, *_unused(finding)]
 
 
 def _timing(finding: Finding) -> Iterable[str]:
@@ -114,11 +118,11 @@ def _remark(found: ChannelFound) -> str:
     return f"   # CONFIRM: {' and '.join(doubts)}" if doubts else ""
 
 
-def _unused(finding: Finding, indent: str) -> list[str]:
+def _unused(finding: Finding) -> list[str]:
     if not finding.unused:
         return []
     shown = ", ".join(f"'{name}'" for name in finding.unused[:12]) + (" ..." if len(finding.unused) > 12 else "")
-    return [f"{indent}# columns that are not used: {_one_line(shown)}"]
+    return [f"  # not used: {_one_line(shown)}"]
 
 
 def told_settings(settings: Mapping[str, float]) -> dict[str, str]:
