@@ -128,8 +128,6 @@ def public_names() -> Mapping[str, list[str]]:
 
 def documented(name: str, thing: Any) -> Iterator[str]:
     """Signature, words and example of one name, methods of a class included."""
-    if name == "fit":
-        thing = dashpot._verb()
     if callable(thing) and not inspect.isclass(thing):
         yield f"```python\n{called(name, inspect.signature(thing))}\n```"
     yield from docstring(thing.__doc__ or "")

@@ -106,8 +106,11 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
+# a layer that, called, is the verb of its name, and is described by it
 class _CallableLayer(ModuleType):
-    """A layer of the framework that, called, is the verb of its name."""
+    @property
+    def __doc__(self) -> str | None:  # type: ignore[override]
+        return _verb().__doc__
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
         return _verb()(*arguments, **options)
@@ -123,7 +126,7 @@ class _Package(ModuleType):
     """The package; importing makes ``dashpot.fit`` its attribute, and this makes it one that can be called."""
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name == _LAYER:
+        if name == _LAYER and isinstance(value, ModuleType):
             value.__class__ = _CallableLayer
         super().__setattr__(name, value)
 

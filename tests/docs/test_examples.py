@@ -19,18 +19,13 @@ from building.pages import examples, public_names  # noqa: E402
 NAMES = [name for names in public_names().values() for name in names]
 
 
-def documented(name: str) -> Any:
-    """What carries the docstring of a name."""
-    return dp._verb() if name == "fit" else getattr(dp, name)
-
-
 def test_no_public_name_is_left_out():
     assert {*NAMES, "__version__"} == set(dp.__all__)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_public_name_has_an_example(name):
-    assert examples(documented(name))
+    assert examples(getattr(dp, name))
 
 
 def test_every_example_runs(bench, monkeypatch):
@@ -38,7 +33,7 @@ def test_every_example_runs(bench, monkeypatch):
     names: dict[str, Any] = {"dp": dp, "np": np, "__name__": "examples"}
     said: list[str] = []
     for name in NAMES:
-        test = doctest.DocTest(examples(documented(name)), names, name, None, None, None)
+        test = doctest.DocTest(examples(getattr(dp, name)), names, name, None, None, None)
         runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
         runner.run(test, out=said.append, clear_globs=False)
         names.update(test.globs)
