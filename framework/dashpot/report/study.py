@@ -128,16 +128,18 @@ def _alike(spread: Sequence[float]) -> int:
 
 
 def _held_out(study: Json) -> str:
-    told = []
+    """Which runs only judge, and what the models that they judge come to there."""
+    families: dict[tuple[str, ...], list[str]] = {}
     for model in study["models"]:
-        names = model.get("held_out") or ()
-        error = (model["rmse"] or {}).get("held_out")
-        if names and error is not None:
-            told.append(f"{model['name']} was judged on {', '.join(names)}, which no stage has seen: {number(error)} N "
-                        f"against {number(model['rmse']['train'])} N on the training runs.")  # fmt: skip
-        else:
-            told.append(f"{model['name']} has no held-out run.")
-    return " ".join(told)
+        rmse = model["rmse"] or {}
+        errors = f"{model['name']} {number(rmse.get('held_out'))} N ({number(rmse.get('train'))} N)"
+        families.setdefault(tuple(model.get("held_out") or ()), []).append(errors)
+    return " ".join(
+        f"Seen by no stage, they only judge: {', '.join(names)}. Error there (in training): {', '.join(errors)}."
+        if names
+        else "No run was held out for some models, whose errors stand for the training runs only."
+        for names, errors in families.items()
+    )
 
 
 def _knowledge(study: Json) -> Section:

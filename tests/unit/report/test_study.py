@@ -154,4 +154,7 @@ def test_the_end_of_a_search_is_told_in_words():
 
 def test_held_out_runs_and_their_error_are_named():
     texts = [section.text for section in study_page(study(), comparison_evidence()).sections]
-    assert any("was judged on b1, which no stage has seen" in text for text in texts)
+    told = next(text for text in texts if "Seen by no stage" in text)
+    rows = study()["models"]
+    assert told.startswith("Seen by no stage, they only judge: b1. Error there (in training): ")
+    assert all(f"{row['name']} " in told for row in rows) and told.count("Seen by no stage") == 1
