@@ -120,9 +120,10 @@ def _axle_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int, d
         path = car_path.triangle(-depth, depth, SLOW_LOOP)
         yield run(f"axle_{name}", np.array([path, side * path]), 200, 0.0, "kind: quasi_static")
     path = car_path.sweep(AXLE_AMPLITUDE, 5.0, 20.0, duration)
-    for added in ADDED_MASSES:
+    plans = [(f"axle_m{added:g}", 1.0, added) for added in ADDED_MASSES] + [("axle_anti", -1.0, 0.0)]
+    for name, side, added in plans:
         settings = f"{{amplitude: {AXLE_AMPLITUDE * 1e3:g} mm, start: 5 Hz, stop: 20 Hz, added_mass: {added:g} kg}}"
-        yield run(f"axle_m{added:g}", np.array([path, path]), dynamic, added, f"kind: sweep\n    settings: {settings}")
+        yield run(name, np.array([path, side * path]), dynamic, added, f"kind: sweep\n    settings: {settings}")
 
 
 def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.random.Generator) -> None:

@@ -14,7 +14,6 @@ import secrets
 import tempfile
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -39,12 +38,13 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         path = measure_car(car, Path(folder), seed, EVERY, SWEEP)
         dataset = read_dataset(path, {word: reader() for word, reader in registry.formats.items()})
-        study = replace(read_study(find_study(STUDY), registry), hold_out=())
+        study = read_study(find_study(STUDY), registry)
         content = study_content(run_study(study, dataset, registry=registry))
     return {
         "number": number,
         "truth": car.wheel_mass,
         "mount": car.mount_stiffness,
+        "answer": content["masses"][0],
         "models": [
             {"name": model["name"], "error": model["rmse"]["train"], **mass}
             for model in content["models"] for mass in model["masses"]
@@ -56,8 +56,8 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
 
 
 def answer(car: dict[str, Any]) -> dict[str, Any]:
-    """The mass of the model that errs least."""
-    return min(car["models"], key=lambda model: model["error"])
+    """The mass that the study answers with."""
+    return car["answer"]
 
 
 def lines(cars: list[dict[str, Any]]) -> Iterator[str]:

@@ -33,15 +33,18 @@ class Profile:
     open_ends: tuple[bool, bool]
 
 
-def profile_likelihood(objective: Objective, coordinates: Coordinates, point: Array, number: int) -> Profile:
+def profile_likelihood(
+    objective: Objective, coordinates: Coordinates, point: Array, number: int, noise: float | None = None
+) -> Profile:
     """Walk from the fitted point (p,) along coordinate ``number``, refitting all others, until the fit is worse.
 
     Worse is where the root of twice the fall of the log likelihood is as large as the half width of the interval of
-    `assess_uncertainty` in standard deviations under white noise: 1.96 for white noise, more for coloured noise.
+    `assess_uncertainty` in standard deviations under white noise: 1.96 for white noise, more for coloured noise, and
+    more where the model errs by more than ``noise`` (N).
 
     Source: Raue et al., Bioinformatics 25 (2009) 1923.
     """
-    climb = _Climb(objective, coordinates, point, number)
+    climb = _Climb(objective, coordinates, point, number, noise)
     sides = [climb.walk(direction) for direction in (-1.0, 1.0)]
     visited = sorted([*sides[0].visited, (point[number], climb.loss), *sides[1].visited])
     ends = [side.end for side in sides]
@@ -62,12 +65,14 @@ class _Side:
 
 
 class _Climb:
-    def __init__(self, objective: Objective, coordinates: Coordinates, point: Array, number: int) -> None:
+    def __init__(
+        self, objective: Objective, coordinates: Coordinates, point: Array, number: int, noise: float | None
+    ) -> None:
         self.objective, self.coordinates, self.point, self.number = objective, coordinates, point, number
         self.loss = float(objective.losses(coordinates.to_values(point))[0])
         _, jacobian = linearise(objective, coordinates, point)
         naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
-        width = float(assess_uncertainty(objective, coordinates, point).widths[number])
+        width = float(assess_uncertainty(objective, coordinates, point, noise=noise).widths[number])
         self.limit = min(width / np.sqrt(naive), WIDEST)
         self.pace = PACE * self.limit * np.sqrt(naive) * coordinates.unit[number]
 

@@ -24,6 +24,7 @@ UNDECIDED = 1e-12  # of the largest eigenvalue, with parameters scaled alike
 SHARE = 1e-6
 MOST_LEVERAGE = 0.99
 ABSORBED = 8.0
+NOISE_KNOWN = 1.05  # noise floors may be this much too low
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,9 +98,9 @@ def widening(loss: float, noise: float | None) -> float:
     scatter between blocks cannot know. ``ABSORBED`` is how many times more is taken in than is left, in squares, as
     found on virtual cars whose laws are none of the model's: ``tests/unsprung_mass``.
     """
-    if noise is None or loss <= noise:
+    if noise is None or loss <= NOISE_KNOWN * noise:
         return 1.0
-    return float(np.sqrt(1.0 + ABSORBED * (1.0 - (noise / loss) ** 2)))
+    return float(np.sqrt(1.0 + ABSORBED * (1.0 - (NOISE_KNOWN * noise / loss) ** 2)))
 
 
 def _sandwich(residual: Array, jacobian: Array, blocks: list[NDArray[np.int64]], root: Array) -> tuple[Array, Array]:

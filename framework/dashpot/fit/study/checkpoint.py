@@ -59,7 +59,11 @@ class Record:
         """How the search ended, if it did."""
         if self._result is None or not self._result.exists():
             return None
-        return json.loads(self._result.read_text(encoding="utf-8"))
+        try:
+            return json.loads(self._result.read_text(encoding="utf-8"))
+        except ValueError:
+            raise InputError.at(Place(str(self._result)), "expected the record of a search, got a damaged file",
+                                "say --force to begin the study again") from None  # fmt: skip
 
     def blocks(self) -> list[Block]:
         """The whole blocks on disk; what an interruption left of the last one is cut off."""

@@ -12,6 +12,11 @@ def chosen(name: str, patterns: Iterable[str]) -> bool:
     return any(_expression(pattern).fullmatch(name) for pattern in patterns)
 
 
+def is_wild(pattern: str) -> bool:
+    """Whether a pattern may stand for several names."""
+    return "*" in pattern or "?" in pattern
+
+
 @cache
 def _expression(pattern: str) -> re.Pattern[str]:
     parts = ({"*": ".*", "?": "."}.get(character, re.escape(character)) for character in pattern)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -111,7 +112,7 @@ class _Reader:
 
     def _model(self, node: Node, before: list[str]) -> ModelPlan | None:
         if isinstance(node, Scalar):
-            network = self._network(read_text(node))
+            network = self._network(read_text(node), node.place)
             return self._new(ModelPlan(network, self._stages) if network else None, before, node.place)
         form = Form(node, self._problems, "the model")
         word = form.text("network")
@@ -120,7 +121,7 @@ class _Reader:
         runs = _patterns(form, "runs", ("*",))
         parts = form.take("parts", lambda below: _read_parts(below, before), {})
         form.close()
-        network = self._network(word) if word else None
+        network = self._network(word, form.place_of("network")) if word else None
         plan = ModelPlan(network, stages, start_from, runs, parts) if network else None
         return self._new(plan, before, node.place)
 
@@ -133,12 +134,12 @@ class _Reader:
             self._problems.append(Problem(place, f"the model '{plan.name}' has no stages", "list some under 'stages'"))
         return plan
 
-    def _network(self, word: str) -> NetworkSpec | None:
+    def _network(self, word: str, place: Place) -> NetworkSpec | None:
         beside = self._folder / word
         try:
             return read_network(beside if Path(word).suffix in SUFFIXES else word, self._registry.elements)
         except InputError as error:
-            self._problems.extend(error.problems)
+            self._problems += [_placed(problem, word, place) for problem in error.problems]
             return None
 
     def _read_stages(self, form: Form, default: tuple[Stage, ...]) -> tuple[Stage, ...]:
@@ -180,6 +181,11 @@ class _Reader:
             form.complain("optimizer", f"{form.what}: {error}")
             return {}
         return options
+
+
+def _placed(problem: Problem, word: str, place: Place) -> Problem:
+    # what is wrong with a name is wrong in the study
+    return problem if problem.place.line else replace(problem, place=place, message=f"'{word}': {problem.message}")
 
 
 def _read_models(node: Node) -> tuple[Node, ...]:

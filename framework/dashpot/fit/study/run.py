@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -32,12 +32,12 @@ from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
 from dashpot.fit.study.parts import with_parts
-from dashpot.fit.study.patterns import chosen
+from dashpot.fit.study.patterns import chosen, is_wild
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
-from dashpot.text.problem import InputError, Place
+from dashpot.text.problem import InputError, Place, nearest
 
 SLOW = ("quasi_static", "hold")
 
@@ -96,15 +96,15 @@ def run_study(
 
 
 def study_setting(study: StudySpec, dataset: Dataset) -> Setting:
-    """The dataset made ready, split as the study wants it. InputError for a pattern that names no run."""
+    """The dataset made ready, split as the study wants it.
+
+    InputError for a name that is no run's, and for a list of patterns that names no run at all.
+    """
     setting = prepare(dataset, study.seed)
     runs = setting.dataset.runs
-    for pattern in (*(study.hold_out or ()), *study.weights):
-        if not any(named(run, [pattern]) for run in runs):
-            names = dict.fromkeys(run.record or run.name for run in runs)
-            raise InputError.at(
-                Place(study.name), f"no run is called '{pattern}'", f"runs are: {', '.join(list(names)[:12])}"
-            )
+    refuse_unknown_runs(study, study.hold_out or (), runs)
+    refuse_unknown_runs(study, tuple(study.weights), runs)
+    refuse_idle_patterns(study)
     if study.hold_out is None:
         return setting
     groups = {run.group for run in runs if named(run, study.hold_out)}
@@ -113,6 +113,31 @@ def study_setting(study: StudySpec, dataset: Dataset) -> Setting:
         raise InputError.at(Place(study.name), "'hold_out' leaves no run to train on", "name fewer runs")
     held_out = tuple(run.name for run in runs if run.group in groups)
     return replace(setting, split=Split(train, held_out, "" if held_out else "the study holds none out"))
+
+
+def refuse_unknown_runs(study: StudySpec, patterns: Sequence[str], runs: Sequence[Run]) -> None:
+    """InputError for a name that is no run's; some of several patterns with wildcards may name none."""
+    idle = [pattern for pattern in patterns if not any(named(run, [pattern]) for run in runs)]
+    wrong = [pattern for pattern in idle if not is_wild(pattern)] or (idle if len(idle) == len(patterns) else [])
+    if wrong:
+        names = dict.fromkeys(run.record or run.name for run in runs)
+        raise InputError.at(
+            Place(study.name), f"no run is called '{wrong[0]}'", f"runs are: {', '.join(list(names)[:12])}"
+        )
+
+
+def refuse_idle_patterns(study: StudySpec) -> None:
+    """InputError for a name that is no number's, and for a list of patterns that names no number of any model."""
+    paths = {slot.path for plan in study.models for slot in plan.network.slots()}
+    paths |= {f"{curve}[0]" for plan in study.models for curve in plan.network.data_curves()}
+    searches = [stage for plan in study.models for stage in plan.stages if isinstance(stage, SearchStage)]
+    for patterns in (study.profiles, *(stage.free for stage in searches)):
+        idle = [pattern for pattern in patterns if not any(chosen(path, [pattern]) for path in paths)]
+        wrong = [pattern for pattern in idle if not is_wild(pattern)] or (idle if len(idle) == len(patterns) else [])
+        if wrong:
+            message = f"expected a pattern of numbers, got '{wrong[0]}', which names none"
+            hint = nearest(wrong[0], paths) or f"numbers are: {', '.join(sorted(paths)[:12])}"
+            raise InputError.at(Place(study.name), message, hint)
 
 
 def named(run: Run | ScoredRun, patterns: Iterable[str]) -> bool:
@@ -258,7 +283,9 @@ class _Conduct:
         found = []
         for number in wanted:
             self._tell(plan, f"profile of {coordinates.paths[number]}")
-            found.append(profile_likelihood(objective, coordinates, coordinates.start, number))
+            found.append(
+                profile_likelihood(objective, coordinates, coordinates.start, number, self.setting.floor.value)
+            )
         return tuple(found)
 
     def _tell(self, plan: ModelPlan, what: str) -> None:

@@ -103,6 +103,13 @@ def test_a_pattern_that_names_no_run_is_told(study, text):
         run(study(text + "stages: [{name: a}]\nmodels: [one.yaml]\n"))
 
 
+def test_of_several_patterns_some_may_name_nothing_but_names_must_be_those_of_runs(study):
+    stages = "stages: [{name: a}]\nmodels: [two.yaml]\n"
+    assert run(study("hold_out: ['f9*', 'g*']\n" + stages)).setting.split.held_out == ("f9",)
+    with pytest.raises(InputError, match="no run is called 'g1'"):
+        run(study("hold_out: ['f9*', 'g1']\n" + stages))
+
+
 def test_the_budget_holds_for_every_method(study):
     for optimizer, starts in (("pso", 1), ("pso+least_squares", 2), ("least_squares", 1), ("gauss_newton", 3)):
         made = study(
