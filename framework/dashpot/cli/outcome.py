@@ -41,7 +41,8 @@ def exit_code_of(work: Callable[[], object]) -> int:
     except BrokenPipeError:
         return _end_of_reader()
     except OSError as error:
-        _tell(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        told = f"{error.filename}: {error.strerror}" if error.filename else str(error)
+        _tell(f"{told}. Check the name, its rights and the space that is left")
         return ExitCode.WRONG_INPUT
     except Exception as error:
         return _fault(error)

@@ -25,7 +25,14 @@ class OutputFolder:
             raise InputError.at(Place(str(self.path)), "expected a folder, got a file", "choose another -o")
         if not self.force:
             self._refuse_existing(patterns)
-        self.path.mkdir(parents=True, exist_ok=True)
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            message = f"expected a folder that can be made, got: {error.strerror}"
+            raise InputError.at(Place(str(self.path)), message, "choose another -o, or check its rights") from None
+        if not os.access(self.path, os.W_OK | os.X_OK):
+            raise InputError.at(Place(str(self.path)), "expected a folder that may be written, got one that may not",
+                                "choose another -o, or change its rights")  # fmt: skip
 
     def _refuse_existing(self, patterns: tuple[str, ...]) -> None:
         found = sorted({path for pattern in patterns for path in self.path.glob(pattern)})
@@ -41,6 +48,14 @@ class OutputFolder:
         """Write a file under a temporary name first, so that an interrupted run leaves no half of it."""
         path = self.path / name
         part = path.with_name(f".{name}.part")
-        part.write_bytes(content)
-        os.replace(part, path)
+        try:
+            part.write_bytes(content)
+            os.replace(part, path)
+        except OSError as error:
+            part.unlink(missing_ok=True)
+            message = f"expected to write a file, got: {error.strerror}"
+            raise InputError.at(Place(str(path)), message, "make room, or choose another -o") from None
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise
         return path

@@ -70,7 +70,10 @@ def read_bench(document: Document, rigs: Mapping[str, type[Rig]]) -> Bench:
     form = Form(document.root, problems, "the bench")
     form.choice("format", (FORMAT,))
     name, about = form.text("name"), form.text("about", "")
-    procedures = [_procedure(below, rigs) for below in form.forms("tests") or ()]
+    tests = form.forms("tests")
+    if tests == []:
+        form.complain("tests", "expected at least one test, got an empty list", "add one, e.g. '- {rig: WORD}'")
+    procedures = [_procedure(below, rigs) for below in tests or ()]
     chain = form.form("measuring", default=None)
     measuring = made_from(chain, Measuring) if chain else Measuring()
     form.close()

@@ -157,7 +157,8 @@ class BranchReader:
 
     def _complain_of_element(self, word: str | None, form: Form) -> None:
         if word:
-            known = nearest(word, self.elements) or f"known elements: {', '.join(sorted(self.elements))}"
+            names = ", ".join(sorted(self.elements)) or "none"
+            known = nearest(word, self.elements) or f"install the plugin that gives it, or take one of: {names}"
             form.complain("element", f"there is no element '{word}'", known)
             return
         for key in form.rest:

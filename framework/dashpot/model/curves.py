@@ -102,12 +102,12 @@ def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float
     over, value = curve.over[0], curve.value[0]
     if count != len(at) or len(at) < 2:
         reading.complain(form.place_of(value), f"expected as many {value} as {over}, at least two of each, "
-                         f"got {count} and {len(at)}")  # fmt: skip
+                         f"got {count} and {len(at)}", f"give one {value} for each {over}")  # fmt: skip
         return False
     for number, (before, after) in enumerate(zip(at, at[1:], strict=False), 2):
         if not before < after:
             reading.complain(form.place_of(over), f"expected growing {over}, got {after:g} {curve.over[1]} as number "
-                             f"{number} after {before:g}")  # fmt: skip
+                             f"{number} after {before:g}", "sort the table")  # fmt: skip
             return False
     return True
 
@@ -115,7 +115,8 @@ def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float
 def _read_column(entry: Node, curve: Curve, reading: Reading, role: Role) -> list[Value | None]:
     kind = Kind(curve.value[1], curve.bounds, "log") if curve is FACTOR else Kind(curve.value[1], UNBOUNDED, "linear")
     if isinstance(entry, Sequence) and not entry.items:
-        reading.complain(entry.place, f"expected a list of {curve.value[0]}, got an empty one")
+        reading.complain(entry.place, f"expected a list of {curve.value[0]}, got an empty one",
+                         f"give one {curve.value[0]} for each {curve.over[0]}")  # fmt: skip
     if isinstance(entry, Sequence):
         values = [read_value(item, kind, reading) for item in entry.items]
     else:

@@ -94,7 +94,7 @@ def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
 def _refuse_outside(number: float, kind: Kind, place: Place, reading: Reading) -> None:
     low, high = kind.bounds
     if not (low <= number <= high or (kind.off and number == 0.0)):
-        reading.complain(place, f"expected {low:g} to {high:g} {kind.unit}, got {number:g}")
+        reading.complain(place, f"expected {low:g} to {high:g} {kind.unit}, got {number:g}", "check its unit")
 
 
 def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
@@ -141,17 +141,17 @@ def _read_pair(node: Node, unit: str) -> tuple[float, float]:
 def _read_interval(node: Node, unit: str) -> tuple[float, float]:
     low, high = _read_pair(node, unit)
     if low > high:
-        raise ValueError(f"expected low <= high, got {low:g} and {high:g}")
+        raise ValueError(f"expected low <= high, got {low:g} and {high:g}; exchange them")
     return low, high
 
 
 def _read_bounds(node: Node, kind: Kind) -> tuple[float, float]:
     low, high = _read_pair(node, kind.unit)
     if not low < high:
-        raise ValueError(f"expected low < high, got {low:g} and {high:g}")
+        raise ValueError(f"expected low < high, got {low:g} and {high:g}; exchange or widen them")
     if low < kind.bounds[0] or high > kind.bounds[1]:
         raise ValueError(f"expected bounds inside {kind.bounds[0]:g} to {kind.bounds[1]:g} {kind.unit}, "
-                         f"got {low:g} to {high:g}")  # fmt: skip
+                         f"got {low:g} to {high:g}; narrow them, or check their unit")  # fmt: skip
     return low, high
 
 
@@ -160,7 +160,8 @@ def _complaints(value: Value) -> Iterator[str]:
     # a number identified at its bound was rounded when it was written
     room = ROUNDING * abs(value.number) if value.role == "identified" else 0.0
     if not low - room <= value.number <= high + room:
-        yield f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}"
+        yield (f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}; move it, "
+               "or widen the bounds")  # fmt: skip
     lowest = min(low, value.number) if value.bounds else value.number
     if value.scale == "log" and lowest <= 0.0:
         yield f"expected positive numbers for a log scale, got {lowest:g} {value.unit}; write scale: linear"

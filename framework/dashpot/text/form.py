@@ -37,7 +37,9 @@ class Form:
         self._keys = dict(node.keys) if isinstance(node, Mapping) else {}
         self._asked: dict[str, None] = {}
         if not self._is_mapping:
-            self.complain(None, f"expected {what} as 'key: value' lines, got {node.describe()}", "indent its keys")
+            empty = isinstance(node, Scalar) and node.value is None
+            hint = "write its keys" if empty else "indent its keys"
+            self.complain(None, f"expected {what} as 'key: value' lines, got {node.describe()}", hint)
 
     @property
     def place(self) -> Place:
@@ -198,7 +200,8 @@ def read_choice(node: Node, known: Collection[str]) -> str:
     word = read_text(node)
     if word in known:
         return word
-    raise ValueError(f"expected one of {', '.join(known)}, got '{word}'; {nearest(word, known)}".rstrip("; "))
+    wanted = f"one of {', '.join(known)}" if known else "nothing, as there is nothing to choose from"
+    raise ValueError(f"expected {wanted}, got '{word}'; {nearest(word, known)}".rstrip("; "))
 
 
 def read_items(node: Node) -> tuple[Node, ...]:

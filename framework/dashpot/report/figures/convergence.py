@@ -26,6 +26,8 @@ def convergence_history(history: Mapping[str, Progress]) -> Figure:
     table = TidyTable("fit", EVALUATIONS, BEST)
     traces = []
     for label, progress in history.items():
+        if not len(progress["best"]):
+            continue
         kept = thin(np.arange(len(progress["best"])), POINTS_PER_TRACE)
         values = {EVALUATIONS: np.asarray(progress["evaluations"])[kept], BEST: np.asarray(progress["best"])[kept]}
         traces.append(_trace(label, table.add({"fit": label} | values), list(history)))
