@@ -32,12 +32,15 @@ class Description:
 
 
 def is_dataset(path: Path) -> bool:
-    """Whether a path is a folder with a dataset file, or a file that says it is one. InputError for broken YAML."""
+    """Whether a path is a folder with a dataset file, a measured file with its sidecar, or a file that says it is one.
+
+    Raises InputError for broken YAML.
+    """
     if path.is_dir():
         return any((path / name).is_file() for name in DESCRIPTIONS)
-    if path.suffix not in (".yaml", ".yml") or not path.is_file():
-        return False
-    root = Document.read(path).root
+    if path.suffix not in (".yaml", ".yml"):
+        return path.is_file() and path.with_name(path.name + ".yaml").is_file()
+    root = Document.read(path).root if path.is_file() else None
     stated = root.entries.get("format") if isinstance(root, Mapping) else None
     return isinstance(stated, Scalar) and stated.written.startswith(FORMAT.partition("/")[0])
 

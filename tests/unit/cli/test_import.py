@@ -119,3 +119,15 @@ def test_check_tells_what_is_wrong_with_a_dataset(call, folder):
     (folder / "a4.csv").unlink()
     code, _, err = call("check", folder)
     assert code == 1 and "run 'a4' (a4.csv) is set aside: there is no such file" in err
+
+
+def test_check_takes_a_measured_file_with_its_sidecar(call, folder):
+    channels = "{time: {column: Zeit}, displacement: {column: Weg}, force: {column: Kraft}}"
+    (folder / "a1.csv.yaml").write_text(f"format: dashpot-dataset/1\nkind: sweep\nchannels: {channels}\n")
+    assert call("check", folder / "a1.csv") == (0, f"{folder / 'a1.csv'}: good\n", "")
+
+
+def test_check_tells_broken_yaml_and_other_files_as_before(call, tmp_path):
+    (tmp_path / "broken.yaml").write_text("a: [1, 2")
+    assert call("check", tmp_path / "broken.yaml")[0] == 1
+    assert call("check", tmp_path / "nothing.yaml")[0] == 1
