@@ -18,7 +18,7 @@ class Damper(Element):
 
     damping = Curve(
         ("force", "N"), ("velocity", "m/s"), "force over velocity, or its constant slope",
-        bounds=(1e-2, 1e7), symbol="d",
+        bounds=(1e-2, 1e7), symbol="d", rising=True,
     )  # fmt: skip
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -18,7 +18,8 @@ class Coordinates:
     """The searched slots of a network.
 
     ``which`` (p,) are their numbers among all slots, ``log`` (p,) says which are searched by logarithm, ``low`` and
-    ``high`` (p,) are bounds in coordinates, ``unit`` (p,) is the size of a natural step in coordinates.
+    ``high`` (p,) are bounds in coordinates, ``unit`` (p,) is the size of a natural step in coordinates. Each entry of
+    ``rising`` holds the coordinates of neighbouring knots of a law that must not fall.
     """
 
     paths: tuple[str, ...]
@@ -28,6 +29,7 @@ class Coordinates:
     high: Array
     unit: Array
     base: Array
+    rising: tuple[tuple[int, ...], ...] = ()
 
     def to_values(self, points: Array) -> Array:
         """All slots (lanes, slots) in SI for points (lanes, p) in coordinates."""
@@ -45,6 +47,16 @@ class Coordinates:
     def start(self) -> Array:
         """The point of the file."""
         return np.clip(self.of_values(self.base), self.low, self.high)
+
+    def allowed(self, points: Array) -> Array:
+        """The nearest points (lanes, p) inside the bounds at which no rising law falls."""
+        from scipy.optimize import isotonic_regression
+
+        points = np.clip(np.atleast_2d(points), self.low, self.high)
+        for knots in map(list, self.rising):
+            for lane in np.flatnonzero((np.diff(points[:, knots]) < 0.0).any(axis=1)):
+                points[lane, knots] = isotonic_regression(points[lane, knots]).x
+        return points
 
     def from_cube(self, cube: Array) -> Array:
         """Coordinates of points in the unit cube."""
@@ -68,8 +80,10 @@ class Coordinates:
         base = self.base.copy()
         base[self.which[number]] = self.number(number, at)
         paths = tuple(path for path, kept in zip(self.paths, rest, strict=True) if kept)
+        place = np.cumsum(rest) - 1
+        rising = tuple(tuple(int(place[knot]) for knot in knots if knot != number) for knots in self.rising)
         return Coordinates(
-            paths, self.which[rest], self.log[rest], self.low[rest], self.high[rest], self.unit[rest], base
+            paths, self.which[rest], self.log[rest], self.low[rest], self.high[rest], self.unit[rest], base, rising
         )
 
 
@@ -93,6 +107,7 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
         high,
         _units(slots, which),
         np.array([slot.value.number for slot in slots]),
+        _rising(spec, [slots[number].path for number in which], log),
     )
 
 
@@ -103,6 +118,24 @@ def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> Net
     return spec.with_values(
         {slots[k].path: replace(slots[k].value, number=float(values[k])) for k in coordinates.which}
     )
+
+
+def _rising(spec: NetworkSpec, paths: Sequence[str], log: NDArray[np.bool_]) -> tuple[tuple[int, ...], ...]:
+    # knots that stand next to each other in a table of a rising law; a fixed knot parts them
+    laws = {path for path, curve in spec.curves().items() if curve.curve.rising and curve.form == "table"}
+    chains: list[list[int]] = []
+    before = ("", -1)
+    for number, path in enumerate(paths):
+        law, _, knot = path.rstrip("]").partition("[")
+        if law not in laws or log[number]:
+            continue
+        here = (law, int(knot))
+        if chains and here == (before[0], before[1] + 1):
+            chains[-1].append(number)
+        else:
+            chains.append([number])
+        before = here
+    return tuple(tuple(chain) for chain in chains if len(chain) > 1)
 
 
 def _units(slots: Sequence[Slot], which: Sequence[int]) -> Array:

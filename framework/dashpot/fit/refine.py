@@ -51,7 +51,7 @@ def refine(
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
     Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors.
     """
-    point = np.clip(start, coordinates.low, coordinates.high)
+    point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
     spent, slack = 1, 1.0
     if not np.isfinite(loss) or point.size == 0:
@@ -111,8 +111,8 @@ def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, poin
     for damping in DAMPINGS * slack:
         step = np.zeros(point.size)
         step[free] = np.linalg.lstsq(matrix + damping * np.eye(free.sum()), right, rcond=1e-12)[0] / scale
-        tries.append(np.clip(point + _limited(step, coordinates) * coordinates.unit, coordinates.low, coordinates.high))
-    return np.array(tries)
+        tries.append(point + _limited(step, coordinates) * coordinates.unit)
+    return coordinates.allowed(np.array(tries))
 
 
 def _limited(step: Array, coordinates: Coordinates) -> Array:

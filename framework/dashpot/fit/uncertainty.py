@@ -78,7 +78,7 @@ def assess_uncertainty(
     moved = moved.reshape(len(systematic), point.size)
     scatter = _quantiles(freedom) * widening(float(loss), noise)
     squares = scatter**2 * np.diag(covariance) + np.sum((NORMAL * moved) ** 2, axis=0)
-    widths = np.where(idle | lost | unsolved, np.inf, np.sqrt(squares))
+    widths = np.where(idle | lost | unsolved | ~np.isfinite(squares), np.inf, np.sqrt(squares))
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(

@@ -44,7 +44,8 @@ class Curve:
 
     ``value`` and ``over`` name the two axes and their SI units, as they are written in a file:
     ``stiffness: 220 N/mm``, ``stiffness: {polynomial: [180 N/mm, 1 N/mm^2]}``,
-    ``stiffness: {deflection: [0 mm, 10 mm], force: [0 N, 2 kN]}``.
+    ``stiffness: {deflection: [0 mm, 10 mm], force: [0 N, 2 kN]}``. A search does not let the table of a ``rising`` law
+    fall anywhere.
 
     Examples:
         >>> law = dp.Curve(("force", "N"), ("deflection", "m"), "force over deflection", bounds=(1.0, 1e9))
@@ -58,6 +59,7 @@ class Curve:
     bounds: tuple[float, float] = (-math.inf, math.inf)
     scale: Scale = "log"
     symbol: str = ""
+    rising: bool = False
 
     @property
     def slope_unit(self) -> str:

@@ -44,12 +44,16 @@ class Owed:
 
 
 def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
-    """The allowance for the force of a branch of the objective's network, at the numbers of its file."""
-    network = objective.network
-    lanes = np.repeat(np.atleast_2d(network.start)[:1], 2, axis=0)
-    lanes[1, force_slots(network.spec, branch)] *= 1.0 + share
-    base, moved = objective.residuals(lanes)
-    return Allowance(branch, model, share, moved - base)
+    """The allowance for the force of a branch of the objective's network, at the numbers of its file.
+
+    Where the network cannot be solved with a stiffer part it is taken with a softer one.
+    """
+    network, slots = objective.network, force_slots(objective.network.spec, branch)
+    lanes = np.repeat(np.atleast_2d(network.start)[:1], 3, axis=0)
+    lanes[1, slots] *= 1.0 + share
+    lanes[2, slots] *= 1.0 - share
+    base, stiffer, softer = objective.residuals(lanes)
+    return Allowance(branch, model, share, stiffer - base if np.isfinite(stiffer).all() else base - softer)
 
 
 def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
