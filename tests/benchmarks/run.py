@@ -20,20 +20,24 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import numpy as np
 from axle import AXLE, DT, AxleTask, axle, equations, excitation
+from by_hand import ByHand, compiler
 from measuring import Contestant, time_together
 from ordinary import euler_force
 from peers import Entry, forces, peers, runge_kutta_answer
-from starting import instructions, start_times
+from starting import REGISTERS, instructions, start_times, vectors
 from tire import tire_equations
 from truth import tire_force
-from workload import LANES, NETWORK, SWEEPS, Sweep, Task, lanes, network
+from workload import LANES, NETWORK, SWEEPS, Sweep, Task, lanes, network, network_of
 
 LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
+ELEMENTS = {"maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms", "prandtl": "stiffness: 9 N/mm, limit: 20 N",
+            "dahl": "stiffness: 60 N/mm, limit: 15 N"}  # fmt: skip
+COUNTS = (1, 2, 4, 8, 16)
 HARDEST = 8  # 5 mm around 10 mm
 RESULTS, PAGE = Path(__file__).parent / "results", Path(__file__).parent / "README.md"
 BEGIN, END = "<!-- written: results -->", "<!-- end: results -->"
 EXACT_PARTS = 64
-LIBRARIES = ("dashpot", "numpy", "numba", "llvmlite", "scipy", "numbalsoda", "scikit-sundae")
+LIBRARIES = ("dashpot", "numpy", "llvmlite", "numba", "scipy", "numbalsoda", "scikit-sundae")
 
 Row = dict[str, str | float]
 
@@ -48,9 +52,31 @@ def tire_rows(sweeps: tuple[Sweep, ...], rounds: int) -> Iterator[Row]:
     tasks[f"{NETWORK}, 1 lane"] = Task.of(network(), drives, 1)
     field = [Contestant(name, task.score, task.units) for name, task in tasks.items()]
     field.append(Contestant("explicit Euler, numba, scalar", lambda: euler_force(path, numbers), hardest.time.size))
+    by_hand = [ByHand(sweep, network().paths, lanes(network())) for sweep in sweeps] if compiler() else []
+    if by_hand:
+        units = tasks[f"{NETWORK}, {LANES} lanes"].units
+        field.append(Contestant(f"C by hand, {LANES} lanes", lambda: [each.score() for each in by_hand], units))
     error = {f"{NETWORK}, {LANES} lanes": tire_error(sweeps), "explicit Euler, numba, scalar":
              rms(euler_force(path, numbers) - tire_force(hardest, numbers))}  # fmt: skip
     yield from _rows(field, rounds, error)
+
+
+def ladder_rows(sweep: Sweep, rounds: int) -> Iterator[Row]:
+    """Networks of one to sixteen elements of a kind, and of fewer samples and lanes: ns per lane and sample."""
+    drives = (sweep.drive(),)
+    field = []
+    for word, numbers in ELEMENTS.items():
+        for count in COUNTS:
+            branches = f"  it: {{repeat: {count}, element: {word}, {numbers}}}\n"
+            task = Task.of(network_of(branches), drives)
+            field.append(Contestant(f"{count} {word}", task.score, task.units))
+    for share in (0.25, 0.5, 1.0):
+        task = Task.of(network(), (replace(sweep, seconds=share * sweep.seconds).drive(),))
+        field.append(Contestant(f"{NETWORK}, {task.rows[0].drive.samples} samples", task.score, task.units))
+    for count in (8, 16, 32, 192):
+        task = Task.of(network(), drives, count)
+        field.append(Contestant(f"{NETWORK}, {count} lanes", task.score, task.units))
+    yield from _rows(field, rounds, {})
 
 
 def axle_rows(seconds: float, rounds: int) -> Iterator[Row]:
@@ -118,8 +144,9 @@ def measured(quick: bool, rounds: int, count: bool) -> dict:
         "machine": {"processor": processor(), "cores": os.cpu_count()}, "date": time.strftime("%Y-%m-%d"),
         "versions": {name: found for name in LIBRARIES if (found := installed(name))},
         "seconds": seconds, "sweeps": len(sweeps), "rounds": rounds, "peer_seconds": short,
-        "W1": [*tire_rows(sweeps, rounds), *others["W1"]], "W2": [*axle_rows(seconds, rounds), *others["W2"]],
-        "start": start_times(1 if quick else rounds),
+        "W1": [*tire_rows(sweeps, rounds), *others["W1"]], "ladder": list(ladder_rows(sweeps[-1], rounds)),
+        "W2": [*axle_rows(seconds, rounds), *others["W2"]],
+        "start": start_times(1 if quick else rounds), "vectors": vectors(),
     }  # fmt: skip
     return {**content, "instructions": instructions()} if count else content
 
@@ -153,6 +180,10 @@ def table(content: dict) -> str:
         lines += [
             f"| {row['who']} | {row['ns']:.3g} | {row['ns'] / base:.3g} | {_error(row)} |" for row in content[work]
         ]
+    lines += ["", "| growth | ns per lane and sample |", "| --- | ---: |"]
+    lines += [f"| {row['who']} | {row['ns']:.3g} |" for row in content["ladder"]]
+    lines += ["", f"| instructions that use | {' | '.join(REGISTERS)} |", "| --- | ---: | ---: | ---: |"]
+    lines += [f"| {who} | {' | '.join(map(str, found.values()))} |" for who, found in content["vectors"].items()]
     lines += ["", "| start | s |", "| --- | ---: |"]
     lines += [f"| {what} | {seconds:.3g} |" for what, seconds in content["start"].items()]
     if content.get("instructions"):

@@ -12,11 +12,12 @@ from shutil import which
 from statistics import median
 
 HERE = Path(__file__).parent
-COMPILED = {"tire_model_5": ("from workload import network", "network('tire_model_5')"),
+COMPILED = {"tire_model_5": ("from workload import network", "network('tire_model_5').native(2)"),
             "axle_model_3": ("from axle import axle", "axle()")}  # fmt: skip
 COUNTED = {"tire_model_5": "from workload import SWEEPS, Task, network; import dataclasses; "
            "t = Task.of(network(), (dataclasses.replace(SWEEPS[8], seconds={seconds}).drive(),), 64); t.score()",
            "axle_model_3": "from axle import AxleTask; t = AxleTask.of({seconds}, 64); t.score()"}  # fmt: skip
+REGISTERS = ("zmm", "ymm", "xmm")
 SHORT, LONG, DT, COUNTED_LANES = 0.2, 0.4, 1e-3, 64
 
 
@@ -37,6 +38,26 @@ def _seconds(before: str, code: str, cache: str, rounds: int) -> float:
     return median(float(output.split()[-1]) for output in outputs)
 
 
+def vectors() -> dict[str, dict[str, int]]:
+    """How many instructions of the machine code of each network use which registers: of 512, 256 or 128 bits."""
+    import axle
+    import workload
+
+    from dashpot.kernel.native import machine_text
+    from dashpot.kernel.source import print_source
+    from dashpot.kernel.system_source import print_system
+
+    tire, system = workload.network(), axle.axle()
+    unknown = system.topology.unknown
+    texts = {"tire_model_5": print_source(tire.program, 2),
+             "axle_model_3": print_system(system.layouts, system.outputs, unknown, 1)}  # fmt: skip
+    found = {}
+    for name, text in texts.items():
+        lines = machine_text(text).splitlines()
+        found[name] = {kind: sum(kind in line for line in lines) for kind in REGISTERS}
+    return found
+
+
 def instructions() -> dict[str, float]:
     """Instructions per lane and sample by network: the difference of a long and a short run; empty without valgrind.
 
@@ -50,7 +71,7 @@ def instructions() -> dict[str, float]:
 
 def _counted(code: str) -> int:
     command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", sys.executable, "-c", code]
-    environment = {**os.environ, "NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": "+avx2,+fma"}
+    environment = {**os.environ, "DASHPOT_PROCESSOR": "haswell"}
     _run([sys.executable, "-c", code], environment)  # compiles without valgrind
     found = re.search(r"Collected\s*:\s*(\d+)", _run(command, environment))
     if found is None:

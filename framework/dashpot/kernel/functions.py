@@ -49,7 +49,7 @@ def log(x: Bundle) -> Bundle:
     bits = x.cast(BITS) - 4604544271217802189
     n = ((bits >> EXPONENT) + 4843621399236968448).cast(NUMBER) - ROUNDING
     m = ((bits & 4503599627370495) + 4604544271217802189).cast(NUMBER)
-    s = (m - 1.0) / (m + 1.0)
+    s = (m - 1.0) * _inverse(m + 1.0, 3)
     q = s * s
     y = n.times_plus(LN_2, s.times_plus(2.0, s * q * _polynomial(LOGARITHM, q)))
     y = x.compare("oeq", 0.0).choose(-math.inf, y)
@@ -134,9 +134,9 @@ def _rough_inverse(x: Bundle) -> Bundle:
     return y * (-x).times_plus(y, 2.0)
 
 
-def _inverse(x: Bundle) -> Bundle:
+def _inverse(x: Bundle, steps: int = 2) -> Bundle:
     y = (x.cast(BITS).like(TURNED) - x.cast(BITS)).cast(NUMBER)
-    for _ in range(2):
+    for _ in range(steps):
         miss = (-x).times_plus(y, 1.0)
         y = y.times_plus(miss.times_plus(miss, miss), y)
     return y
