@@ -7,6 +7,8 @@ import inspect
 import json
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import is_dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -127,28 +129,43 @@ def public_names() -> Mapping[str, list[str]]:
 
 
 def documented(name: str, thing: Any) -> Iterator[str]:
-    """Signature, words and example of one name, methods of a class included."""
-    if callable(thing) and not inspect.isclass(thing):
+    """Signature, words and example of one name; of a result also what it has."""
+    of_notebook = inspect.isclass(thing) and ".notebook." in thing.__module__
+    if not inspect.isclass(thing) or (is_dataclass(thing) and not of_notebook):
         yield f"```python\n{called(name, inspect.signature(thing))}\n```"
     yield from docstring(thing.__doc__ or "")
-    if inspect.isclass(thing) and "notebook" in thing.__module__:
-        rows = [(f"`{key}`", _first_line(member)) for key, member in vars(thing).items() if not key.startswith("_")]
-        if rows := [row for row in rows if row[1]]:
-            yield written.table(("has", "which is"), rows)
+    if of_notebook:
+        yield written.table(("has", "which is"), list(_members(thing)))
+
+
+def _members(thing: type[Any]) -> Iterator[tuple[str, str]]:
+    """The documented members of a class and of the one it is made from."""
+    members = {key: member for base in reversed(thing.__mro__[:2]) for key, member in vars(base).items()}
+    for key, member in members.items():
+        if not key.startswith("_") and (line := _first_line(member)):
+            yield f"`{key}`", line
 
 
 def called(name: str, signature: inspect.Signature) -> str:
     """How a function is called; a long list of arguments stands one below the other."""
-    text = f"dp.{name}{signature}".replace("'", "")
-    if len(text) < WIDTH:
-        return text
-    arguments = list(signature.parameters.values())
-    named = [argument for argument in arguments if argument.kind is argument.KEYWORD_ONLY]
-    listed = [str(argument).replace("'", "") for argument in arguments]
-    if named:
-        listed.insert(arguments.index(named[0]), "*")
-    lines = "".join(f"    {line},\n" for line in listed)
-    return f"dp.{name}(\n{lines}){text[text.rindex(' ->') :]}"
+    arguments = [_argument(argument) for argument in signature.parameters.values()]
+    kinds = [argument.kind for argument in signature.parameters.values()]
+    if inspect.Parameter.KEYWORD_ONLY in kinds:
+        arguments.insert(kinds.index(inspect.Parameter.KEYWORD_ONLY), "*")
+    answer = "" if signature.return_annotation in (None, "None") else f" -> {signature.return_annotation}"
+    line = f"dp.{name}({', '.join(arguments)}){answer}"
+    if len(line) < WIDTH:
+        return line
+    lines = "".join(f"    {argument},\n" for argument in arguments)
+    return f"dp.{name}(\n{lines}){answer}"
+
+
+def _argument(argument: inspect.Parameter) -> str:
+    stars = {argument.VAR_POSITIONAL: "*", argument.VAR_KEYWORD: "**"}.get(argument.kind, "")
+    if argument.default is argument.empty:
+        return f"{stars}{argument.name}: {argument.annotation}"
+    shown = "..." if repr(argument.default).startswith("<") else repr(argument.default)
+    return f"{argument.name}: {argument.annotation} = {shown}"
 
 
 def docstring(text: str) -> Iterator[str]:
@@ -301,7 +318,5 @@ def _inline(text: str) -> str:
 
 
 def _first_line(member: Any) -> str:
-    text = (
-        inspect.getdoc(member) if callable(member) or isinstance(member, property) else getattr(member, "__doc__", "")
-    )
-    return (text or "").split("\n\n")[0].replace("\n", " ").replace("``", "`")
+    text = member.__doc__ if callable(member) or isinstance(member, property | cached_property) else ""
+    return inspect.cleandoc(text or "").split("\n\n")[0].replace("\n", " ").replace("``", "`")
