@@ -12,8 +12,9 @@ TIME = np.arange(4000) / 500
 
 def rig_file(amplitude, seed, units="s;mm;N"):
     """A sweep with decimal commas and German names."""
-    way = 12 + amplitude * np.sin(2 * np.pi * (TIME + TIME**2))
-    force = 180 * way + 3 * np.gradient(way, TIME) + np.random.default_rng(seed).normal(size=TIME.size)
+    phase = 2 * np.pi * (TIME + TIME**2)
+    way, speed = 12 + amplitude * np.sin(phase), amplitude * 2 * np.pi * (1 + 2 * TIME) * np.cos(phase)
+    force = 180 * way + 3 * speed + np.random.default_rng(seed).normal(size=TIME.size)
     rows = "".join(f"{t:.3f};{x:.5f};{f:.3f}\n".replace(".", ",") for t, x, f in zip(TIME, way, force, strict=True))
     return (f"Prüfstand 7\nZeit;Weg;Kraft\n{units}\n" + rows).encode("cp1252")
 
@@ -42,6 +43,17 @@ def test_what_was_imported_can_be_fitted(call, folder, tmp_path):
     found = json.loads((tmp_path / "fit" / "fit.json").read_text())
     damping = next(value for key, value in found["parameters"].items() if key.endswith("damping"))
     assert damping["value"] == pytest.approx(3000, rel=0.01)
+
+
+@pytest.mark.slow
+def test_what_was_imported_can_be_diagnosed(call, folder, tmp_path):
+    assert call("import", *folder.glob("*.csv"), "--quiet") == (0, "", "")
+    code, _, err = call("diagnose", "kelvin_voigt", folder / "dataset.yaml", "-o", tmp_path / "diagnosis", "--quiet")
+    assert (code, err) == (0, "")
+    found = json.loads((tmp_path / "diagnosis" / "diagnosis.json").read_text())
+    # a spring and a dashpot with a little noise: nothing is missing
+    assert found["verdict"] == "nothing_missing"
+    assert found["noise_floor"]["value"] == pytest.approx(1.0, rel=0.2)
 
 
 def test_nothing_is_overwritten_unasked(call, folder):
