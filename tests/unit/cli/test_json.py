@@ -1,0 +1,43 @@
+"""``--json`` gives one object, alone on standard output, whose `format` says what it is."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+README = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+FORMATS = dict(re.findall(r"^\| `(\w+)` \| `(dashpot-[\w-]+/1)` \|", README, flags=re.MULTILINE))
+
+KEYS = {
+    "list elements": {"elements"},
+    "check gehmann": {"specs"},
+    "check gehmann --against gehmann": {"specs", "against"},
+    "draw gehmann": {"network", "file", "drawing"},
+    "doctor": {"healthy", "findings"},
+    "simulate n.yaml --rig triangle": {"network", "runs", "output", "numerical_error"},
+}
+
+
+@pytest.mark.parametrize("line, keys", KEYS.items(), ids=KEYS)
+def test_the_result_is_one_object_with_a_format(call, tmp_path, monkeypatch, line, keys):
+    monkeypatch.chdir(tmp_path)
+    Path("n.yaml").write_text(
+        "format: dashpot-network/1\nname: n\nbranches: {k: {element: spring, stiffness: 1 N/mm}}\n"
+    )
+    output = ["-o", "out"] if line.startswith("simulate") else []
+    code, out, _ = call(*line.split(), "--json", *output)
+    content = json.loads(out)
+    assert code == 0
+    assert content.keys() == {"format", *keys}
+    assert content["format"] == FORMATS[line.split()[0]]
+
+
+def test_every_verb_with_json_has_a_documented_format():
+    from dashpot.cli.shell import VERBS, dashpot
+
+    verbs = {name: dashpot.get_command(None, name) for name in VERBS}
+    telling = {name for name, verb in verbs.items() if any("--json" in option.opts for option in verb.params)}
+    assert telling == FORMATS.keys()
