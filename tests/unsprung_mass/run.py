@@ -31,10 +31,10 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
     from dashpot.data.dataset import read_dataset
     from dashpot.fit.study.reading import find_study, read_study
     from dashpot.fit.study.run import run_study
-    from dashpot_specimens.test_car import measure_car, random_car
+    from dashpot_specimens.test_car import measure_car
 
     registry = load_registry()
-    car = random_car(np.random.default_rng([seed, number]), mount=number % 2 == 1)
+    car = drawn_car(seed, number)
     with tempfile.TemporaryDirectory() as folder:
         path = measure_car(car, Path(folder), seed, EVERY, SWEEP)
         dataset = read_dataset(path, {word: reader() for word, reader in registry.formats.items()})
@@ -53,6 +53,20 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
         "noise_floor": content["noise_floor"],
         "masses_without_tire": [model["masses_without_tire"] for model in content["models"][1:]],
     }  # fmt: skip
+
+
+def drawn_car(seed: int, number: int) -> Any:
+    """A car; one whose wheels leave the platforms is drawn again, as its test would be run at a smaller amplitude."""
+    from dashpot_specimens import car_path
+    from dashpot_specimens.car_laws import drive_car
+    from dashpot_specimens.test_car import ADDED_MASSES, AXLE_AMPLITUDE, random_car
+
+    rng = np.random.default_rng([seed, number])
+    path = car_path.sweep(AXLE_AMPLITUDE, 5.0, 20.0, SWEEP)
+    while True:
+        car = random_car(rng, mount=number % 2 == 1)
+        if all(drive_car(car, np.array([path, path]), added)["force"].min() > 0.0 for added in ADDED_MASSES):
+            return car
 
 
 def answer(car: dict[str, Any]) -> dict[str, Any]:
