@@ -43,12 +43,12 @@ class CompiledNetwork(Compiled):
 
     def native(self, vectors: int) -> Native:
         """The compiled code for groups of so many vectors of lanes."""
-        if vectors not in self._texts:
-            self._texts[vectors] = print_source(self.program, vectors)
-        return load_native(self._texts[vectors], len(ARGUMENTS))
+        if vectors not in self._natives:
+            self._natives[vectors] = load_native(print_source(self.program, vectors), len(ARGUMENTS))
+        return self._natives[vectors]
 
     @cached_property
-    def _texts(self) -> dict[int, str]:
+    def _natives(self) -> dict[int, Native]:
         return {}
 
     def prepare(self, motion: Drive | Excitation) -> Rows:
