@@ -74,6 +74,8 @@ def force_error(fit: FitResult, setting: Setting) -> float:
 
 
 def effect(coordinates: Coordinates, moved: Array) -> dict[str, float]:
-    """A movement (p,) in natural steps of the coordinates, from their start, in SI by path."""
-    before, after = (coordinates.numbers(coordinates.start + step) for step in (0.0, moved * coordinates.unit))
-    return {path: end - start for path, start, end in zip(coordinates.paths, before, after, strict=True)}
+    """A movement (p,) in natural steps of the coordinates, from their start, in SI by path; it ends at the bounds."""
+    start = coordinates.start
+    end = np.clip(start + moved * coordinates.unit, coordinates.low, coordinates.high)
+    before, after = coordinates.numbers(start), coordinates.numbers(end)
+    return {path: there - here for path, here, there in zip(coordinates.paths, before, after, strict=True)}
