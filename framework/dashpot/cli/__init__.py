@@ -16,12 +16,15 @@ INTERRUPTED = 3
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; 0 done, 1 the input is wrong, 2 usage, 3 interrupted, 70 a fault of dashpot itself."""
+    kept = "nothing was begun"
     try:
         from dashpot.cli.shell import run
+
+        kept = "what was done is kept"
+        return run(arguments)
     except KeyboardInterrupt:
-        sys.stderr.write("interrupted; nothing was begun\n")
+        sys.stderr.write(f"interrupted; {kept}\n")
         return INTERRUPTED
-    return run(arguments)
 
 
 __all__ = ["main"]
