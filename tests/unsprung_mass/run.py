@@ -12,6 +12,7 @@ import argparse
 import json
 import secrets
 import tempfile
+import traceback
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
@@ -120,12 +121,17 @@ def main() -> None:
     with ProcessPoolExecutor(asked.jobs, mp_context=get_context("spawn")) as pool:
         waiting = [pool.submit(identify_car, seed, asked.first + number) for number in range(asked.cars)]
         for each in as_completed(waiting):
+            if each.exception():
+                print(*traceback.format_exception(each.exception()), flush=True)
+                continue
             cars.append(each.result())
             print(line(cars[-1]), flush=True)
             if asked.output:
                 with asked.output.open("a") as stream:
                     stream.write(json.dumps({"seed": seed, **cars[-1]}) + "\n")
     print(*lines(cars), sep="\n")
+    if len(cars) < asked.cars:
+        raise SystemExit(f"{asked.cars - len(cars)} cars failed, see above")
 
 
 if __name__ == "__main__":
