@@ -69,9 +69,10 @@ def drive_car(car: Car, platforms: np.ndarray, added_mass: float, settle: float 
     """Platform forces and wheel positions (2, steps) for platform positions (2, steps) in m at every 50 us.
 
     The axle comes to rest for ``settle`` seconds at the first positions before the record begins. The wheels stand at
-    zero where the car stands on its wheels with the platforms at zero.
+    zero where the car without added masses stands on its wheels with the platforms at zero.
     """
-    sag = _static_sag(car, added_mass)
+    sag = _static_sag(car)
+    low = added_mass * GRAVITY / (car.tire.stiffness + 2.0 * car.tire.hardening * sag + car.spring)
     travels = np.geomspace(*car.tire.travels, 24)
     times = np.geomspace(*car.tire.times, 9)
     held = np.repeat(platforms[:, :1], round(settle / STEP), axis=1)
@@ -82,14 +83,14 @@ def drive_car(car: Car, platforms: np.ndarray, added_mass: float, settle: float 
         car.bar_friction,
     ])  # fmt: skip
     path = np.concatenate([held, platforms], axis=1)
-    force, wheel = _march(path, numbers, car.tire.sliding_stiffness / 24, travels,
+    force, wheel = _march(path, low, numbers, car.tire.sliding_stiffness / 24, travels,
                           car.tire.relaxing_stiffness / 9, times)  # fmt: skip
     return {"force": force[:, held.shape[1] :], "wheel": wheel[:, held.shape[1] :]}
 
 
-def _static_sag(car: Car, added_mass: float) -> float:
+def _static_sag(car: Car) -> float:
     # the deflection of the tire that carries wheel and spring while everything stands at zero
-    load = car.spring_force + (car.wheel_mass + added_mass) * GRAVITY
+    load = car.spring_force + car.wheel_mass * GRAVITY
     k, h = car.tire.stiffness, car.tire.hardening
     return (-k + np.sqrt(k * k + 4.0 * h * load)) / (2.0 * h)
 
@@ -100,13 +101,13 @@ def _digressive(v, slope, knee):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True)
-def _march(path, numbers, slide, travels, relax, times):  # type: ignore[no-untyped-def]
-    """Leapfrog steps of both wheels and both rods."""
+def _march(path, low, numbers, slide, travels, relax, times):  # type: ignore[no-untyped-def]
+    """Leapfrog steps of both wheels and both rods, from wheels that stand ``low`` (m) on their platforms."""
     (mass, k, hardening, tire_damping, sag, spring, progress, load, bump_at, bump, re_slope, re_knee, co_slope, co_knee,
      mount, mount_damping, rod_mass, limit, breakaway, travel, bar, bar_limit) = numbers  # fmt: skip
     steps = path.shape[1]
     force, wheel = np.zeros((2, steps)), np.zeros((2, steps))
-    z, v, a = path[:, 0].copy(), np.zeros(2), np.zeros(2)
+    z, v, a = path[:, 0] - low, np.zeros(2), np.zeros(2)
     y, u, b = np.zeros(2), np.zeros(2), np.zeros(2)
     stretch, memory = np.zeros((2, travels.size)), np.zeros((2, times.size))
     fade = np.exp(-STEP / times)

@@ -60,10 +60,20 @@ def test_a_straight_car_obeys_its_transfer_function(mount, frequency, added):
 
 def test_a_car_at_rest_stands_on_its_weight():
     car = Car()
-    found = drive_car(car, np.zeros((2, 2000)), 5.0)
-    weight = car.spring_force + (car.wheel_mass + 5.0) * GRAVITY
-    assert found["force"] == pytest.approx(weight, abs=1e-6)
+    found = drive_car(car, np.zeros((2, 2000)), 0.0)
+    assert found["force"] == pytest.approx(car.spring_force + car.wheel_mass * GRAVITY, abs=1e-6)
     assert np.abs(found["wheel"]).max() < 1e-9
+
+
+def test_an_added_mass_lowers_the_wheel_and_takes_load_off_the_spring():
+    car = Car()
+    found = drive_car(car, np.zeros((2, 2000)), 15.0)
+    wheel, force = found["wheel"][0, -1], found["force"][0, -1]
+    stiffness = car.tire.stiffness + car.tire.sliding_stiffness + car.spring
+    assert -15.0 * GRAVITY / car.tire.stiffness < wheel < -15.0 * GRAVITY / stiffness / 1.5
+    carried = car.spring_force + car.spring * wheel + (car.wheel_mass + 15.0) * GRAVITY
+    assert force == pytest.approx(carried, abs=1.2 * car.friction)
+    assert abs(force - carried) > 0.0 and np.ptp(found["force"][0]) < 0.1
 
 
 def test_the_bar_works_in_anti_phase_only():
