@@ -12,6 +12,8 @@ from dashpot.model.network import NetworkSpec, Slot
 
 Array = NDArray[np.float64]
 
+LEAST_WEIGHT = 1e-12
+
 
 @dataclass(frozen=True, eq=False)
 class Coordinates:
@@ -48,14 +50,18 @@ class Coordinates:
         """The point of the file."""
         return np.clip(self.of_values(self.base), self.low, self.high)
 
-    def allowed(self, points: Array) -> Array:
-        """The nearest points (lanes, p) inside the bounds at which no rising law falls."""
+    def allowed(self, points: Array, weights: Array | None = None) -> Array:
+        """The nearest points (lanes, p) inside the bounds at which no rising law falls.
+
+        With ``weights`` (p,) of the squared distances, knots that matter little give way to those that matter much.
+        """
         from scipy.optimize import isotonic_regression
 
         points = np.clip(np.atleast_2d(points), self.low, self.high)
+        weights = np.ones(points.shape[1]) if weights is None else np.maximum(weights, LEAST_WEIGHT * np.max(weights))
         for knots in map(list, self.rising):
             for lane in np.flatnonzero((np.diff(points[:, knots]) < 0.0).any(axis=1)):
-                points[lane, knots] = isotonic_regression(points[lane, knots]).x
+                points[lane, knots] = isotonic_regression(points[lane, knots], weights=weights[knots]).x
         return points
 
     def from_cube(self, cube: Array) -> Array:

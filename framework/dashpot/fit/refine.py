@@ -112,7 +112,7 @@ def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, poin
         step = np.zeros(point.size)
         step[free] = np.linalg.lstsq(matrix + damping * np.eye(free.sum()), right, rcond=1e-12)[0] / scale
         tries.append(point + _limited(step, coordinates) * coordinates.unit)
-    return coordinates.allowed(np.array(tries))
+    return coordinates.allowed(np.array(tries), np.where(free, np.diag(normal), 0.0))
 
 
 def _limited(step: Array, coordinates: Coordinates) -> Array:

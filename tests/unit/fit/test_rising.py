@@ -51,3 +51,11 @@ def test_without_one_coordinate_the_others_stay_in_order():
     held = coordinates.held(3, 90.0)
     assert [tuple(held.paths[knot] for knot in chain) for chain in held.rising] == [
         ("oil.damping[0]", "oil.damping[1]"), ("oil.damping[3]", "oil.damping[5]")]  # fmt: skip
+
+
+def test_a_knot_that_does_not_matter_gives_way():
+    _, _, coordinates = ready(KNOTS, [run("sine", 2e-3, 8.0, lambda x, v, a: 900.0 * v)])
+    point = np.array([-900.0, -90.0, 3000.0, 90.0, 500.0])
+    weights = np.array([1.0, 1.0, 0.0, 2.0, 1.0])
+    assert coordinates.allowed(point, weights)[0] == pytest.approx([-900.0, -90.0, 90.0, 90.0, 500.0], abs=1e-3)
+    assert coordinates.allowed(point)[0, 2:] == pytest.approx(3590.0 / 3.0)
