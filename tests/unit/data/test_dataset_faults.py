@@ -179,9 +179,11 @@ def test_a_bad_line_may_be_cut_off(folder):
     assert np.allclose(dataset.run("b").force, FORCE)
 
 
-def test_a_time_of_day_cannot_be_a_clock(folder):
-    write_csv(folder, "b.csv", [f"12:00:{t:06.3f};0;{f}" for t, f in zip(TIME, FORCE, strict=True)])
-    assert "got '12:00:00.000' in line 2 (row 1), and 199 more. say 'sampling: ... Hz'" in told(folder, "file: b.csv")
+def test_a_time_of_day_is_a_clock(folder):
+    write_csv(folder, "b.csv", [f"12:00:{t:06.3f};{x};{f}" for t, x, f in zip(TIME, MOTION, FORCE, strict=True)])
+    dataset = read(folder, HEAD + "  - {file: b.csv}\n")
+    assert not dataset.problems
+    assert dataset.run("b").sample_time == pytest.approx(TIME[1] - TIME[0], rel=1e-6)
 
 
 @pytest.mark.parametrize(("channel", "bad"), [("x", np.nan), ("F", np.inf), ("t", np.nan)])

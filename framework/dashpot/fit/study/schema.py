@@ -57,7 +57,7 @@ def _stage(optimizers: Mapping[str, type[Optimizer]]) -> Schema:
             "fixed": s.patterns("those that stay although `free` names them"),
             "runs": s.choice(STAGE_RUNS),
             "optimizer": s.text("A+B lets B begin where A ended", f"^({OWN_METHOD}|{word}(\\+{word})*)$"),
-            "options": {"type": "object", "description": "of the optimizer"},
+            "options": {"type": "object", "description": "of the optimizer", "properties": _of_chains(optimizers)},
             "budget": s.integer("parameter vectors that are evaluated at most", minimum=1),
             "starts": s.integer("searches from several starts", minimum=1),
         },
@@ -65,6 +65,14 @@ def _stage(optimizers: Mapping[str, type[Optimizer]]) -> Schema:
         allOf=[_options_of(word, made) for word, made in optimizers.items()],
     )
     return s.by_key({"take": take}, search)
+
+
+def _of_chains(optimizers: Mapping[str, type[Optimizer]]) -> dict[str, Schema]:
+    return {
+        f"{word}.{name}": schema
+        for word, made in optimizers.items()
+        for name, schema in with_options(made, {})["properties"].items()
+    }
 
 
 def _options_of(word: str, made: type[Optimizer]) -> Schema:
