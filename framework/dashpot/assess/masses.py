@@ -36,8 +36,9 @@ def mass_warnings(mass: Json) -> Iterator[str]:
         percent = PERCENT / part["share"] * part["moved"]
         way = "large" if percent < 0.0 else "small"
         yield (f"{mass['node']}: the interval allows {100.0 * part['share']:.2g} % for the force of {part['branch']}, "
-               f"by which {part['model']} erred by itself. Were it 1 % stiffer here than where it was identified, this "
-               f"mass would be {abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
+               f"what {part['model']} erred by itself or what load cells differ by. Were it 1 % stiffer here than where "
+               f"it was identified, this mass would be {abs(percent):.2g} kg too {way}, and the error would hardly show "
+               "it")  # fmt: skip
     others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
     if others:
         yield f"{mass['node']}: other structures say {', '.join(others)}"
