@@ -35,10 +35,10 @@ def mass_warnings(mass: Json) -> Iterator[str]:
     for part in mass["owed"]:
         percent = PERCENT / part["share"] * part["moved"]
         way = "large" if percent < 0.0 else "small"
-        yield (f"{mass['node']}: the interval allows {100.0 * part['share']:.2g} % for the force of {part['branch']}, "
-               f"what {part['model']} erred by itself or what load cells differ by. Were it 1 % stiffer here than where "
-               f"it was identified, this mass would be {abs(percent):.2g} kg too {way}, and the error would hardly show "
-               "it")  # fmt: skip
+        allowed = f"{100.0 * part['share']:.2g} % for the force of {part['branch']}"
+        yield (f"{mass['node']}: the interval allows {allowed}, what {part['model']} erred by itself or load cells "
+               "differ by. Were it 1 % stiffer here than where it was identified, this mass would be "
+               f"{abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
     others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
     if others:
         yield f"{mass['node']}: other structures say {', '.join(others)}"
