@@ -29,7 +29,7 @@ def draws(network, rng):
     """Random numbers within their bounds."""
     values = network.start * np.exp(rng.uniform(-0.5, 0.5, (LANES, network.start.size)))
     for column, slot in zip(values.T, network.spec.slots(), strict=True):
-        low, high = slot.value.bounds or (-np.inf, np.inf)
+        low, high = slot.value.sensible
         np.clip(column, low, high, out=column)
     return values
 
