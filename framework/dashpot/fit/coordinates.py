@@ -57,12 +57,12 @@ class Coordinates:
         """
         from scipy.optimize import isotonic_regression
 
-        points = np.clip(np.atleast_2d(points), self.low, self.high)
+        points = np.array(points, dtype=float, ndmin=2)
         weights = np.ones(points.shape[1]) if weights is None else np.maximum(weights, LEAST_WEIGHT * np.max(weights))
         for knots in map(list, self.rising):
             for lane in np.flatnonzero((np.diff(points[:, knots]) < 0.0).any(axis=1)):
                 points[lane, knots] = isotonic_regression(points[lane, knots], weights=weights[knots]).x
-        return points
+        return np.clip(points, self.low, self.high)
 
     def from_cube(self, cube: Array) -> Array:
         """Coordinates of points in the unit cube."""
