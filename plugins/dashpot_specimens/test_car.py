@@ -140,7 +140,10 @@ def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.rand
 
 
 def random_car(rng: np.random.Generator, mount: bool) -> Car:
-    """A car whose every number is drawn; with ``mount`` its shock absorbers stand in rubber of 300 to 800 N/mm."""
+    """A car whose every number is drawn.
+
+    With ``mount`` its shock absorbers, with rods of 1 to 2 kg, stand in rubber of 300 to 800 N/mm.
+    """
     from dashpot_specimens.car_laws import Car, CarTire
 
     def around(number: float, spread: float) -> float:
@@ -154,5 +157,5 @@ def random_car(rng: np.random.Generator, mount: bool) -> Car:
                   rebound=(around(4200.0, 0.3), around(0.32, 0.2)),
                   compression=(around(2100.0, 0.3), around(0.28, 0.2)),
                   friction=around(40.0, 0.5), friction_travel=around(0.35e-3, 0.3), bar=around(11e3, 0.3),
-                  mount_stiffness=float(rng.uniform(300e3, 800e3)))  # fmt: skip
+                  mount_stiffness=float(rng.uniform(300e3, 800e3)), rod_mass=float(rng.uniform(1.0, 2.0)))  # fmt: skip
     return car if mount else car.rigid

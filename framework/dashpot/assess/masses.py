@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from dashpot.text.quantity import pretty
+
 Json = Mapping[str, Any]
 
 PERCENT = 0.01
+NORMAL = 1.96  # standard errors between a known number and the end of its interval
 
 
 def identified_masses(models: Iterable[Json], noise_floor: float | None) -> list[dict[str, Any]]:
@@ -39,6 +42,11 @@ def mass_warnings(mass: Json) -> Iterator[str]:
         yield (f"{mass['node']}: the interval allows {allowed}, what {part['model']} erred by itself or load cells "
                "differ by. Were it 1 % stiffer here than where it was identified, this mass would be "
                f"{abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
+    for number in mass["owed_to_known"]:
+        low, high = (pretty(end, number["unit"], 3) for end in number["interval"])
+        way = "larger" if number["moved"] > 0.0 else "smaller"
+        yield (f"{mass['node']}: the interval allows {number['number']} {low} to {high}; with {high} this mass would "
+               f"be {abs(NORMAL * number['moved']):.2g} kg {way}")  # fmt: skip
     others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
     if others:
         yield f"{mass['node']}: other structures say {', '.join(others)}"
@@ -49,7 +57,8 @@ def _answer(node: str, pairs: list[tuple[Json, Json]], noise_floor: float | None
     others = [{"model": other["name"], "value": each["value"], "error": _error(other)}
               for other, each in pairs if other is not model]  # fmt: skip
     return {"node": node, "value": mass["value"], "interval": mass["interval"], "model": model["name"],
-            "error": _error(model), "noise_floor": noise_floor, "owed": mass["owed"], "others": others}  # fmt: skip
+            "error": _error(model), "noise_floor": noise_floor, "owed": mass["owed"],
+            "owed_to_known": mass["owed_to_known"], "others": others}  # fmt: skip
 
 
 def _error(model: Json) -> float:

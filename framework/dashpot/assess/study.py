@@ -117,6 +117,10 @@ def _masses(model: ModelResult) -> list[dict[str, Any]]:
                 {"branch": each.branch, "model": each.model, "share": each.share, "moved": each.numbers[path]}
                 for each in model.owed
             ],
+            "owed_to_known": [
+                {"number": each.path, "unit": each.unit, "interval": list(each.interval), "moved": each.numbers[path]}
+                for each in model.owed_to_known
+            ],
         }
         for path in dict.fromkeys(paths)
         if slots[path].searched

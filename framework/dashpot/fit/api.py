@@ -25,6 +25,7 @@ from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
+from dashpot.fit.known import known_numbers
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
@@ -112,7 +113,8 @@ def fit_prepared(
     polished = refine(
         objective, coordinates, coordinates.start, POLISH_STEPS, watch=watch.steps("polish", POLISH_STEPS)
     )
-    known = assess_uncertainty(objective, coordinates, polished.point, noise=setting.floor.value)
+    shifts = [each.shift for each in known_numbers(objective)]
+    known = assess_uncertainty(objective, coordinates, polished.point, shifts, setting.floor.value)
     fitted = with_point(corrected, coordinates, polished.point)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(

@@ -95,8 +95,8 @@ def widening(loss: float, noise: float | None) -> float:
     """The factor on intervals of a model whose loss is above the noise (N); 1 where it is not, or the noise unknown.
 
     The numbers of a model that errs take most of its error in; what is left to be seen is a share of it that the
-    scatter between blocks cannot know. ``ABSORBED`` is how many times more is taken in than is left, in squares, as
-    found on virtual cars whose laws are none of the model's: ``tests/unsprung_mass``.
+    scatter between blocks cannot know. ``ABSORBED`` is how many times more is thought to be taken in than is left, in
+    squares: a rule of thumb, under which ``tests/unsprung_mass`` shows how often the intervals hold.
     """
     if noise is None or loss <= NOISE_KNOWN * noise:
         return 1.0

@@ -26,7 +26,8 @@ class Value:
     """A number of a file: fixed, free (``start``) or identified earlier (``value`` with ``bounds``). SI throughout.
 
     ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``setting``
-    the setting by which a run may give the number itself, ``node`` where it stands.
+    the setting by which a run may give the number itself, ``node`` where it stands. A ``known`` number is fixed, but
+    its interval is one to be allowed for: it was weighed or taken from a drawing.
     """
 
     number: float
@@ -37,6 +38,7 @@ class Value:
     interval: tuple[float, float] | None = None
     sensible: tuple[float, float] = (-math.inf, math.inf)
     setting: str = ""
+    known: bool = False
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property

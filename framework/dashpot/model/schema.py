@@ -115,7 +115,7 @@ def _told(parameter: Parameter) -> str:
 
 
 def _value() -> Schema:
-    """A number: fixed, to be found, found, or given by the run."""
+    """A number: fixed, to be found, found, given by the run, or known from elsewhere."""
     found = {"bounds": s.pair(s.quantity(), "where it is searched"),
              "scale": s.choice(get_args(Scale), "how it is searched"),
              "interval": {"anyOf": [s.pair(s.quantity()), s.items(s.pair(s.quantity()))],
@@ -126,8 +126,10 @@ def _value() -> Schema:
     given = s.mapping(
         {"setting": s.text("the setting of a run that gives it"), "value": s.quantity()}, ("setting", "value")
     )
+    measured = s.mapping({"known": s.quantity(), "interval": s.pair(s.quantity(), "its 95 % interval")},
+                         ("known", "interval"), "a number known from elsewhere, not searched")  # fmt: skip
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
-    return s.by_key({"setting": given, "value": known, "start": searched},
+    return s.by_key({"setting": given, "known": measured, "value": known, "start": searched},
                     {"if": {"type": "object"}, "then": searched, "else": plain})  # fmt: skip
 
 

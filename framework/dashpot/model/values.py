@@ -77,11 +77,13 @@ def kind_of(parameter: Parameter) -> Kind:
 def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
     """A number: fixed (``220 N/mm``), free (``{start, bounds, scale}``) or identified (``{value, bounds, interval}``).
 
-    With ``{setting: word, value: 0 kg}`` a run that has a setting of that word gives the number. In a repeated branch a
-    list holds one number for each copy. None when there is no number to be had; every mistake is noted.
+    With ``{setting: word, value: 0 kg}`` a run that has a setting of that word gives the number; one that is ``{known:
+    1.5 kg, interval: [1 kg, 2 kg]}`` is not searched, but its 95 % interval is allowed for. In a repeated branch a list
+    holds one number for each copy. None when there is no number to be had; every mistake is noted.
     """
     if isinstance(node, Mapping):
-        return _read_setting(node, kind, reading) if "setting" in node.entries else _read_searched(node, kind, reading)
+        special = next((read for key, read in SPECIAL.items() if key in node.entries), _read_searched)
+        return special(node, kind, reading)
     try:
         number = read_quantity(reading.pick(node), kind.unit)
     except ValueError as error:
@@ -123,6 +125,24 @@ def _read_setting(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
         return None
     _refuse_outside(number, kind, form.place_of("value"), reading)
     return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, setting=word, node=node)
+
+
+def _read_known(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
+    form = reading.form(node)
+    number = form.take("known", lambda inner: read_quantity(inner, kind.unit))
+    interval = form.take("interval", lambda inner: _read_interval(inner, kind.unit))
+    form.close()
+    if number is None or interval is None:
+        return None
+    for each in (number, *interval):
+        _refuse_outside(each, kind, form.place_of("known"), reading)
+    if not interval[0] <= number <= interval[1]:
+        reading.complain(form.place_of("known"), f"expected a number inside its interval {interval[0]:g} to "
+                         f"{interval[1]:g} {kind.unit}, got {number:g}", "correct one of them")  # fmt: skip
+    return Value(number, kind.unit, scale=kind.scale, interval=interval, sensible=kind.bounds, known=True, node=node)
+
+
+SPECIAL = {"setting": _read_setting, "known": _read_known}
 
 
 def _pick_pair(node: Node, reading: Reading) -> Node:

@@ -7,7 +7,13 @@ from dashpot.assess.masses import identified_masses, mass_sentence, mass_warning
 
 def model(name, train, held_out, value, moved=0.07):
     owed = [{"branch": "tire", "model": "tire_model_5", "share": 0.002, "moved": moved}]
-    mass = {"node": "wheel", "value": value, "interval": [value - 0.25, value + 0.5], "owed": owed}
+    mass = {
+        "node": "wheel",
+        "value": value,
+        "interval": [value - 0.25, value + 0.5],
+        "owed": owed,
+        "owed_to_known": [{"number": "rod.mass", "unit": "kg", "interval": [0.8, 2.2], "moved": -0.05}],
+    }
     return {"name": name, "rmse": {"train": train, "held_out": held_out}, "masses": [mass]}
 
 
@@ -34,9 +40,12 @@ def test_the_answer_in_words():
 
 def test_a_stiffer_tire_and_the_other_structures_are_named_with_what_they_mean():
     (mass,) = identified_masses([PLAIN, MOUNT], 9.0)
-    tire, others = mass_warnings(mass)
+    tire, rod, others = mass_warnings(mass)
     assert "allows 0.2 % for the force of tire" in tire
     assert "0.35 kg too small" in tire  # five times 0.07 kg, and the mass rises with the stiffness of the tire
+    assert (
+        rod == "wheel: the interval allows rod.mass 0.8 kg to 2.2 kg; with 2.2 kg this mass would be 0.098 kg smaller"
+    )
     assert others == "wheel: other structures say 46.20 kg with plain (31 N)"
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from unit.model.specimens import ELEMENTS, HEAD, Elastic, network, numbers, written
 
@@ -56,6 +58,23 @@ def test_a_number_may_be_fixed_free_or_identified():
     known = values["known.stiffness"]
     assert (known.role, known.number, known.interval, known.scale) == ("identified", 2000.0, (1900.0, 2100.0), "log")
     assert values["known.limit"].bounds is None and values["known.limit"].sensible == (1e-3, 1e6)
+
+
+def test_a_known_number_has_an_interval_around_it():
+    spec = network("a: {element: slider, stiffness: {known: 2 N/mm, interval: [1.8 N/mm, 2.1 N/mm]}, limit: 3}")
+    value = spec.slots()[0].value
+    assert (value.number, value.interval, value.known, value.searched) == (2000.0, (1800.0, 2100.0), True, False)
+
+
+@pytest.mark.parametrize(("written", "said"), [
+    ("{known: 2 N/mm}", "interval"),
+    ("{known: 2 N/mm, interval: [3 N/mm, 4 N/mm]}", "expected a number inside its interval 3000 to 4000 N/m, got 2000"),
+    ("{known: 2 N/mm, interval: [-1 N/mm, 4 N/mm]}", "got -1000"),
+    ("{known: 2 N/mm, interval: [1 N/mm, 4 N/mm], bounds: [1 N/mm, 2 N/mm]}", "bounds"),
+])  # fmt: skip
+def test_a_known_number_that_cannot_be(written, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        network(f"a: {{element: slider, stiffness: {written}, limit: 3}}")
 
 
 def test_a_curve_may_be_a_slope_a_polynomial_a_table_or_come_from_data():

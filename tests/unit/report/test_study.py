@@ -33,7 +33,7 @@ def model(row: dict) -> dict:
         "at_bound": ["a.k"],
         "identifiability": {"condition": 1234.5, "deviations": {}, "weak": ["a and b trade off"]},
         "stages": [STAGE],
-        "masses": [{"node": "wheel", "value": 40.0, "interval": [39.0, 41.5], "owed": []}],
+        "masses": [{"node": "wheel", "value": 40.0, "interval": [39.0, 41.5], "owed": [], "owed_to_known": []}],
         "bootstrap": {"a.k": [1.8e5, 2.2e5]},
         "profiles": [PROFILE],
         "held_out": ["b1"],

@@ -85,18 +85,35 @@ class Tire:
 
 @dataclass
 class Strut:
-    """A shock absorber, and behind it a mount of a spring and a damper, whose deflection is a memory; or no mount."""
+    """A shock absorber, and behind it a mount of a spring and a damper, whose deflection is a memory; or no mount.
+
+    Between the two is a ``rod`` that may have a mass; then its speed is a memory as well.
+    """
 
     absorber: Curve
     mount: tuple[float, float] | None
+    rod: float = 0.0
 
     def __post_init__(self) -> None:
         self.speed = 0.0
 
-    def force(self, v: float, deflection: float) -> tuple[float, float]:
-        """The force, and the rate of the mount's deflection: absorber(v - w) = k x + c w, which falls with w."""
+    def force(self, v: float, deflection: float, speed: float) -> tuple[float, float, float]:
+        """The force on the wheel, and the rates of the mount's deflection and of the speed of the rod."""
         if self.mount is None:
-            return self.absorber(v), 0.0
+            return self.absorber(v), 0.0, 0.0
+        stiffness, damping = self.mount
+        if self.rod > 0.0:
+            force = self.absorber(v - speed)
+            return force, speed, (force - stiffness * deflection - damping * speed) / self.rod - GRAVITY
+        return *self._without_mass(v, deflection), 0.0
+
+    @property
+    def rest(self) -> float:
+        """Where the weight of the rod rests on the mount."""
+        return -self.rod * GRAVITY / self.mount[0] if self.mount else 0.0
+
+    def _without_mass(self, v: float, deflection: float) -> tuple[float, float]:
+        """Force and rate w of the mount's deflection: absorber(v - w) = k x + c w, which falls with w."""
         stiffness, damping = self.mount
         w, low, high = self.speed, -1e3, 1e3
         for number in range(200):
@@ -129,11 +146,11 @@ class Axle:
 
     def side(self, y: Sequence[float], platform: float, speed: float) -> tuple[float, list[float], float]:
         """What pushes a wheel up besides bar and weight, the rates of the memories, and the force on the platform."""
-        z, v, friction, deflection, *memory = y
+        z, v, friction, deflection, rod, *memory = y
         tire = self.tire.force(platform - z + self.offset, speed - v, memory)
-        strut, rate = self.strut.force(v, deflection)
+        strut, *of_rod = self.strut.force(v, deflection, rod)
         push = tire - self.spring(z) - friction - strut
-        rates = [dahl_rate(friction, v, *self.friction), rate, *self.tire.rates(speed - v, memory)]
+        rates = [dahl_rate(friction, v, *self.friction), *of_rod, *self.tire.rates(speed - v, memory)]
         return push, rates, tire
 
     def equilibrium(self, platforms: Sequence[float]) -> np.ndarray:
@@ -150,7 +167,7 @@ class Axle:
 
     def forces(self, left: Cosines, right: Cosines, times: np.ndarray) -> np.ndarray:
         """Forces on the platforms (2, n)."""
-        count = 4 + self.tire.count
+        count = 5 + self.tire.count
         moves = [scalar(left), scalar(right)]
 
         def sides(t, y):
@@ -166,8 +183,10 @@ class Axle:
                     dahl_rate(y[-1], between, *self.bar_friction)]  # fmt: skip
 
         rest = self.equilibrium([float(left.place(0.0)), float(right.place(0.0))])
-        start = np.concatenate([[rest[0]], np.zeros(count - 1), [rest[1]], np.zeros(count)])
-        small = [1e-13, 1e-11, 1e-8, 1e-13, *[1e-8] * self.tire.count]
+        start = np.zeros(2 * count + 1)
+        start[[0, count]] = rest
+        start[[3, count + 3]] = self.strut.rest
+        small = [1e-13, 1e-11, 1e-8, 1e-13, 1e-11, *[1e-8] * self.tire.count]
         states = integrate(rate, start, times, [*small, *small, 1e-8])
         return np.array([[side[2] for side in sides(t, y.tolist())] for t, y in zip(times, states.T, strict=True)]).T
 
@@ -254,14 +273,16 @@ def tire_of(numbers: Numbers, knots: Mapping[str, Sequence[float]], kind: str) -
 
 def axle_of(numbers: Numbers, knots: Mapping[str, Sequence[float]], kind: str, mount: bool, added: float) -> Axle:
     """The axle with the numbers at the paths of its file."""
-    absorber = "strut.shock_absorber.damping" if mount else "shock_absorber.damping"
-    behind = (numbers["strut.top_mount.rubber.stiffness"], numbers["strut.top_mount.loss.damping"]) if mount else None
+    ahead = "strut." if "strut.shock_absorber.damping[0]" in numbers else ""
+    absorber, rubber = f"{ahead}shock_absorber.damping", f"{ahead}top_mount"
+    behind = (numbers[f"{rubber}.rubber.stiffness"], numbers[f"{rubber}.loss.damping"]) if mount else None
     (friction,) = pairs(numbers, ["friction"], "limit")
     (bar_friction,) = pairs(numbers, ["anti_roll_bar.friction"], "limit")
     return Axle(
         numbers["wheel_left.mass"] + added, tire_of(numbers, knots, kind), numbers["tire.offset"],
         curve(numbers, "suspension.stiffness", knots["suspension.stiffness"]), friction,
-        Strut(curve(numbers, absorber, knots[absorber]), behind), numbers["anti_roll_bar.bar.stiffness"], bar_friction,
+        Strut(curve(numbers, absorber, knots[absorber]), behind, numbers.get("rod_left.mass", 0.0)),
+        numbers["anti_roll_bar.bar.stiffness"], bar_friction,
     )  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.api import Setting
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.known import KnownNumber, residual_shift
 from dashpot.fit.objective import Objective
 from dashpot.fit.result import FitResult
 from dashpot.model.network import NetworkSpec
@@ -43,17 +44,29 @@ class Owed:
     numbers: Mapping[str, float]
 
 
-def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
-    """The allowance for the force of a branch of the objective's network, at the numbers of its file.
+@dataclass(frozen=True)
+class OwedToKnown:
+    """What one standard error of a known number, of ``interval`` (SI), does to the ``numbers`` (SI, by path)."""
 
-    Where the network cannot be solved with a stiffer part it is taken with a softer one.
-    """
+    path: str
+    unit: str
+    interval: tuple[float, float]
+    numbers: Mapping[str, float]
+
+    @classmethod
+    def of(cls, known: KnownNumber, numbers: Mapping[str, float]) -> OwedToKnown:
+        """What the numbers owe to one that is known."""
+        assert known.value.interval is not None
+        return cls(known.path, known.value.unit, known.value.interval, numbers)
+
+
+def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
+    """The allowance for the force of a branch of the objective's network, at the numbers of its file."""
     network, slots = objective.network, force_slots(objective.network.spec, branch)
-    lanes = np.repeat(np.atleast_2d(network.start)[:1], 3, axis=0)
-    lanes[1, slots] *= 1.0 + share
-    lanes[2, slots] *= 1.0 - share
-    base, stiffer, softer = objective.residuals(lanes)
-    return Allowance(branch, model, share, stiffer - base if np.isfinite(stiffer).all() else base - softer)
+    start = np.atleast_2d(network.start)[0]
+    step = np.zeros_like(start)
+    step[slots] = share * start[slots]
+    return Allowance(branch, model, share, residual_shift(objective, step))
 
 
 def force_slots(spec: NetworkSpec, branch: str) -> list[int]:

@@ -12,7 +12,8 @@ from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.study.declaration import StudySpec, TakeStage
-from dashpot.fit.study.run import restricted, run_weights, study_setting, take_numbers
+from dashpot.fit.study.run import take_numbers
+from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.kernel.network import compile_network
 
 

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import dashpot
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
-from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
-from dashpot.fit.api import Progress, Setting, measure_errors, prepare, silent
+from dashpot.fit.api import Progress, Setting, measure_errors, silent
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import Coordinates, search_coordinates
-from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
-from dashpot.fit.holdout import Split
 from dashpot.fit.identifiability import Identifiability, identifiability
+from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.profile import Profile, profile_likelihood
@@ -27,17 +25,17 @@ from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.study.allowance import Owed, allowance, effect, force_error
+from dashpot.fit.study.allowance import Owed, OwedToKnown, allowance, effect, force_error
 from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
 from dashpot.fit.study.parts import with_parts
-from dashpot.fit.study.patterns import chosen, is_wild
+from dashpot.fit.study.patterns import chosen
+from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
-from dashpot.text.problem import InputError, Place, nearest
 
 SLOW = ("quasi_static", "hold")
 
@@ -47,7 +45,7 @@ class ModelResult:
     """An identified model: the fit, how its stages went, and what the data tell about its numbers.
 
     ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them. ``owed`` says
-    for each part how far its own error moves the numbers: see ``allowance``.
+    for each part, and ``owed_to_known`` for each number known from elsewhere, how far its error moves the numbers.
     """
 
     setting: Setting
@@ -57,6 +55,7 @@ class ModelResult:
     bootstrap: Mapping[str, tuple[float, float]]
     profiles: tuple[Profile, ...]
     owed: tuple[Owed, ...] = ()
+    owed_to_known: tuple[OwedToKnown, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,81 +94,11 @@ def run_study(
     return StudyResult(study, setting, tuple(conduct.models()))
 
 
-def study_setting(study: StudySpec, dataset: Dataset) -> Setting:
-    """The dataset made ready, split as the study wants it.
-
-    InputError for a name that is no run's, and for a list of patterns that names no run at all.
-    """
-    setting = prepare(dataset, study.seed)
-    runs = setting.dataset.runs
-    refuse_unknown_runs(study, study.hold_out or (), runs)
-    refuse_unknown_runs(study, tuple(study.weights), runs)
-    refuse_idle_patterns(study)
-    if study.hold_out is None:
-        return setting
-    groups = {run.group for run in runs if named(run, study.hold_out)}
-    train = tuple(run.name for run in runs if run.group not in groups)
-    if not train:
-        raise InputError.at(Place(study.name), "'hold_out' leaves no run to train on", "name fewer runs")
-    held_out = tuple(run.name for run in runs if run.group in groups)
-    return replace(setting, split=Split(train, held_out, "" if held_out else "the study holds none out"))
-
-
-def refuse_unknown_runs(study: StudySpec, patterns: Sequence[str], runs: Sequence[Run]) -> None:
-    """InputError for a name that is no run's; some of several patterns with wildcards may name none."""
-    idle = [pattern for pattern in patterns if not any(named(run, [pattern]) for run in runs)]
-    wrong = [pattern for pattern in idle if not is_wild(pattern)] or (idle if len(idle) == len(patterns) else [])
-    if wrong:
-        names = dict.fromkeys(run.record or run.name for run in runs)
-        raise InputError.at(
-            Place(study.name), f"no run is called '{wrong[0]}'", f"runs are: {', '.join(list(names)[:12])}"
-        )
-
-
-def refuse_idle_patterns(study: StudySpec) -> None:
-    """InputError for a name that is no number's, and for a list of patterns that names no number of any model."""
-    paths = {slot.path for plan in study.models for slot in plan.network.slots()}
-    paths |= {f"{curve}[0]" for plan in study.models for curve in plan.network.data_curves()}
-    searches = [stage for plan in study.models for stage in plan.stages if isinstance(stage, SearchStage)]
-    for patterns in (study.profiles, *(stage.free for stage in searches)):
-        idle = [pattern for pattern in patterns if not any(chosen(path, [pattern]) for path in paths)]
-        wrong = [pattern for pattern in idle if not is_wild(pattern)] or (idle if len(idle) == len(patterns) else [])
-        if wrong:
-            message = f"expected a pattern of numbers, got '{wrong[0]}', which names none"
-            hint = nearest(wrong[0], paths) or f"numbers are: {', '.join(sorted(paths)[:12])}"
-            raise InputError.at(Place(study.name), message, hint)
-
-
-def named(run: Run | ScoredRun, patterns: Iterable[str]) -> bool:
-    """Whether a pattern names a run, or the record that it is one force of."""
-    return chosen(run.name, patterns) or bool(run.record and chosen(run.record, patterns))
-
-
-def restricted(setting: Setting, plan: ModelPlan) -> Setting:
-    """The setting with the runs alone that a model is about. InputError when there are none to train on."""
-    names = {run.name for run in setting.dataset.runs if named(run, plan.runs)}
-    split = setting.split
-    train = tuple(name for name in split.train if name in names)
-    if not train:
-        raise InputError.at(Place(plan.name), f"the runs {', '.join(plan.runs)} leave '{plan.name}' none to train on")
-    if len(names) == len(setting.dataset.runs):
-        return setting
-    dataset = setting.dataset.select(names)
-    held_out = tuple(name for name in split.held_out if name in names)
-    scored = {name: run for name, run in setting.scored.items() if name in names}
-    return Setting(dataset, scored, Split(train, held_out, split.reason), noise_floor(dataset))
-
-
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
     """What the numbers of a study depend on."""
     networks = [plan.network.text for plan in study.models]
     parts = [dashpot.__version__, str(study.seed), dataset.digest, study.text, *networks]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
-
-
-def run_weights(study: StudySpec, runs: list[ScoredRun]) -> list[float]:
-    """The weight of each run: that of the first pattern that names it, else 1."""
-    return [next((w for pattern, w in study.weights.items() if named(run, [pattern])), 1.0) for run in runs]
 
 
 def take_numbers(spec: NetworkSpec, what: str, runs: list[ScoredRun]) -> NetworkSpec:
@@ -239,7 +168,8 @@ class _Conduct:
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
         allowed = [allowance(objective, branch, part.fit.declared.name, force_error(part.fit, part.setting))
                    for branch, part in parts.items()]  # fmt: skip
-        shifts = [each.shift for each in allowed]
+        known_before = known_numbers(objective)
+        shifts = [each.shift for each in (*allowed, *known_before)]
         known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
         errors = measure_errors(spec, self.setting, self.jobs)
         fit = FitResult(
@@ -260,10 +190,13 @@ class _Conduct:
         )
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)
-        owed = tuple(Owed(each.branch, each.model, each.share, effect(coordinates, moved))
-                     for each, moved in zip(allowed, known.moved, strict=True))  # fmt: skip
+        effects = [effect(coordinates, moved) for moved in known.moved]
+        owed = tuple(Owed(each.branch, each.model, each.share, numbers)
+                     for each, numbers in zip(allowed, effects, strict=False))  # fmt: skip
+        to_known = tuple(OwedToKnown.of(each, numbers)
+                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True))  # fmt: skip
         return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
-                           self._profiles(plan, objective, coordinates), owed)  # fmt: skip
+                           self._profiles(plan, objective, coordinates), owed, to_known)  # fmt: skip
 
     def _resampled(
         self, plan: ModelPlan, objective: Objective, coordinates: Coordinates
