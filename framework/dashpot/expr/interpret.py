@@ -12,27 +12,43 @@ from dashpot.expr.node import Node, compute, walk
 Tables = Mapping[str, Callable[[Any, int], Any]]
 
 
-def interpret(roots: Sequence[Node], values: Mapping[str, Any], tables: Tables | None = None,
-              nodes: Sequence[Node] | None = None) -> list[Any]:  # fmt: skip
+def interpret(roots: Sequence[Node], values: Mapping[str, Any], tables: Tables | None = None) -> list[Any]:
     """The values of the roots for the given symbols; arrays broadcast as in numpy.
 
-    ``tables`` maps the name of a curve to a function of (argument, derivative order). ``nodes`` is ``walk(roots)``,
-    for who interprets the same roots again and again. Raises KeyError for a symbol or curve without a value.
+    ``tables`` maps the name of a curve to a function of (argument, derivative order). Raises KeyError for a symbol or
+    curve without a value.
     """
-    results: dict[int, Any] = {}
-    with np.errstate(all="ignore"):
-        for node in walk(roots) if nodes is None else nodes:
-            results[node.serial] = _evaluate(node, results, values, tables or {})
-    return [results[root.serial] for root in roots]
+    return Recipe(roots)(values, tables)
 
 
-def _evaluate(node: Node, results: dict[int, Any], values: Mapping[str, Any], tables: Tables) -> Any:
-    if node.operation == "constant":
-        return node.payload
-    if node.operation == "symbol":
-        return values[node.payload]
-    arguments = [results[argument.serial] for argument in node.arguments]
-    if node.operation == "table":
-        curve, order = node.payload
-        return tables[curve](arguments[0], order)
-    return compute(node.operation)(*arguments)
+class Recipe:
+    """The order in which to compute roots, for who interprets the same ones again and again; see ``interpret``."""
+
+    def __init__(self, roots: Sequence[Node]) -> None:
+        nodes = walk(roots)
+        place = {node.serial: number for number, node in enumerate(nodes)}
+        self._roots = [place[root.serial] for root in roots]
+        self._begin = [node.payload if node.operation == "constant" else None for node in nodes]
+        self._symbols = [(place[node.serial], node.payload) for node in nodes if node.operation == "symbol"]
+        self._steps = [(place[node.serial], _function(node), [place[argument.serial] for argument in node.arguments])
+                       for node in nodes if node.arguments]  # fmt: skip
+
+    def __call__(self, values: Mapping[str, Any], tables: Tables | None = None) -> list[Any]:
+        """The values of the roots."""
+        found = self._begin.copy()
+        for place, name in self._symbols:
+            found[place] = values[name]
+        with np.errstate(all="ignore"):
+            for place, function, arguments in self._steps:
+                given = [found[argument] for argument in arguments]
+                if callable(function):
+                    found[place] = function(*given)
+                else:
+                    curve, order = function
+                    found[place] = (tables or {})[curve](*given, order)
+        return [found[place] for place in self._roots]
+
+
+def _function(node: Node) -> Callable[..., Any] | tuple[str, int]:
+    # a curve is known by name only, with the order of its derivative
+    return node.payload if node.operation == "table" else compute(node.operation)

@@ -7,6 +7,7 @@ stages  - the rest is cut where long functions stand, such as the exponential
 layout  - every number of a lane gets a row in the workspace
 assembly - how instructions on vectors of lanes are written for the compiler
 functions - the long functions
+packing - one lane alone: several numbers share a vector
 passes  - a pass over a group of lanes is written node by node
 source  - all passes of a network become one self-contained text
 native  - the text is compiled once per machine, and kept by what it is made of

@@ -19,8 +19,8 @@ def compile_ahead(spec: NetworkSpec) -> None:
     if isinstance(network, CompiledNetwork):
         members = [part.network for part in take_apart(filled).members]
         for each in (network, *members):
-            for vectors in GROUPS:
-                each.native(vectors)
+            for group in GROUPS:
+                each.native(*group)
 
 
 def with_curves(spec: NetworkSpec) -> NetworkSpec:

@@ -9,8 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.expr.interpret import interpret
-from dashpot.expr.node import Node, walk
+from dashpot.expr.interpret import Recipe
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.tiers import Program
@@ -44,14 +43,14 @@ class Compiled:
         return read_observation(self.paths, np.atleast_2d(values))
 
     @cached_property
-    def _recipe(self) -> list[Node]:
-        return walk(self.program.constants)
+    def _recipe(self) -> Recipe:
+        return Recipe(self.program.constants)
 
     def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
         # a workspace (rows, lanes) with the constants of the lanes in its first rows
         space = np.zeros((rows, lanes.shape[0]))
         known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
-        for row, number in zip(space, interpret(self.program.constants, known, nodes=self._recipe), strict=False):
+        for row, number in zip(space, self._recipe(known), strict=False):
             row[:] = number
         return space
 

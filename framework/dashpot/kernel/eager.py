@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
-from dashpot.expr.interpret import interpret
-from dashpot.expr.node import walk
+from dashpot.expr.interpret import Recipe
 from dashpot.kernel.columns import see_samples, see_turns
 from dashpot.kernel.curves import TableLaw, cubic_coefficients
 from dashpot.kernel.trace import RATES, Sight, TracedBranch, check_states, refuse_missing_numbers, trace_network
@@ -104,12 +103,12 @@ class _GraphWalker(_Walker):
     def __init__(self, traced: TracedBranch, numbers: Numbers, tables: Mapping[str, TableLaw], lanes: int) -> None:
         self.traced, self.numbers, self.tables, self.sight = traced, numbers, tables, traced.sight
         self.states: dict[str, Any] = dict.fromkeys(traced.states, np.zeros(lanes))
-        self.nodes = walk(traced.roots)
+        self.recipe = Recipe(traced.roots)
 
     def move(self, motion: Mapping[str, float], dt: float) -> Any:
         seen = {f"{self.sight}.{key}": value for key, value in motion.items()}
         known = {**self.numbers, **self.states, **seen, "dt": dt}
-        force, *states = interpret(self.traced.roots, known, self.tables, self.nodes)
+        force, *states = self.recipe(known, self.tables)
         self.states = dict(zip(self.traced.states, states, strict=True))
         return force
 

@@ -29,7 +29,8 @@ from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 
-GROUPS = (1, 2)  # vectors in a group: one for single lanes, else as many as keep the processor from waiting
+# vectors in a group, and whether it holds a single lane: two vectors keep the processor from waiting
+GROUPS = ALONE, FEW, MANY = (1, True), (1, False), (2, False)
 
 
 @dataclass(frozen=True)
@@ -41,14 +42,15 @@ class CompiledNetwork(Compiled):
         """Every curve of the network by path."""
         return self.spec.curves()
 
-    def native(self, vectors: int) -> Native:
-        """The compiled code for groups of so many vectors of lanes."""
-        if vectors not in self._natives:
-            self._natives[vectors] = load_native(print_source(self.program, vectors), len(ARGUMENTS))
-        return self._natives[vectors]
+    def native(self, vectors: int, alone: bool = False) -> Native:
+        """The compiled code for groups of so many vectors of lanes, or for a single lane."""
+        group = vectors, alone
+        if group not in self._natives:
+            self._natives[group] = load_native(print_source(self.program, *group), len(ARGUMENTS))
+        return self._natives[group]
 
     @cached_property
-    def _natives(self) -> dict[int, Native]:
+    def _natives(self) -> dict[tuple[int, bool], Native]:
         return {}
 
     def prepare(self, motion: Drive | Excitation) -> Rows:
@@ -96,8 +98,8 @@ class CompiledNetwork(Compiled):
             return np.array(list(pool.map(work, runs, measured, weights)))
 
     def _group(self, count: int) -> tuple[Native, int]:
-        vectors = GROUPS[count > LANES]
-        return self.native(vectors), vectors * LANES
+        vectors, alone = ALONE if count == 1 else FEW if count <= LANES else MANY
+        return self.native(vectors, alone), vectors * LANES
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}

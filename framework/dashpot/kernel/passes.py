@@ -10,6 +10,7 @@ from dashpot.expr.node import Node, is_logical
 from dashpot.kernel import functions
 from dashpot.kernel.assembly import BITS, LANES, NUMBER, TRUTH, Assembly, Bundle, joined, parted
 from dashpot.kernel.layout import Fusion, Layout, Shelf
+from dashpot.kernel.packing import packed, unpacked
 
 POWERS = 4  # coefficients of a cubic
 COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
@@ -57,11 +58,15 @@ class Arrays:
 
 @dataclass
 class Pass:
-    """A pass while it is being written: the bundles of the nodes that are computed so far, by serial."""
+    """A pass while it is being written: the bundles of the nodes that are computed so far, by serial.
+
+    With ``alone`` all lanes are the same one, so that a vector has room for several arguments of a long function.
+    """
 
     assembly: Assembly
     layout: Layout
     arrays: Arrays
+    alone: bool = False
     bundles: dict[int, Bundle] = field(default_factory=dict)
     segments: dict[tuple[str, int], tuple[Bundle, list[Bundle]]] = field(default_factory=dict)
 
@@ -72,7 +77,8 @@ class Pass:
         hidden = {part.serial for fusion in self.layout.fused.values() for part in (fusion.product, fusion.term)}
         for stage in self.layout.stages:
             self._compute([node for node in stage.nodes if node.serial not in hidden])
-            kinds = {kind: joined([self.value(call.arguments[0]) for call in calls])
+            together, apart = (packed, unpacked) if self.alone else (joined, parted)
+            kinds = {kind: together([self.value(call.arguments[0]) for call in calls])
                      for kind, calls in stage.kinds.items()}  # fmt: skip
             beside = [node for node in stage.beside if node.serial not in hidden]
             if any(node.operation == "lookup" for node in beside):  # it has branches
@@ -83,7 +89,7 @@ class Pass:
             )
             for (kind, calls), answer in zip(stage.kinds.items(), answers, strict=True):
                 whole = functions.wrightomega_above(kinds[kind], answer) if kind == "wrightomega" else answer
-                for call, part in zip(calls, parted(whole, len(calls)), strict=True):
+                for call, part in zip(calls, apart(whole, len(calls)), strict=True):
                     self.bundles[call.serial] = part
         # all are read before any is moved
         moved = [(self.layout.states[name], self.number(node)) for name, node in self.layout.updates.items()]

@@ -20,8 +20,10 @@ ARGUMENTS = ("ptr %columns", "ptr %index", "ptr %local", "i64 %samples", "ptr %t
              "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out")  # fmt: skip
 
 
-def print_source(program: Program, vectors: int) -> str:
+def print_source(program: Program, vectors: int, alone: bool = False) -> str:
     """The text of a network for groups of so many ``vectors`` of lanes: the function ``run``.
+
+    With ``alone`` all lanes of a group are the same one.
 
     It takes ``columns`` (samples, columns), ``index`` and ``local`` (samples, lookups), ``turn_at`` (turns + 1,),
     ``turn_columns`` (turns, columns), ``tables`` (segments, 4, lanes), the workspace ``w`` (rows, lanes), ``measured``
@@ -39,14 +41,14 @@ def print_source(program: Program, vectors: int) -> str:
             with a.repeat(lambda: _turns_at(a, k)):
                 number = a.new("load i64, ptr %turn")
                 arrays = Arrays(a.address("%turn_columns", a.product(number, across)), bases)
-                _correct(a, passes, arrays, program)
-                Pass(a, passes.turn, arrays).write()
+                _correct(a, passes, arrays, program, alone)
+                Pass(a, passes.turn, arrays, alone).write()
                 a.do(f"store i64 {a.new(f'add i64 {number}, 1')}, ptr %turn")
         looked = a.product(k, len(program.lookups))
         arrays = Arrays(a.address("%columns", a.product(k, across)), bases,
                         index=a.address("%index", looked, "i64"), local=a.address("%local", looked))  # fmt: skip
-        _correct(a, passes, arrays, program)
-        step = Pass(a, passes.step, arrays)
+        _correct(a, passes, arrays, program, alone)
+        step = Pass(a, passes.step, arrays, alone)
         step.write()
         force = step.number(program.force)
         with a.when(storing):
@@ -69,7 +71,7 @@ def _turns_at(a: Assembly, k: str) -> str:
     return a.new(f"icmp eq i64 {a.scalar('%turn_at', number, 'i64')}, {k}")
 
 
-def _correct(a: Assembly, passes: Passes, arrays: Arrays, program: Program) -> None:
+def _correct(a: Assembly, passes: Passes, arrays: Arrays, program: Program, alone: bool) -> None:
     if passes.correct is None:
         return
     due = [a.new(f"fcmp une double {a.scalar(arrays.columns, passes.correct.columns[event.serial])}, 0.0")
@@ -78,7 +80,7 @@ def _correct(a: Assembly, passes: Passes, arrays: Arrays, program: Program) -> N
     for other in due[1:]:
         some = a.new(f"or i1 {some}, {other}")
     with a.when(some):
-        Pass(a, passes.correct, arrays).write()
+        Pass(a, passes.correct, arrays, alone).write()
 
 
 def _score(step: Pass, force: Bundle, row: int, k: str) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from dashpot.expr.interpret import interpret
-from dashpot.expr.node import constant, symbol, table, walk
+from dashpot.expr.interpret import Recipe, interpret
+from dashpot.expr.node import constant, symbol, table
 
 X, Y = symbol("x"), symbol("y")
 
@@ -35,9 +35,11 @@ def test_a_table_is_looked_up():
     assert interpret([table("curve", 2.0 * X)], {"x": 3.0}, {"curve": lambda x, order: 10.0 * x + order}) == [60.0]
 
 
-def test_the_walk_may_be_given():
-    roots = [law(X, Y)]
-    assert interpret(roots, {"x": 0.3, "y": 2.0}, nodes=walk(roots)) == interpret(roots, {"x": 0.3, "y": 2.0})
+def test_a_recipe_forgets_what_it_was_used_for():
+    recipe = Recipe([law(X, Y), table("curve", X)])
+    first = recipe({"x": 0.3, "y": 2.0}, {"curve": lambda x, order: x})
+    assert recipe({"x": 0.1, "y": 3.0}, {"curve": lambda x, order: -x}) == [law(0.1, 3.0), -0.1]
+    assert recipe({"x": 0.3, "y": 2.0}, {"curve": lambda x, order: x}) == first == [law(0.3, 2.0), 0.3]
 
 
 @pytest.mark.parametrize(("root", "missing"), [(X + Y, "y"), (table("curve", X), "curve")])
