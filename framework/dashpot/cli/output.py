@@ -44,7 +44,7 @@ class OutputFolder:
         """Write a text file; the same text gives the same bytes everywhere."""
         return self.write_bytes(name, text.encode("utf-8"))
 
-    def write_bytes(self, name: str, content: bytes) -> Path:
+    def write_bytes(self, name: str, content: bytes | memoryview) -> Path:
         """Write a file under a temporary name first, so that an interrupted run leaves no half of it."""
         path = self.path / name
         part = path.with_name(f".{name}.part")

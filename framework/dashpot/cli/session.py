@@ -17,7 +17,9 @@ if TYPE_CHECKING:
     from dashpot.contract.reader import Reader
     from dashpot.contract.registry import Registry
     from dashpot.data.dataset import Dataset
+    from dashpot.data.stream import RunStream
     from dashpot.model.network import NetworkSpec
+    from dashpot.text.problem import Problem
 
 Result = TypeVar("Result")
 
@@ -53,9 +55,19 @@ class Session:
 
         with self.watch(f"reading {path}"):
             dataset = read_dataset(path, self.readers())
-        for problem in dataset.problems:
-            self.talk.warn(str(problem))
+        self.warn_of(dataset.problems)
         return dataset
+
+    def runs(self, path: str | Path) -> RunStream:
+        """The runs of the dataset at ``path`` one at a time; ``warn_of`` its problems when they were read."""
+        from dashpot.data.stream import open_dataset
+
+        return open_dataset(path, self.readers())
+
+    def warn_of(self, problems: Iterable[Problem]) -> None:
+        """Tell what is wrong with single runs."""
+        for problem in problems:
+            self.talk.warn(str(problem))
 
     def claim(self, output: Path, *patterns: str) -> OutputFolder:
         """The folder ``output``, into which files of these names may be written."""

@@ -73,25 +73,30 @@ def verb(
 
 
 def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool, refine: int) -> None:
-    """Write the force along every measured run."""
+    """Write the force along every measured run; no more than one of them is in memory at a time."""
     from dashpot.data.excitation import Excitation
-    from dashpot.kernel.api import forces_by_name, solve_runs
+    from dashpot.kernel.api import forces_by_name, solve_each
 
-    measured = session.dataset(dataset)
+    runs = session.runs(dataset)
     archive = output.suffix == ".npz"
-    files = [output.name] if archive else [f"{run.name}.csv" for run in measured.runs]
+    files = [output.name] if archive else [f"{name}.csv" for name in runs.names]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
+    forces, names, error = ForceArchive(), [], 0.0
     with session.watch("compiling") as progress:
-        solved = solve_runs(network, measured, refine=refine, registry=session.registry, progress=progress)
+        for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
+            if archive:
+                forces.add(forces_by_name({run.name: solution}))
+            else:
+                folder.write(f"{run.name}.csv", csv_text(run, solution))
+            names.append(run.name)
+            error = max(error, *solution.error.values())
+    session.warn_of(runs.problems)
     if archive:
-        folder.write_bytes(output.name, npz_bytes(forces_by_name(solved)))
-    else:
-        for name, solution in solved.items():
-            folder.write(f"{name}.csv", csv_text(measured.run(name), solution))
+        folder.write_bytes(output.name, forces.content())
     if energy:
-        write_energies(network, map(Excitation.of_run, measured.runs), folder, session.talk)
-    told = f"simulated {len(solved)} runs: {output}{told_error(solved)}"
-    session.talk.result(told, content_of(network, list(solved), output, largest_error(solved)))
+        write_energies(network, map(Excitation.of_run, runs), folder, session.talk)
+    session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
+                        content_of(network, names, output, error))  # fmt: skip
 
 
 def measure_on(
@@ -146,24 +151,27 @@ def csv_text(run: Run, solution: RunSolution) -> str:
     return "\n".join([*head, *(",".join(map(repr, row)) for row in rows)]) + "\n"
 
 
-def largest_error(solved: Mapping[str, RunSolution]) -> float:
-    """The largest estimated numerical error of a force in N, 0 where there is none."""
-    return max((error for solution in solved.values() for error in solution.error.values()), default=0.0)
-
-
-def told_error(solved: Mapping[str, RunSolution]) -> str:
-    """The largest estimated numerical error in words, where there is one."""
-    largest = largest_error(solved)
+def told_error(largest: float) -> str:
+    """The largest estimated numerical error of a force in words, where there is one."""
     return f"; estimated numerical error of the forces at most {largest:.2g} N rms" if largest else ""
 
 
-def npz_bytes(forces: dict[str, np.ndarray]) -> bytes:
-    """The forces (N) by run as a NumPy archive, without a date in it; any name of a run will do."""
-    import numpy as np
+class ForceArchive:
+    """Forces (N) by run as a NumPy archive, without a date in it; any name of a run will do."""
 
-    content = io.BytesIO()
-    with ZipFile(content, "w") as archive:
+    def __init__(self) -> None:
+        self._bytes = io.BytesIO()
+        self._archive = ZipFile(self._bytes, "w")
+
+    def add(self, forces: Mapping[str, np.ndarray]) -> None:
+        """Add some."""
+        import numpy as np
+
         for name, force in forces.items():
-            with archive.open(ZipInfo(f"{name}.npy"), "w") as member:
+            with self._archive.open(ZipInfo(f"{name}.npy"), "w") as member:
                 np.lib.format.write_array(member, force, allow_pickle=False)
-    return content.getvalue()
+
+    def content(self) -> memoryview:
+        """The bytes of the archive, to which nothing more can be added."""
+        self._archive.close()
+        return self._bytes.getbuffer()

@@ -7,17 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from dashpot.data.declaration import RunDeclaration
-from dashpot.data.description import Description, read_description
 from dashpot.data.digest import digest_runs
-from dashpot.data.groups import group_repeats, resolve_repeats
-from dashpot.data.measured import read_run
+from dashpot.data.groups import group_repeats
 from dashpot.data.run import Run
-from dashpot.data.source import choose_reader, find_file, locate
-from dashpot.data.table import FileReader, ReadingError, Table
-from dashpot.data.trouble import Trouble, Unusable
-from dashpot.text.document import Document
-from dashpot.text.problem import InputError, Place, Problem, in_text_order, nearest
+from dashpot.data.stream import open_dataset
+from dashpot.data.table import FileReader
+from dashpot.data.trouble import Trouble
+from dashpot.text.problem import InputError, Place, Problem, nearest
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,74 +64,6 @@ def read_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> Dataset
     `readers` are the readers of measurement files by their word. A run with a fault is set aside and told of in
     `problems`. Raises InputError, with everything that is wrong, when no run is left.
     """
-    source = locate(Path(path))
-    document = Document.read(source.description)
-    description = read_description(document, source)
-    problems = list(description.problems)
-    measurements = _Measurements(description, source.folder, readers, problems)
-    runs = measurements.read()
-    if not runs:
-        raise InputError(
-            problems or [Problem(document.root.place, "the dataset has no runs", "list some under 'runs'")]
-        )
-    return Dataset(description.name, tuple(runs), in_text_order(problems), source.folder, tuple(measurements.faults))
-
-
-class _Measurements:
-    """The files of a dataset; a file that several runs are cut from is read once."""
-
-    def __init__(
-        self, description: Description, folder: Path, readers: Mapping[str, FileReader], problems: list[Problem]
-    ) -> None:
-        self._description = description
-        self._folder = folder
-        self._readers = readers
-        self._problems = problems
-        self.faults: list[tuple[str, Trouble]] = []
-        self._last: tuple[object, Table] = (None, Table({}))
-
-    def read(self) -> list[Run]:
-        """All usable runs, grouped; the others are among the problems."""
-        resolved, troubles = resolve_repeats(self._description.declarations, self._description.names)
-        for declaration in self._description.declarations:
-            if declaration.name in troubles:
-                self._note(declaration, troubles[declaration.name])
-        runs = [self._run(declaration) for declaration in resolved]
-        return group_repeats([run for run in runs if run])
-
-    def _run(self, declaration: RunDeclaration) -> Run | None:
-        try:
-            run, warnings = read_run(declaration, self._table(declaration))
-        except Unusable as error:
-            run, warnings = None, list(error.troubles)
-        for trouble in warnings:
-            self._note(declaration, trouble)
-        return run
-
-    def _table(self, declaration: RunDeclaration) -> Table:
-        place = declaration.place("file")
-        path = find_file(declaration.file, self._folder, self._description.allow_outside, place)
-        said = declaration.place("reader" if declaration.reader else "file")
-        reader = choose_reader(declaration.file, declaration.reader, self._readers, said)
-        wanted = (path, reader, repr(declaration.file_options))
-        if self._last[0] != wanted:
-            self._last = (wanted, _read_file(reader, path, declaration.file_options))
-        return self._last[1]
-
-    def _note(self, declaration: RunDeclaration, trouble: Trouble) -> None:
-        if trouble.fault:
-            self.faults.append((declaration.name, trouble))
-        state = " is set aside" if trouble.severity == "error" else ""
-        message = f"run '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
-        place = trouble.place or declaration.place("file")
-        self._problems.append(Problem(place, message, trouble.hint, trouble.severity))
-
-
-def _read_file(reader: FileReader, path: Path, options: Mapping[str, object]) -> Table:
-    try:
-        return reader.read(path, options)
-    except ReadingError as error:
-        where = f"line {error.line}: " if error.line else ""
-        raise Unusable([Trouble(where + error.message, error.hint)]) from None
-    except OSError as error:
-        raise Unusable([Trouble(f"the file cannot be read: {error.strerror}", "check its rights")]) from None
+    stream = open_dataset(path, readers)
+    runs = group_repeats(list(stream))
+    return Dataset(stream.name, tuple(runs), stream.problems, stream.folder, stream.faults)

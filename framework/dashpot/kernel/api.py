@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dashpot.contract.registry import Registry, load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.excitation import Excitation
+from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.system import CompiledSystem, Status
 from dashpot.model.network import END, NetworkSpec
@@ -45,13 +46,18 @@ def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int 
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
+    solved = solve_each(spec, dataset.runs, len(dataset.runs), refine=refine, progress=progress)
+    return {run.name: solution for run, solution in solved}
+
+
+def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: int = 1,
+               progress: Callable[[str, float], None] | None = None) -> Iterator[tuple[Run, RunSolution]]:  # fmt: skip
+    """The same for one of ``count`` runs after the other; none is kept."""
     network = compile_network(spec)
-    found = {}
-    for number, run in enumerate(dataset.runs):
+    for number, run in enumerate(runs):
         if progress:
-            progress(run.name, number / len(dataset.runs))
-        found[run.name] = solve(network, Excitation.of_run(run), refine)
-    return found
+            progress(run.name, number / count)
+        yield run, solve(network, Excitation.of_run(run), refine)
 
 
 def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int = 1) -> RunSolution:

@@ -8,31 +8,34 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-
-class Bench:
-    """A dataset of three runs."""
-
-    problems = ()
-    runs = (SimpleNamespace(name="slow"), SimpleNamespace(name="odd[1]"), SimpleNamespace(name="file"))
-
-    def run(self, name):
-        return SimpleNamespace(
-            name=name, time=np.array([0.0, 0.1]), channels={"displacement": np.array([0.0, 1e-3]), "force": np.zeros(2)}
-        )
-
-
+NAMES = ("slow", "odd[1]", "file")
 FORCES = {"slow": np.array([0.1, 1 / 3]), "odd[1]": np.array([-2.5, 1e-300]), "file": np.array([0.0, -0.0])}
+CHANNELS = {"displacement": np.array([0.0, 1e-3]), "force": np.zeros(2)}
+
+
+class Stream:
+    """Three runs."""
+
+    problems = ("run 'four' is set aside",)
+    names = NAMES
+
+    def __iter__(self):
+        return iter(SimpleNamespace(name=name, time=np.array([0.0, 0.1]), channels=CHANNELS) for name in NAMES)
+
+
+def solve_each(spec, runs, count, *, refine, progress):
+    assert count == len(NAMES)
+    for run in runs:
+        force = FORCES[run.name]
+        yield run, SimpleNamespace(force={"": force}, motion={"hub": force}, error={"": 0.25})
 
 
 @pytest.fixture(autouse=True)
 def bench(monkeypatch, layers):
-    monkeypatch.setitem(
-        sys.modules, "dashpot.data.dataset", SimpleNamespace(read_dataset=lambda path, readers: Bench())
-    )
-    solved = {name: SimpleNamespace(force={"": force}, motion={"hub": force}, error={"": 0.25}) for name, force in
-              FORCES.items()}  # fmt: skip
+    stream = SimpleNamespace(open_dataset=lambda path, readers: Stream())
+    monkeypatch.setitem(sys.modules, "dashpot.data.stream", stream)
     api = SimpleNamespace(
-        solve_runs=lambda spec, dataset, *, refine, registry, progress: solved, forces_by_name=lambda found: FORCES
+        solve_each=solve_each, forces_by_name=lambda found: {name: each.force[""] for name, each in found.items()}
     )
     monkeypatch.setitem(sys.modules, "dashpot.kernel.api", api)
 
@@ -43,6 +46,11 @@ def test_each_run_becomes_a_csv_file(call, tmp_path):
     text = (tmp_path / "out" / "slow.csv").read_text()
     head = "time,displacement,displacement@hub,force\ns,m,m,N\n"
     assert text == head + "0.0,0.0,0.1,0.1\n0.1,0.001,0.3333333333333333,0.3333333333333333\n"
+
+
+def test_what_was_found_in_reading_is_told(call, tmp_path):
+    code, _, error = call("simulate", "spring", "--data", "bench.yaml", "-o", tmp_path / "out")
+    assert code == 0 and "run 'four' is set aside" in error
 
 
 def test_the_estimated_error_is_told(call, tmp_path):

@@ -1,0 +1,113 @@
+"""The runs of a dataset one at a time: read when they are asked for, and not kept."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+from dashpot.data.declaration import RunDeclaration
+from dashpot.data.description import Description, read_description
+from dashpot.data.groups import resolve_repeats
+from dashpot.data.measured import read_run
+from dashpot.data.run import Run
+from dashpot.data.source import choose_reader, find_file, locate
+from dashpot.data.table import FileReader, ReadingError, Table
+from dashpot.data.trouble import Trouble, Unusable
+from dashpot.text.document import Document
+from dashpot.text.problem import InputError, Place, Problem, in_text_order
+
+
+def open_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> RunStream:
+    """A dataset whose measurement files are still to be read; see `read_dataset`.
+
+    Raises InputError when its description cannot be read.
+    """
+    source = locate(Path(path))
+    document = Document.read(source.description)
+    return RunStream(read_description(document, source), source.folder, readers, document.root.place)
+
+
+class RunStream:
+    """An iterable of runs; every iteration reads the files again, one after the other.
+
+    A run with a fault is set aside. When an iteration has ended, `problems` and `faults` tell of all that it found.
+    It raises InputError, with everything that is wrong, when no run was left.
+    """
+
+    def __init__(self, description: Description, folder: Path, readers: Mapping[str, FileReader], place: Place) -> None:
+        self.name, self.folder = description.name, folder
+        self._description, self._readers, self._place = description, readers, place
+        self._begin()
+
+    def _begin(self) -> None:
+        self._problems = list(self._description.problems)
+        self._faults: list[tuple[str, Trouble]] = []
+        self._last: tuple[object, Table] = (None, Table({}))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all runs whose declaration is sound."""
+        return tuple(declaration.name for declaration in self._description.declarations)
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """Which runs were set aside, and what to know about the others."""
+        return in_text_order(self._problems)
+
+    @property
+    def faults(self) -> tuple[tuple[str, Trouble], ...]:
+        """The faults of the measurement itself, as (name of the run, finding)."""
+        return tuple(self._faults)
+
+    def __iter__(self) -> Iterator[Run]:
+        self._begin()
+        resolved, troubles = resolve_repeats(self._description.declarations, self._description.names)
+        for declaration in self._description.declarations:
+            if declaration.name in troubles:
+                self._note(declaration, troubles[declaration.name])
+        some = False
+        for declaration in resolved:
+            run = self._run(declaration)
+            if run:
+                some = True
+                yield run
+        if not some:
+            nothing = Problem(self._place, "the dataset has no runs", "list some under 'runs'")
+            raise InputError(self._problems or [nothing])
+
+    def _run(self, declaration: RunDeclaration) -> Run | None:
+        try:
+            run, warnings = read_run(declaration, self._table(declaration))
+        except Unusable as error:
+            run, warnings = None, list(error.troubles)
+        for trouble in warnings:
+            self._note(declaration, trouble)
+        return run
+
+    def _table(self, declaration: RunDeclaration) -> Table:
+        place = declaration.place("file")
+        path = find_file(declaration.file, self.folder, self._description.allow_outside, place)
+        said = declaration.place("reader" if declaration.reader else "file")
+        reader = choose_reader(declaration.file, declaration.reader, self._readers, said)
+        wanted = (path, reader, repr(declaration.file_options))
+        if self._last[0] != wanted:
+            self._last = (wanted, _read_file(reader, path, declaration.file_options))
+        return self._last[1]
+
+    def _note(self, declaration: RunDeclaration, trouble: Trouble) -> None:
+        if trouble.fault:
+            self._faults.append((declaration.name, trouble))
+        state = " is set aside" if trouble.severity == "error" else ""
+        message = f"run '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
+        place = trouble.place or declaration.place("file")
+        self._problems.append(Problem(place, message, trouble.hint, trouble.severity))
+
+
+def _read_file(reader: FileReader, path: Path, options: Mapping[str, object]) -> Table:
+    try:
+        return reader.read(path, options)
+    except ReadingError as error:
+        where = f"line {error.line}: " if error.line else ""
+        raise Unusable([Trouble(where + error.message, error.hint)]) from None
+    except OSError as error:
+        raise Unusable([Trouble(f"the file cannot be read: {error.strerror}", "check its rights")]) from None
