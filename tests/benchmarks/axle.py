@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
-from numba import njit
+from laws import Equations, Tongue, table_of
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
 
 from dashpot.contract.registry import load_registry
@@ -17,7 +17,6 @@ from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.system import CompiledSystem
-from dashpot.model.network import Characteristic
 from dashpot.model.reading import read_network
 
 Array = NDArray[np.float64]
@@ -25,28 +24,31 @@ Array = NDArray[np.float64]
 AXLE, DT = "axle_model_3", 1e-3
 AMPLITUDE, SLOWEST, FASTEST, FADE = 3e-3, 5.0, 20.0, 0.5
 ANGLES = (0.0, 0.5 * np.pi)  # of the platforms: between in phase and in anti-phase, so that the bar works
-GRAVITY, SHARPNESS, MEMORIES = 9.81, 10.0, 7
+GRAVITY, MEMORIES = 9.81, 7
 SIDE = 3 + MEMORIES  # place, velocity and friction of a wheel, then the memories of its tire
 HELD = "tire.damping.scale"
 TABLES = ("tire.stiffness.stiffness", HELD, "suspension.stiffness", "shock_absorber.damping")
 
 
-@njit(error_model="numpy")
-def platform(t, seconds, angle):  # noqa: ANN001, ANN201
-    """Place, velocity and acceleration of a platform at a time."""
-    u = min(t / FADE, 1.0)
-    rise = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
-    faster = 30.0 * u * u * (1.0 - u) ** 2 / FADE
-    bend = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE**2
-    rate = 2.0 * np.pi * (FASTEST - SLOWEST) / seconds
-    turning = 2.0 * np.pi * SLOWEST + rate * t
-    phase = angle + 2.0 * np.pi * SLOWEST * t + 0.5 * rate * t * t
-    sin, cos = AMPLITUDE * np.sin(phase), AMPLITUDE * np.cos(phase)
-    return (
-        rise * sin,
-        faster * sin + rise * turning * cos,
-        bend * sin + 2.0 * faster * turning * cos + rise * (rate * cos - turning * turning * sin),
-    )
+def platform_in(smaller: Callable[..., Any]) -> Callable[..., Any]:
+    """A function of time, length of the sweep and angle: place, velocity and acceleration of a platform."""
+
+    def platform(t, seconds, angle):  # noqa: ANN001, ANN202
+        u = smaller(t / FADE, 1.0)
+        rise = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
+        faster = 30.0 * u * u * (1.0 - u) ** 2 / FADE
+        bend = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE**2
+        rate = 2.0 * np.pi * (FASTEST - SLOWEST) / seconds
+        turning = 2.0 * np.pi * SLOWEST + rate * t
+        phase = angle + 2.0 * np.pi * SLOWEST * t + 0.5 * rate * t * t
+        sin, cos = AMPLITUDE * np.sin(phase), AMPLITUDE * np.cos(phase)
+        return (
+            rise * sin,
+            faster * sin + rise * turning * cos,
+            bend * sin + 2.0 * faster * turning * cos + rise * (rate * cos - turning * turning * sin),
+        )
+
+    return platform
 
 
 @cache
@@ -60,6 +62,7 @@ def axle() -> CompiledSystem:
 def excitation(seconds: float) -> Excitation:
     """Both platforms, with their exact rates."""
     times = DT * np.arange(round(seconds / DT))
+    platform = platform_in(min)
     paths = [np.array([platform(t, seconds, angle) for t in times.tolist()]).T for angle in ANGLES]
     drives = {node: drive_from_path(DT, *map(np.ascontiguousarray, path))
               for node, path in zip(axle().outputs, paths, strict=True)}  # fmt: skip
@@ -98,20 +101,10 @@ class AxleTask:
         return axle().score(self.runs, [zeros] * runs, [zeros + 1.0] * runs, self.values, self.jobs)
 
 
-@dataclass(frozen=True)
-class Equations:
-    """``rate(t, y, dy)`` fills dy, ``force(t, y)`` are the forces that are measured; ``start`` is the state at
-    rest, ``size`` what is small for a state: its absolute tolerance over the relative one.
-    """
-
-    rate: Callable[..., None]
-    force: Callable[..., tuple[float, float]]
-    start: Array
-    size: Array
-
-
-def equations(seconds: float) -> Equations:
-    """The axle of the file as somebody would write it for an integrator: by hand, compiled by numba."""
+def equations(seconds: float, tongue: Tongue) -> Equations:
+    """The axle of the file as somebody would write it for an integrator, by hand."""
+    read, dahl, prandtl = tongue.read, tongue.dahl, tongue.prandtl
+    platform = tongue.compiled(platform_in(tongue.smaller))
     spec = axle().spec
     numbers = {slot.path: slot.value.number for slot in spec.slots()}
     tire, held, spring, absorber = (table_of(spec.curves()[path], path == HELD) for path in TABLES)
@@ -124,14 +117,14 @@ def equations(seconds: float) -> Equations:
     mass, offset, damping = numbers["wheel_left.mass"], numbers["tire.offset"], numbers["tire.damping.damping"]
     bar = numbers["anti_roll_bar.bar.stiffness"]
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def pressed(x, v, y, first):  # noqa: ANN001, ANN202
         total = read(tire, x) + damping * read(held, x) * v
         for k in range(MEMORIES):
             total += y[first + k]
         return total
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def rate(t, y, dy):  # noqa: ANN001, ANN202
         between = bar * (y[0] - y[SIDE]) + y[2 * SIDE]
         dy[2 * SIDE] = dahl(y[2 * SIDE], y[1] - y[SIDE + 1], laws[8])
@@ -148,53 +141,25 @@ def equations(seconds: float) -> Equations:
                 dy[b + 6 + k] = prandtl(y[b + 6 + k], v, laws[3 + k])
             dy[b + 9] = dahl(y[b + 9], v, laws[6])
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def force(t, y):  # noqa: ANN001, ANN202
         left, right = platform(t, seconds, ANGLES[0]), platform(t, seconds, ANGLES[1])
         one = pressed(left[0] - y[0] + offset, left[1] - y[1], y, 3)
         return one, pressed(right[0] - y[SIDE] + offset, right[1] - y[SIDE + 1], y, SIDE + 3)
 
+    side = [1e-6, 1e-3, *[1.0] * (SIDE - 2)]
+    start = np.zeros(2 * SIDE + 1) if tongue.symbolic else rest(rate)
+    return Equations(rate, force, start, np.array([*side, *side, 1.0]))
+
+
+def rest(rate: Callable[..., None]) -> Array:
+    """The state before anything moves."""
     start, dy = np.zeros(2 * SIDE + 1), np.zeros(2 * SIDE + 1)
 
     def pull(places: Array) -> list[float]:
         start[[0, SIDE]] = places
-        start[[1, SIDE + 1]] = 0.0
         rate(0.0, start, dy)
         return [dy[1], dy[SIDE + 1]]
 
     start[[0, SIDE]] = fsolve(pull, [0.0, 0.0], xtol=1e-12)
-    side = [1e-6, 1e-3, *[1.0] * (SIDE - 2)]
-    return Equations(rate, force, start, np.array([*side, *side, 1.0]))
-
-
-@njit(error_model="numpy")
-def dahl(force, v, law):  # noqa: ANN001, ANN201
-    """dF/dt of a Dahl slider."""
-    return law[0] * (v - abs(v) * force / law[1])
-
-
-@njit(error_model="numpy")
-def prandtl(force, v, law):  # noqa: ANN001, ANN201
-    """dF/dt of a spring in series with a Dahl slider."""
-    left = max(1.0 - (force if v > 0.0 else -force) / law[1], 0.0)
-    return v * law[0] * SHARPNESS * left / (1.0 + SHARPNESS * left)
-
-
-@njit(error_model="numpy")
-def read(table, x):  # noqa: ANN001, ANN201
-    """A cubic table; its rows are knot and coefficients, the first and the last are its straight continuations."""
-    number = 0
-    while number < table.shape[0] - 1 and x >= table[number + 1, 0]:
-        number += 1
-    u = x - table[max(number, 1), 0]
-    return table[number, 4] + u * (table[number, 3] + u * (table[number, 2] + u * table[number, 1]))
-
-
-def table_of(curve: Characteristic, held: bool) -> Array:
-    """The rows of a table, continued straight, or held beyond its ends."""
-    cubic = PchipInterpolator(curve.at, [value.number for value in curve.values])
-    ends = [0.0 if held else float(cubic.derivative()(curve.at[k])) for k in (0, -1)]
-    low, *_, high = (value.number for value in curve.values)
-    rows = [[-np.inf, 0.0, 0.0, ends[0], low]]
-    rows += [[at, *piece] for at, piece in zip(curve.at, cubic.c.T.tolist(), strict=False)]
-    return np.array([*rows, [curve.at[-1], 0.0, 0.0, ends[1], high]])
+    return start

@@ -1,23 +1,32 @@
-"""General integrators on hand-written equations: what they need to be as exact as dashpot, on one lane."""
+"""General integrators on hand-written equations: what they need to be as exact as dashpot, on one lane.
+
+An integrator is given equations, times and how exact it is to be, and answers a function that computes the states
+(n, samples): only that function is timed, not what is compiled or built before.
+"""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cache, partial
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
-from axle import Equations
+from laws import Equations, Tongue, casadi_tongue, numba_tongue
 from numba import carray, cfunc, njit
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 Array = NDArray[np.float64]
-Integrator = Callable[[Equations, Array, float], Array]
+Work = Callable[[], Array]
+Integrator = Callable[[Equations, Array, float], Work]
 
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 PARTS = (1, 2, 4, 8, 16, 32)
+NUMBALSODA, SUNDIALS = "numbalsoda LSODA", "CVODE (scikit-sundae), jitted rates"
+LIBRARIES = {"numbalsoda": "numbalsoda", "sksundae": "scikit-sundae", "casadi": "casadi"}
 
 
 @dataclass(frozen=True)
@@ -30,65 +39,97 @@ class Entry:
     error: float
 
 
-def peers(equations: Equations, truth: Array, times: Array, goal: float) -> Iterator[Entry]:
-    """Every integrator that is there, as loose as it may be to reach ``goal`` in N against ``truth`` (samples, n)."""
-    yield _loosest("Runge-Kutta 4, numba", "steps a sample", PARTS, runge_kutta_answer, equations, truth, times, goal)
-    for name, integrator in integrators().items():
+def peers(write: Callable[[Tongue], Equations], truth: Array, times: Array, goal: float) -> Iterator[Entry]:
+    """Every integrator that is there, as loose as it may be to reach ``goal`` in N against ``truth`` (samples, n).
+
+    ``write`` writes the equations in a tongue.
+    """
+    equations = write(numba_tongue())
+    yield _loosest("Runge-Kutta 4, numba", "steps a sample", PARTS, runge_kutta, equations, truth, times, goal)
+    for name, integrator in integrators(write).items():
         yield _loosest(name, "rtol", TOLERANCES, integrator, equations, truth, times, goal)
 
 
-def integrators() -> dict[str, Integrator]:
+def missing() -> list[str]:
+    """The libraries that would take part if they were installed."""
+    return [name for module, name in LIBRARIES.items() if not find_spec(module)]
+
+
+def integrators(write: Callable[[Tongue], Equations]) -> dict[str, Integrator]:
     """The adaptive ones that are installed."""
-    found = {"solve_ivp LSODA, jitted rates": lsoda, "solve_ivp RK45, jitted rates": rk45}
+    found: dict[str, Integrator] = {"solve_ivp LSODA, jitted rates": lsoda, "solve_ivp RK45, jitted rates": rk45}
     if find_spec("numbalsoda"):
-        found["numbalsoda LSODA"] = numbalsoda
+        found[NUMBALSODA] = numbalsoda
     if find_spec("sksundae"):
-        found["CVODE (scikit-sundae), jitted rates"] = cvode
+        found[SUNDIALS] = cvode
+    if find_spec("casadi"):
+        found["CasADi CVODES"] = partial(casadi_cvodes, write(casadi_tongue()))
     return found
 
 
-def lsoda(equations: Equations, times: Array, rtol: float) -> Array:
-    """States (n, samples)."""
+def lsoda(equations: Equations, times: Array, rtol: float) -> Work:
+    """The one of scipy."""
     return _solve_ivp(equations, times, rtol, "LSODA")
 
 
-def rk45(equations: Equations, times: Array, rtol: float) -> Array:
-    """States (n, samples)."""
+def rk45(equations: Equations, times: Array, rtol: float) -> Work:
+    """The one of scipy."""
     return _solve_ivp(equations, times, rtol, "RK45")
 
 
-def _solve_ivp(equations: Equations, times: Array, rtol: float, method: str) -> Array:
-    rate = _answering(equations.rate)
-    span = (times[0], times[-1])
-    return solve_ivp(rate, span, equations.start, method, times, rtol=rtol, atol=_small(equations, rtol)).y
+def _solve_ivp(equations: Equations, times: Array, rtol: float, method: str) -> Work:
+    rate, span, small = answering(equations.rate), (times[0], times[-1]), _small(equations, rtol)
+    return lambda: solve_ivp(rate, span, equations.start, method, times, rtol=rtol, atol=small).y
 
 
-def numbalsoda(equations: Equations, times: Array, rtol: float) -> Array:
-    """States (n, samples); one absolute tolerance for all states."""
+def numbalsoda(equations: Equations, times: Array, rtol: float) -> Work:
+    """One absolute tolerance for all states."""
     from numbalsoda import lsoda as solve
-    from numbalsoda import lsoda_sig
 
-    rate, size = equations.rate, equations.start.size
+    place, small = _address(equations.rate, equations.start.size), float(min(_small(equations, rtol)))
+
+    def work() -> Array:
+        states, good = solve(place.address, equations.start, times, rtol=rtol, atol=small)
+        return states.T if good else np.full((equations.start.size, times.size), np.nan)
+
+    return work
+
+
+@cache
+def _address(rate: Callable[..., None], size: int) -> Any:
+    from numbalsoda import lsoda_sig
 
     @cfunc(lsoda_sig)
     def right(t, y, dy, _):  # noqa: ANN001, ANN202
         rate(t, carray(y, (size,)), carray(dy, (size,)))
 
-    states, good = solve(right.address, equations.start, times, rtol=rtol, atol=float(min(_small(equations, rtol))))
-    return states.T if good else np.full((size, times.size), np.nan)
+    return right
 
 
-def cvode(equations: Equations, times: Array, rtol: float) -> Array:
-    """States (n, samples)."""
+def cvode(equations: Equations, times: Array, rtol: float) -> Work:
+    """The one of SUNDIALS, called from Python."""
     from sksundae.cvode import CVODE
 
     solver = CVODE(equations.rate, method="BDF", rtol=rtol, atol=_small(equations, rtol), max_num_steps=1_000_000)
-    return np.asarray(solver.solve(times, equations.start).y).T
+    return lambda: np.asarray(solver.solve(times, equations.start).y).T
 
 
-def runge_kutta_answer(equations: Equations, times: Array, parts: int) -> Array:
-    """States (n, samples), by classical steps, ``parts`` to a sample."""
-    return march(equations.rate, equations.start, times, int(parts)).T
+def casadi_cvodes(symbolic: Equations, equations: Equations, times: Array, rtol: float) -> Work:
+    """The one of SUNDIALS on expressions of CasADi; one absolute tolerance for all states."""
+    import casadi
+
+    t, y = casadi.SX.sym("t"), casadi.SX.sym("y", equations.start.size)
+    dy = [casadi.SX(0.0)] * equations.start.size
+    symbolic.rate(t, y, dy)
+    options = {"reltol": rtol, "abstol": float(min(_small(equations, rtol))), "max_num_steps": 10_000_000}
+    solver = casadi.integrator("solver", "cvodes", {"x": y, "t": t, "ode": casadi.vertcat(*dy)}, float(times[0]),
+                               times.tolist(), options)  # fmt: skip
+    return lambda: np.array(solver(x0=equations.start)["xf"])
+
+
+def runge_kutta(equations: Equations, times: Array, parts: int) -> Work:
+    """Classical steps, ``parts`` to a sample."""
+    return lambda: march(equations.rate, equations.start, times, int(parts)).T
 
 
 @njit(error_model="numpy")
@@ -118,10 +159,11 @@ def forces(equations: Equations, times: Array, states: Array) -> Array:
 
 def _loosest(who: str, what: str, settings: tuple, integrator: Integrator, equations: Equations, truth: Array,
              times: Array, goal: float) -> Entry:  # fmt: skip
-    integrator(equations, times[:5], settings[0])
+    integrator(equations, times[:5], settings[0])()
     for setting in settings:
+        work = integrator(equations, times, setting)
         began = time.thread_time()
-        states = integrator(equations, times, setting)
+        states = work()
         spent = time.thread_time() - began
         whole = states.shape[1] == times.size
         error = float(np.sqrt(np.mean((forces(equations, times, states) - truth) ** 2))) if whole else np.inf
@@ -130,14 +172,17 @@ def _loosest(who: str, what: str, settings: tuple, integrator: Integrator, equat
     return Entry(who, f"{what} {setting:g}", 1e9 * spent / times.size, error)
 
 
-def _answering(rate: Callable[..., None]) -> Callable[[float, Array], Array]:
+@cache
+def answering(rate: Callable[..., None]) -> Callable[[float, Array], Array]:
+    """The rates as an answer."""
+
     @njit(error_model="numpy")
-    def answering(t, y):  # noqa: ANN001, ANN202
+    def answer(t, y):  # noqa: ANN001, ANN202
         dy = np.empty_like(y)
         rate(t, y, dy)
         return dy
 
-    return answering
+    return answer
 
 
 def _small(equations: Equations, rtol: float) -> Array:

@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 
@@ -21,9 +22,10 @@ sys.path.insert(0, str(Path(__file__).parent))
 import numpy as np
 from axle import AXLE, DT, AxleTask, axle, equations, excitation
 from by_hand import ByHand, compiler
+from laws import numba_tongue
 from measuring import Contestant, time_together
 from ordinary import euler_force
-from peers import Entry, forces, peers, runge_kutta_answer
+from peers import Entry, forces, peers, runge_kutta
 from starting import REGISTERS, instructions, start_times, vectors
 from tire import tire_equations
 from truth import tire_force
@@ -108,8 +110,8 @@ def tire_error(sweeps: tuple[Sweep, ...]) -> float:
 
 def axle_error(seconds: float) -> tuple[float, float]:
     """The error (rms, N) of the axle and of its truth: the same equations with very short Runge-Kutta steps."""
-    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds)
-    fine, finer = (forces(hand, times, runge_kutta_answer(hand, times, parts)) for parts in (32, EXACT_PARTS))
+    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds, numba_tongue())
+    fine, finer = (forces(hand, times, runge_kutta(hand, times, parts)()) for parts in (32, EXACT_PARTS))
     found = axle().solve(axle().prepare(excitation(seconds)))
     return rms(found.force[0].T - finer), rms(fine - finer)
 
@@ -120,10 +122,13 @@ def peer_rows(seconds: float) -> dict[str, list[Row]]:
     numbers = dict(zip(network().paths, network().start.tolist(), strict=True))
     exact = tire_force(sweep, numbers)
     goal = rms(network().simulate(network().prepare(sweep.drive())) - exact)
-    tire = [_row(entry) for entry in peers(tire_equations(sweep), exact[:, None], sweep.time, goal)]
-    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds)
-    truth = forces(hand, times, runge_kutta_answer(hand, times, EXACT_PARTS))
-    return {"W1": tire, "W2": [_row(entry) for entry in peers(hand, truth, times, axle_error(seconds)[0])]}
+    tire = [_row(entry) for entry in peers(partial(tire_equations, sweep), exact[:, None], sweep.time, goal)]
+    times, hand = DT * np.arange(round(seconds / DT)), equations(seconds, numba_tongue())
+    truth = forces(hand, times, runge_kutta(hand, times, EXACT_PARTS)())
+    return {
+        "W1": tire,
+        "W2": [_row(entry) for entry in peers(partial(equations, seconds), truth, times, axle_error(seconds)[0])],
+    }
 
 
 def _row(entry: Entry) -> Row:

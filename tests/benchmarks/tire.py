@@ -1,17 +1,17 @@
-"""The equations of W1 as somebody would write them for an integrator: by hand, compiled by numba."""
+"""The equations of W1 as somebody would write them for an integrator, by hand."""
 
 from __future__ import annotations
 
 import numpy as np
-from axle import Equations, dahl, prandtl, read, table_of
-from numba import njit
+from laws import Equations, Tongue, table_of
 from workload import FASTEST, SLOWEST, Sweep, network
 
 HELD = "damping.scale"
 
 
-def tire_equations(sweep: Sweep) -> Equations:
+def tire_equations(sweep: Sweep, tongue: Tongue) -> Equations:
     """Tire model 5 on a sweep, with the numbers of its file."""
+    read, dahl, prandtl = tongue.read, tongue.dahl, tongue.prandtl
     compiled = network()
     numbers = dict(zip(compiled.paths, compiled.start.tolist(), strict=True))
     spring, held = (table_of(compiled.curves[path], path == HELD) for path in ("stiffness.stiffness", HELD))
@@ -23,12 +23,12 @@ def tire_equations(sweep: Sweep) -> Equations:
     damping, amplitude, preload = numbers["damping.damping"], sweep.amplitude, sweep.preload
     faster = (FASTEST - SLOWEST) / sweep.seconds
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def motion(t):  # noqa: ANN001, ANN202
         phase, turning = 2.0 * np.pi * (SLOWEST + 0.5 * faster * t) * t, 2.0 * np.pi * (SLOWEST + faster * t)
         return preload + amplitude * np.sin(phase), amplitude * np.cos(phase) * turning
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def rate(t, y, dy):  # noqa: ANN001, ANN202
         v = motion(t)[1]
         for k in range(3):
@@ -36,9 +36,12 @@ def tire_equations(sweep: Sweep) -> Equations:
             dy[3 + k] = prandtl(y[3 + k], v, laws[3 + k])
         dy[6] = dahl(y[6], v, laws[6])
 
-    @njit(error_model="numpy")
+    @tongue.compiled
     def force(t, y):  # noqa: ANN001, ANN202
         x, v = motion(t)
-        return (read(spring, x) + damping * read(held, x) * v + y.sum(),)
+        total = read(spring, x) + damping * read(held, x) * v
+        for k in range(7):
+            total += y[k]
+        return (total,)
 
     return Equations(rate, force, np.zeros(7), np.ones(7))
