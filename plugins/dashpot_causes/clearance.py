@@ -51,17 +51,8 @@ class _Lost:
 
     def __call__(self, view: View, run: str) -> Array:
         x = view.displacement(run)
-        return np.array([view.moved(run, _behind_play(x, gap) - x) - view.force(run) for gap in self.gaps])
+        behind = view.respond(run, "backlash", [{"stiffness": 1.0, "gap": gap} for gap in self.gaps])
+        return np.array([view.moved(run, follower - x) - view.force(run) for follower in behind])
 
     def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
         return {"gap": (self.gaps[int(np.argmax(strengths))], "m"), "share": (max(strengths), "1")}
-
-
-def _behind_play(x: Array, gap: float) -> Array:
-    """The follower (n,) of a path behind play of ``gap`` to either side."""
-    found = np.empty(x.size)
-    now = float(x[0])
-    for number, place in enumerate(x.tolist()):
-        now = min(max(now, place - gap), place + gap)
-        found[number] = now
-    return found

@@ -9,9 +9,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.expr.interpret import Recipe
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.structure import recipe_of
 from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic, NetworkSpec
 
@@ -42,15 +42,11 @@ class Compiled:
         """How the load cells see each lane."""
         return read_observation(self.paths, np.atleast_2d(values))
 
-    @cached_property
-    def _recipe(self) -> Recipe:
-        return Recipe(self.program.constants)
-
     def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
         # a workspace (rows, lanes) with the constants of the lanes in its first rows
         space = np.zeros((rows, lanes.shape[0]))
         known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
-        for row, number in zip(space, self._recipe(known), strict=False):
+        for row, number in zip(space, recipe_of(self.program)(known), strict=False):
             row[:] = number
         return space
 

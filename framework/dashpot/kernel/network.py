@@ -20,10 +20,10 @@ from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.layout import score_row
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.settings import with_settings
-from dashpot.kernel.source import ARGUMENTS, print_source
+from dashpot.kernel.source import ARGUMENTS
+from dashpot.kernel.structure import program_of, source_of
 from dashpot.kernel.system import CompiledSystem, compile_system
-from dashpot.kernel.tiers import sort_tiers
-from dashpot.kernel.trace import refuse_missing_numbers, trace_network
+from dashpot.kernel.trace import refuse_missing_numbers
 from dashpot.model.network import END, Characteristic, NetworkSpec
 from dashpot.model.topology import topology_of
 
@@ -46,7 +46,7 @@ class CompiledNetwork(Compiled):
         """The compiled code for groups of so many vectors of lanes, or for a single lane."""
         group = vectors, alone
         if group not in self._natives:
-            self._natives[group] = load_native(print_source(self.program, *group), len(ARGUMENTS))
+            self._natives[group] = load_native(source_of(self.program, *group), len(ARGUMENTS))
         return self._natives[group]
 
     @cached_property
@@ -102,6 +102,18 @@ class CompiledNetwork(Compiled):
         return self.native(vectors, alone), vectors * LANES
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
+        # a fit asks for the same lanes run by run; runs of one network may be in several threads
+        asked = dt, width, lanes.tobytes()
+        last = self._last[0]
+        if last is None or last[0] != asked:
+            self._last[0] = last = asked, self._fresh_blocks(dt, lanes, width)
+        return last[1]
+
+    @cached_property
+    def _last(self) -> list[tuple[Hashable, list[Block]] | None]:
+        return [None]
+
+    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}
         workspace = self._fill(1 + score_row(self.program), dt, lanes)
         return list(blocks_of(self._tabulate(curves, lanes), workspace, width))
@@ -120,8 +132,7 @@ def compile_network(spec: NetworkSpec) -> CompiledNetwork | CompiledSystem:
     topology = topology_of(spec)
     if not topology.parallel:
         return compile_system(spec, topology)
-    program = sort_tiers(trace_network(spec))
-    return CompiledNetwork(spec, program)
+    return CompiledNetwork(spec, program_of(spec))
 
 
 def _arguments(run: Rows, block: Block, workspace: Array) -> tuple[Any, ...]:

@@ -36,7 +36,7 @@ class Lookup:
     argument: Node
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Program:
     """A network ready to be printed: what is hoisted, and what the passes over the lanes compute.
 
