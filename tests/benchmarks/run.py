@@ -6,7 +6,6 @@ Machines are shared and noisy: medians of processor time over several rounds, an
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import platform
 import sys
@@ -22,24 +21,34 @@ sys.path.insert(0, str(Path(__file__).parent))
 import numpy as np
 from axle import AXLE, DT, AxleTask, axle, equations, excitation
 from by_hand import ByHand, compiler
+from counting import instructions, vectors
+from fits import problem
 from laws import numba_tongue
 from measuring import Contestant, time_together
 from ordinary import euler_force
-from peers import Entry, forces, peers, runge_kutta
-from starting import REGISTERS, instructions, start_times, vectors
+from page import table, write
+from peers import Entry, forces, missing, peers, runge_kutta
+from starting import start_times
 from tire import tire_equations
 from truth import tire_force
 from workload import LANES, NETWORK, SWEEPS, Sweep, Task, lanes, network, network_of
+
+from dashpot.contract.chain import make_optimizer
+from dashpot.contract.optimizer import Space
+from dashpot.contract.registry import load_registry
+from dashpot.data.drive import Drive
+from dashpot.fit.search import run_search
+from dashpot.kernel.network import CompiledNetwork
+from dashpot.kernel.parts import take_apart
+from dashpot.kernel.source import print_source
 
 LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
 ELEMENTS = {"maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms", "prandtl": "stiffness: 9 N/mm, limit: 20 N",
             "dahl": "stiffness: 60 N/mm, limit: 15 N"}  # fmt: skip
 COUNTS = (1, 2, 4, 8, 16)
 HARDEST = 8  # 5 mm around 10 mm
-RESULTS, PAGE = Path(__file__).parent / "results", Path(__file__).parent / "README.md"
-BEGIN, END = "<!-- written: results -->", "<!-- end: results -->"
 EXACT_PARTS = 64
-LIBRARIES = ("dashpot", "numpy", "llvmlite", "numba", "scipy", "numbalsoda", "scikit-sundae")
+LIBRARIES = ("dashpot", "numpy", "llvmlite", "numba", "scipy", "numbalsoda", "scikit-sundae", "casadi")
 
 Row = dict[str, str | float]
 
@@ -140,20 +149,60 @@ def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def measured(quick: bool, rounds: int, count: bool) -> dict:
+def sum_rows(sweep: Sweep, rounds: int) -> Iterator[Row]:
+    """Every shipped network beside the sum of its branches, each as a network of its own: ns per lane and sample."""
+    drives, field, recipes = (sweep.drive(),), {}, {}
+    for name in LADDER:
+        members = take_apart(network(name).spec).members
+        recipes[name] = [(print_source(part.network.program, 2), len(part.slots)) for part in members]
+        for (text, _), part in zip(recipes[name], members, strict=True):
+            field.setdefault(text, _contestant(text, part.network, drives))
+        field[name] = _contestant(name, network(name), drives)
+    found = time_together(list(field.values()), rounds)
+    for name, parts in recipes.items():
+        total = sum(count * found[text].cpu for text, count in parts)
+        yield {"who": name, "ns": found[name].cpu, "sum_ns": total, "ratio": found[name].cpu / total}
+
+
+def _contestant(name: str, compiled: CompiledNetwork, drives: tuple[Drive, ...]) -> Contestant:
+    task = Task.of(compiled, drives)
+    return Contestant(name, task.score, task.units)
+
+
+def swarm_seconds(seconds: float, iterations: int, jobs: int) -> float:
+    """Seconds by the clock of so many iterations of a swarm of 96 on the twelve sweeps of W1."""
+    posed = problem(1, seconds, jobs)
+    optimizer = make_optimizer("pso", load_registry().optimizers, {"iterations": iterations, "stall": iterations})
+    space = Space(posed.coordinates.paths, np.full(len(posed.coordinates.paths), 0.5))
+
+    def losses(cube: np.ndarray) -> np.ndarray:
+        return posed.objective.losses(posed.coordinates.to_values(posed.coordinates.from_cube(cube)))
+
+    began = time.perf_counter()
+    found = run_search(optimizer, losses, losses, space, 1)
+    spent = time.perf_counter() - began
+    assert found.evaluations == iterations * LANES
+    return spent
+
+
+def measured(quick: bool, rounds: int) -> dict:
     """All of it."""
-    seconds, short = (3.0, 2.0) if quick else (30.0, 5.0)
+    seconds, short, iterations = (3.0, 2.0, 5) if quick else (30.0, 5.0, 200)
     sweeps = tuple(replace(sweep, seconds=seconds) for sweep in (SWEEPS[::5] if quick else SWEEPS))
-    others = peer_rows(short)
+    before = os.getloadavg()[0]
     content = {
         "machine": {"processor": processor(), "cores": os.cpu_count()}, "date": time.strftime("%Y-%m-%d"),
-        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
+        "versions": {name: found for name in LIBRARIES if (found := installed(name))}, "missing": missing(),
         "seconds": seconds, "sweeps": len(sweeps), "rounds": rounds, "peer_seconds": short,
-        "W1": [*tire_rows(sweeps, rounds), *others["W1"]], "ladder": list(ladder_rows(sweeps[-1], rounds)),
-        "W2": [*axle_rows(seconds, rounds), *others["W2"]],
+        "W1": list(tire_rows(sweeps, rounds)), "W2": list(axle_rows(seconds, rounds)),
+        "swarm": {"iterations": iterations, "seconds": swarm_seconds(seconds, iterations, 2)},
+        "ladder": list(ladder_rows(sweeps[-1], rounds)), "sums": list(sum_rows(sweeps[-1], rounds)),
         "start": start_times(1 if quick else rounds), "vectors": vectors(),
+        "instructions": {} if quick else instructions(),
     }  # fmt: skip
-    return {**content, "instructions": instructions()} if count else content
+    for work, rows in peer_rows(short).items():
+        content[work] += rows
+    return content | {"load": [before, os.getloadavg()[0]]}
 
 
 def installed(name: str) -> str | None:
@@ -173,52 +222,14 @@ def processor() -> str:
     return ", ".join(filter(None, [named or platform.machine(), wide]))
 
 
-def table(content: dict) -> str:
-    """The results as Markdown."""
-    versions = ", ".join(f"{name} {found}" for name, found in content["versions"].items())
-    lines = [f"{content['date']}, {content['machine']['processor']}, {content['machine']['cores']} cores; {versions}. "
-             f"W1: {content['sweeps']} sweeps of {content['seconds']:g} s, W2: one. Medians of {content['rounds']} "
-             f"rounds; integrators on {content['peer_seconds']:g} s of one run."]  # fmt: skip
-    for work, first in (("W1", f"{NETWORK}, {LANES} lanes"), ("W2", f"{AXLE}, 64 lanes")):
-        base = next(row["ns"] for row in content[work] if row["who"] == first)
-        lines += ["", f"| {work} | ns per lane and sample | ratio | error rms in N |", "| --- | ---: | ---: | ---: |"]
-        lines += [
-            f"| {row['who']} | {row['ns']:.3g} | {row['ns'] / base:.3g} | {_error(row)} |" for row in content[work]
-        ]
-    lines += ["", "| growth | ns per lane and sample |", "| --- | ---: |"]
-    lines += [f"| {row['who']} | {row['ns']:.3g} |" for row in content["ladder"]]
-    lines += ["", f"| instructions that use | {' | '.join(REGISTERS)} |", "| --- | ---: | ---: | ---: |"]
-    lines += [f"| {who} | {' | '.join(map(str, found.values()))} |" for who, found in content["vectors"].items()]
-    lines += ["", "| start | s |", "| --- | ---: |"]
-    lines += [f"| {what} | {seconds:.3g} |" for what, seconds in content["start"].items()]
-    if content.get("instructions"):
-        lines += ["", "| instructions per lane and sample, AVX2 | |", "| --- | ---: |"]
-        lines += [f"| {name} | {number:.0f} |" for name, number in content["instructions"].items()]
-    return "\n".join(lines)
-
-
-def _error(row: Row) -> str:
-    return f"{row['error']:.2g}" if "error" in row else ""
-
-
-def write(content: dict) -> None:
-    """Keep the results of this version, and the table in the README beside this file."""
-    RESULTS.mkdir(exist_ok=True)
-    text = json.dumps(content, indent=1) + "\n"
-    (RESULTS / f"{content['versions']['dashpot']}.json").write_text(text, encoding="utf-8")
-    before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-    PAGE.write_text(f"{before}{BEGIN}\n\n{table(content)}\n\n{END}{rest.partition(END)[2]}", encoding="utf-8")
-
-
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--quick", action="store_true", help="short sweeps, few of them")
-    parser.add_argument("--instructions", action="store_true", help="count instructions with valgrind")
+    parser.add_argument("--quick", action="store_true", help="short sweeps, few of them, no instructions counted")
     parser.add_argument("--write", action="store_true", help="keep the results and the table")
     options = parser.parse_args()
-    content = measured(options.quick, options.rounds, options.instructions)
+    content = measured(options.quick, options.rounds)
     print(table(content))
     if options.write:
         write(content)
