@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 AMPLITUDES = (1e-3, 2e-3, 5e-3)
 PRELOADS = (12e-3, 17e-3, 22e-3)
+STOP = 25.0
+HOP, HOP_STOP = 10e-3, 15.0  # as far as a hopping wheel deflects its tire, and as fast as a hydropulser can do it
 ADDED_MASSES = (0.0, 5.0, 10.0, 15.0)
 TIRE_DEPTH, TIRE_LOOP, SLOW_LOOP = 30e-3, 60.0, 40.0
 HEAVE, ROLL, AXLE_AMPLITUDE = 40e-3, 20e-3, 3e-3
@@ -95,11 +97,12 @@ def _tire_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int) -
     yield run("tire_slow", car_path.triangle(0.0, TIRE_DEPTH, TIRE_LOOP), 200, "kind: quasi_static")
     plans = [(amplitude, preload, "") for amplitude, preload in product(AMPLITUDES, PRELOADS)]
     again = [(amplitude, PRELOADS[1], "_b") for amplitude in AMPLITUDES]
-    for amplitude, preload, mark in plans + again:
-        first = f"tire_a{amplitude * 1e3:g}_p{preload * 1e3:g}"
-        settings = f"{{amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm, start: 1 Hz, stop: 25 Hz}}"
+    for amplitude, preload, mark in [*plans, *again, (HOP, PRELOADS[1], "")]:
+        first, stop = f"tire_a{amplitude * 1e3:g}_p{preload * 1e3:g}", HOP_STOP if amplitude == HOP else STOP
+        settings = (f"{{amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm, start: 1 Hz, "
+                    f"stop: {stop:g} Hz}}")  # fmt: skip
         about = f"kind: sweep\n    settings: {settings}" + (f"\n    repeats: {first}" if mark else "")
-        yield run(first + mark, preload + car_path.sweep(amplitude, 1.0, 25.0, TIRE_SWEEP), dynamic, about)
+        yield run(first + mark, preload + car_path.sweep(amplitude, 1.0, stop, TIRE_SWEEP), dynamic, about)
 
 
 def _axle_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int, duration: float) -> Iterator[str]:

@@ -39,9 +39,9 @@ def mass_warnings(mass: Json) -> Iterator[str]:
         percent = PERCENT / part["share"] * part["moved"]
         way = "large" if percent < 0.0 else "small"
         allowed = f"{100.0 * part['share']:.2g} % for the force of {part['branch']}"
-        yield (f"{mass['node']}: the interval allows {allowed}, what {part['model']} erred by itself or load cells "
-               "differ by. Were it 1 % stiffer here than where it was identified, this mass would be "
-               f"{abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
+        yield (f"{mass['node']}: the interval allows {allowed}, what {part['model']} erred by itself, or the whole "
+               "errs, or load cells differ by. Were it 1 % stiffer here than where it was identified, this mass would "
+               f"be {abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
     for number in mass["owed_to_known"]:
         low, high = (pretty(end, number["unit"], 3) for end in number["interval"])
         way = "larger" if number["moved"] > 0.0 else "smaller"

@@ -102,7 +102,7 @@ def test_paths_begin_and_end_smoothly():
 def test_the_dataset_reads_back_with_its_noise(folder):
     registry = load_registry()
     data = read_dataset(folder, {word: reader() for word, reader in registry.formats.items()})
-    assert not data.problems and len(data.runs) == 20
+    assert not data.problems and len(data.runs) == 21
     one, two = (data.run(name).force for name in ("tire_a1_p17", "tire_a1_p17_b"))
     assert np.std(one - two) / np.sqrt(2) == pytest.approx(5.0, rel=0.05)
     masses = [run.settings["added_mass"] for run in data.runs if "added_mass" in run.settings]

@@ -12,7 +12,7 @@ from dashpot.fit.api import Setting
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.known import KnownNumber, residual_shift
 from dashpot.fit.objective import Objective
-from dashpot.fit.result import FitResult
+from dashpot.fit.result import Errors
 from dashpot.model.network import NetworkSpec
 from dashpot.text.quantity import force_dimension
 
@@ -23,7 +23,7 @@ LEAST_SHARE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Allowance:
-    """The relative standard error ``share`` of the force of a ``branch``, taken from the misfit of its ``model``.
+    """The relative standard error ``share`` of the force of a ``branch``, identified as a ``model``.
 
     ``shift`` (samples,) is what one standard error does to the residual of the whole.
     """
@@ -75,15 +75,19 @@ def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
             if slot.path.startswith(f"{branch}.") and force_dimension(slot.value.unit) == 1]  # fmt: skip
 
 
-def force_error(fit: FitResult, setting: Setting) -> float:
-    """The misfit of a model above the noise, as a share of how much the forces vary in its training runs.
+def force_error(*judged: tuple[Errors, Setting]) -> float:
+    """The share by which the force of a part may be wrong: the largest misfit above noise, over how much forces vary.
 
-    It is never below what load cells disagree by from one rig to another.
+    Judged are the part where it was identified and the whole, whose misfit may as well be one of the part: it is moved
+    otherwise there. It is never below what load cells disagree by from one rig to another.
     """
-    forces = [run.force[run.first :] for run in setting.train]
-    swing = np.sqrt(np.mean([np.var(force) for force in forces]))
-    misfit = max(fit.errors.train**2 - (setting.floor.value or 0.0) ** 2, 0.0)
-    return max(float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0, LEAST_SHARE)
+    return max(LEAST_SHARE, *(_misfit_share(errors, setting) for errors, setting in judged))
+
+
+def _misfit_share(errors: Errors, setting: Setting) -> float:
+    swing = np.sqrt(np.mean([np.var(run.force[run.first :]) for run in setting.train]))
+    misfit = max(errors.train**2 - (setting.floor.value or 0.0) ** 2, 0.0)
+    return float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0
 
 
 def effect(coordinates: Coordinates, moved: Array) -> dict[str, float]:

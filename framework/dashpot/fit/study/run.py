@@ -166,12 +166,14 @@ class _Conduct:
     ) -> ModelResult:
         train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
-        allowed = [allowance(objective, branch, part.fit.declared.name, force_error(part.fit, part.setting))
+        errors = measure_errors(spec, self.setting, self.jobs)
+        shares = {branch: force_error((part.fit.errors, part.setting), (errors, self.setting))
+                  for branch, part in parts.items()}  # fmt: skip
+        allowed = [allowance(objective, branch, part.fit.declared.name, shares[branch])
                    for branch, part in parts.items()]  # fmt: skip
         known_before = known_numbers(objective)
         shifts = [each.shift for each in (*allowed, *known_before)]
         known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
-        errors = measure_errors(spec, self.setting, self.jobs)
         fit = FitResult(
             declared=plan.network,
             fitted=with_intervals(spec, dict(zip(coordinates.paths, known.intervals, strict=True))),

@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 from unit.fit.bench import STIFFNESS, ready, runs
 
-from dashpot.fit.study.allowance import allowance, effect, force_slots
+from dashpot.data.noise import NoiseFloor
+from dashpot.fit.api import Setting
+from dashpot.fit.holdout import Split
+from dashpot.fit.result import Errors
+from dashpot.fit.study.allowance import LEAST_SHARE, allowance, effect, force_error, force_slots
 from dashpot.fit.uncertainty import assess_uncertainty
 
 PART = 8e4
@@ -55,3 +59,21 @@ def test_all_that_carries_force_scales_and_nothing_else():
     )
     names = [slot.path for slot in spec.slots()]
     assert [names[number] for number in force_slots(spec, "part")] == ["part.stiffness"]
+
+
+def judged(train: float, floor: float) -> tuple[Errors, Setting]:
+    """Errors on the two sines, whose forces vary by ``STIFFNESS`` times the deviation of their motion."""
+    scored = {run.name: run for run in runs(springs)}
+    setting = Setting(None, scored, Split(tuple(scored), (), ""), NoiseFloor(floor, "repeats"))
+    return Errors(train, None, train, {}), setting
+
+
+def test_a_part_may_be_wrong_by_what_it_or_the_whole_errs_above_the_noise():
+    swing = np.sqrt(np.mean([np.var(run.force[run.first :]) for run in runs(springs)]))
+    good, bad = judged(5.0, 5.0), judged(13.0, 5.0)
+    for pair in ((good, bad), (bad, good)):
+        assert force_error(*pair) == pytest.approx(12.0 / swing, rel=1e-12)
+
+
+def test_load_cells_differ_where_nothing_errs():
+    assert force_error(judged(5.0, 5.0), judged(4.0, 5.0)) == LEAST_SHARE
