@@ -25,8 +25,10 @@ from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Space
 from dashpot.contract.registry import load_registry
 from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.dictionary import dictionary_start
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
+from dashpot.fit.refine import DAMPINGS, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import run_search
 from dashpot.fit.starts import refine_from_starts
@@ -34,8 +36,8 @@ from dashpot.kernel.network import compile_network
 
 Array = NDArray[np.float64]
 
-NOISE, NEAR_ENOUGH, OWN = 10.0, 1.01, "own"
-METHODS = (OWN, "multistart", "least_squares", "pso")
+NOISE, NEAR_ENOUGH = 10.0, 1.01
+OTHERS = ("multistart", "least_squares", "pso")
 LARGEST = 200 * LANES
 
 
@@ -73,21 +75,35 @@ def problem(seed: int, seconds: float, jobs: int) -> Problem:
     return Problem(objective, search_coordinates(spec, lambda slot: "[" not in slot.path), NEAR_ENOUGH * floor)
 
 
-def search(method: str, posed: Problem, seed: int) -> Found:
+Method = Callable[[Problem, int], tuple[list[tuple[int, float]], float]]
+
+
+def search(method: Method, posed: Problem, seed: int) -> Found:
     """A method on a problem, until the goal or the budget of a whole swarm's 200 steps is reached."""
     began = time.perf_counter()
-    history, loss = (own if method == OWN else other(method))(posed, seed)
+    history, loss = method(posed, seed)
     reached = next((spent for spent, best in history if best <= posed.goal), None)
     return Found(loss, reached, time.perf_counter() - began)
 
 
 def own(posed: Problem, seed: int) -> tuple[list[tuple[int, float]], float]:
-    """The method of ``dashpot fit``."""
+    """The method of ``dashpot fit``, from many starts, each to its end."""
     best = refine_from_starts(posed.objective, posed.coordinates, seed, lambda done, loss: None)
     return list(best.history), best.refined.loss
 
 
-def other(method: str) -> Callable[[Problem, int], tuple[list[tuple[int, float]], float]]:
+def dictionary(posed: Problem, seed: int) -> tuple[list[tuple[int, float]], float]:
+    """One start, from a dictionary of branches, and what two swarms allow."""
+    start = dictionary_start(posed.objective, posed.coordinates)
+    assert start is not None
+    losses: list[float] = []
+    found = refine(posed.objective, posed.coordinates, start.point, watch=losses.append,
+                   budget=2 * LANES - start.evaluations)  # fmt: skip
+    step = 1 + start.point.size + len(DAMPINGS)
+    return [(start.evaluations + 1 + step * number, loss) for number, loss in enumerate(losses, 1)], found.loss
+
+
+def other(method: str) -> Method:
     """An optimizer by its word, with its own options."""
 
     def run(posed: Problem, seed: int) -> tuple[list[tuple[int, float]], float]:
@@ -110,13 +126,14 @@ def table(seeds: int, seconds: float, jobs: int) -> Iterator[str]:
     yield f"| method | reached | swarms of {LANES}, median | s, median | error over noise, worst |"
     yield "| --- | ---: | ---: | ---: | ---: |"
     posed = [problem(seed, seconds, jobs) for seed in range(1, seeds + 1)]
-    for method in METHODS:
+    methods = {"dictionary": dictionary, "own": own, **{word: other(word) for word in OTHERS}}
+    for word, method in methods.items():
         found = [search(method, each, seed) for seed, each in enumerate(posed, 1)]
         hits = [each.evaluations / LANES for each in found if each.evaluations is not None]
         worst = max(each.loss / one.goal * NEAR_ENOUGH for each, one in zip(found, posed, strict=True))
         swarms = f"{median(hits):.1f}" if hits else ""
         took = median(each.seconds for each in found)
-        yield f"| {method} | {len(hits)} of {seeds} | {swarms} | {took:.1f} | {worst:.4f} |"
+        yield f"| {word} | {len(hits)} of {seeds} | {swarms} | {took:.1f} | {worst:.4f} |"
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Refining from several starts: a screening block, then the best of it."""
+"""Refining from several starts: a screening block with a start from a dictionary of branches, then the best of it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.dictionary import dictionary_start
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Refined, refine
 
@@ -37,7 +38,9 @@ def refine_from_starts(
     watch: Callable[[float, float], None],
     budget: int | None = None,
 ) -> Best:
-    """The file's start and the best of a block of random ones, a few steps each; the best of them to its end.
+    """The file's start and the best of a block of others, a few steps each; the best of them to its end.
+
+    The others are random, and one comes from a dictionary of branches where there is no ``budget``.
 
     ``watch(done, loss)`` hears of the progress; ``budget`` is the largest number of parameter vectors.
     """
@@ -45,10 +48,13 @@ def refine_from_starts(
     if start.size == 0:
         loss = float(objective.losses(coordinates.to_values(start))[0])
         return Best(refine(objective, coordinates, start), (loss,), 1, ((1, loss),))
-    points = _scatter(coordinates, start, np.random.default_rng(seed))[:budget]
+    points = _scatter(coordinates, start, np.random.default_rng(seed))
+    linear = dictionary_start(objective, coordinates) if budget is None else None
+    points = np.concatenate([points, linear.point[None]]) if linear else points[:budget]
     losses = objective.losses(coordinates.to_values(points))
     order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
-    spent, history = len(points), [(len(points), float(losses.min()))]
+    spent = len(points) + (linear.evaluations if linear else 0)
+    history = [(spent, float(losses.min()))]
     ends = []
     for number, k in enumerate(order):
         ends.append(refine(objective, coordinates, points[k], FIRST_STEPS, budget=_left(budget, spent)))
