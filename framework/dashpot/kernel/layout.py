@@ -25,10 +25,12 @@ def score_row(program: Program) -> int:
 
 @dataclass(frozen=True)
 class Shelf:
-    """Where a curve begins in the tables, by segments, and its knots among all knots."""
+    """Where a curve begins in the tables, by segments, and how many knots it has.
+
+    A list of knots has the knot from which each segment is measured: the first one twice.
+    """
 
     base: int
-    first: int
     count: int
 
 

@@ -13,6 +13,7 @@ from dashpot.kernel.layout import Fusion, Layout, Shelf
 from dashpot.kernel.packing import packed, unpacked
 
 POWERS = 4  # coefficients of a cubic
+TOGETHER = 8  # vectors of arguments of long functions at once
 COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
             "not_equal": "une"}  # fmt: skip
 # taken from the C library, one lane after the other: its name and how many arguments it has
@@ -77,24 +78,38 @@ class Pass:
         hidden = {part.serial for fusion in self.layout.fused.values() for part in (fusion.product, fusion.term)}
         for stage in self.layout.stages:
             self._compute([node for node in stage.nodes if node.serial not in hidden])
-            together, apart = (packed, unpacked) if self.alone else (joined, parted)
-            kinds = {kind: together([self.value(call.arguments[0]) for call in calls])
-                     for kind, calls in stage.kinds.items()}  # fmt: skip
             beside = [node for node in stage.beside if node.serial not in hidden]
             if any(node.operation == "lookup" for node in beside):  # it has branches
                 self._compute(beside)
                 beside = []
-            *answers, _ = self.assembly.woven(
-                [*(partial(LONG[kind], x) for kind, x in kinds.items()), partial(self._compute, beside)]
-            )
-            for (kind, calls), answer in zip(stage.kinds.items(), answers, strict=True):
-                whole = functions.wrightomega_above(kinds[kind], answer) if kind == "wrightomega" else answer
-                for call, part in zip(calls, apart(whole, len(calls)), strict=True):
-                    self.bundles[call.serial] = part
+            for calls in self._batches(stage.calls):
+                self._call(calls, beside)
+                beside = []
+            self._compute(beside)
         # all are read before any is moved
         moved = [(self.layout.states[name], self.number(node)) for name, node in self.layout.updates.items()]
         for row, bundle in moved:
             self.store(row, bundle)
+
+    def _batches(self, calls: Sequence[Node]) -> list[Sequence[Node]]:
+        # more side by side than there are registers would wait for memory
+        most = TOGETHER * LANES if self.alone else max(TOGETHER // len(self.arrays.bases), 1)
+        return [calls[first : first + most] for first in range(0, len(calls), most)]
+
+    def _call(self, calls: Sequence[Node], beside: Sequence[Node]) -> None:
+        # long functions, each kind at once, among what does not need them
+        together, apart = (packed, unpacked) if self.alone else (joined, parted)
+        kinds: dict[str, list[Node]] = {}
+        for call in calls:
+            kinds.setdefault(call.operation, []).append(call)
+        given = {kind: together([self.value(call.arguments[0]) for call in same]) for kind, same in kinds.items()}
+        *answers, _ = self.assembly.woven(
+            [*(partial(LONG[kind], x) for kind, x in given.items()), partial(self._compute, beside)]
+        )
+        for (kind, same), answer in zip(kinds.items(), answers, strict=True):
+            whole = functions.wrightomega_above(given[kind], answer) if kind == "wrightomega" else answer
+            for call, part in zip(same, apart(whole, len(same)), strict=True):
+                self.bundles[call.serial] = part
 
     def _compute(self, nodes: Sequence[Node]) -> None:
         for node in nodes:
@@ -177,27 +192,28 @@ class Pass:
 
     def _find(self, shelf: Shelf, x: Bundle) -> tuple[Bundle, list[Bundle]]:
         # lanes are close together: the segment of the first lane of a vector mostly serves all of it
-        count = len(self.arrays.bases)
-        segment, start = x.like(shelf.base, BITS), None
-        for place in range(shelf.first, shelf.first + shelf.count):
-            knot = self.assembly.spread(self.assembly.scalar(self.arrays.knots, place), count)
-            beyond = x.compare("oge", knot)
-            start = knot if start is None else beyond.choose(knot, start)
-            segment = segment + beyond.cast(BITS, "zext")
+        segment = x.like(shelf.base, BITS)
+        for place in range(shelf.base + 1, shelf.base + 1 + shelf.count):
+            knot = self.assembly.spread(self.assembly.scalar(self.arrays.knots, place), len(x.names))
+            segment = x.compare("oge", knot).choose(segment + 1, segment)
         firsts = [self.assembly.new(f"extractelement {BITS} {name}, i64 0") for name in segment.names]
         parts = [self.assembly.address(self.arrays.tables, self.assembly.product(first, POWERS * self.arrays.width))
                  for first in firsts]  # fmt: skip
+        starts = [self.assembly.spread(self.assembly.scalar(self.arrays.knots, first), 1) for first in firsts]
         elsewhere = segment.differs(joined([self.assembly.spread(first, 1, "i64") for first in firsts]))
-        near = joined(self._coefficients(parts))
-        found = self.assembly.amended(elsewhere, near, lambda: self._gathered(segment))
-        return x - start, parted(found, POWERS)
+        near = joined([*starts, *self._coefficients(parts)])
+        start, *coefficients = parted(
+            self.assembly.amended(elsewhere, near, lambda: self._gathered(segment)), 1 + POWERS
+        )
+        return x - start, coefficients
 
     def _gathered(self, segment: Bundle) -> Bundle:
         # every lane from its own segment
         width, tables = self.arrays.width, self.arrays.tables
         lanes = [self.assembly.lanes(LANES * place) for place in range(len(self.arrays.bases))]
         first = segment.times(POWERS * width) + joined(lanes)
-        return joined([self.assembly.gather(tables, first + width * power) for power in range(POWERS)])
+        start = self.assembly.gather(self.arrays.knots, segment)
+        return joined([start, *(self.assembly.gather(tables, first + width * power) for power in range(POWERS))])
 
 
 def _cubic(coefficients: Sequence[Bundle], u: Bundle, order: int) -> Bundle:

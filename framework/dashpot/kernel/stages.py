@@ -22,14 +22,6 @@ class Stage:
     calls: tuple[Node, ...]
     beside: tuple[Node, ...]
 
-    @property
-    def kinds(self) -> dict[str, list[Node]]:
-        """The long functions by operation."""
-        found: dict[str, list[Node]] = {}
-        for node in self.calls:
-            found.setdefault(node.operation, []).append(node)
-        return found
-
 
 def cut_stages(nodes: Sequence[Node]) -> tuple[Stage, ...]:
     """The stages that compute ``nodes``, given arguments first, each once and as late as its users allow."""

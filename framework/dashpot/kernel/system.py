@@ -96,7 +96,7 @@ class CompiledSystem(Compiled):
 
     @cached_property
     def _knots(self) -> Array:
-        return np.array([at for curve in _tabulated(self.spec).values() for at in curve.at])
+        return np.array([at for curve in _tabulated(self.spec).values() for at in (curve.at[0], *curve.at)])
 
     def prepare(self, motion: Drive | Excitation, pairs: int = PAIRS) -> SystemRows:
         """The part of the work that depends on the excitation alone; ``pairs`` of coarse steps lie in a sample."""
@@ -267,11 +267,10 @@ def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:
 
 
 def _shelves(spec: NetworkSpec) -> dict[str, Shelf]:
-    shelves, base, first = {}, 0, 0
+    shelves, base = {}, 0
     for path, curve in _tabulated(spec).items():
-        shelves[path] = Shelf(base, first, len(curve.at))
+        shelves[path] = Shelf(base, len(curve.at))
         base += len(curve.at) + 1
-        first += len(curve.at)
     return shelves
 
 
