@@ -38,7 +38,7 @@ def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int 
                progress: Callable[[str, float], None] | None = None) -> dict[str, RunSolution]:  # fmt: skip
     """Forces and motions of a network along the motions of every run, by the name of the run.
 
-    The forces are seen through the network's ``measurement`` (gain, offset, delay). A network given by file or shipped
+    The forces are seen through the network's ``measurement`` (gain, offset ...). A network given by file or shipped
     name is read with the elements of ``registry``, by default the installed ones. ``refine`` is how many times as many
     steps as usual lie between two samples, where the motion of a node is unknown; ``progress`` hears of each run, by
     name and with the share of those before it. Raises InputError for a network with mistakes or with a curve that has

@@ -1,8 +1,8 @@
-"""How a load cell sees the force of a specimen: late, with a gain, with an offset."""
+"""How a load cell sees the force of a specimen: not below what the rig can hold, late, with a gain, with an offset."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +12,21 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Observation:
-    """Gain, offset (N) and delay (s) of the force channel, one of each per lane."""
+    """Gain, offset (N), delay (s) and least force (N) of the force channel, one of each per lane.
+
+    A specimen that is pressed but not held lifts off instead of pulling: its least force is zero.
+    """
 
     gain: Array
     offset: Array
     delay: Array
+    least: Array = field(default_factory=lambda: np.array([-np.inf]))
 
     @property
     def plain(self) -> bool:
         """Whether the channel shows the force as it is."""
-        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0))
+        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0)
+                    or np.any(self.least > -np.inf))  # fmt: skip
 
     def see(self, force: Array, dt: float) -> Array:
         """What the channel shows of ``force`` (lanes, samples).
@@ -30,7 +35,8 @@ class Observation:
         """
         if self.plain:
             return force
-        late = np.array([_shift(row, delay / dt) for row, delay in zip(force, self.delay, strict=True)])
+        held = np.maximum(force, self.least[:, None])
+        late = np.array([_shift(row, delay / dt) for row, delay in zip(held, self.delay, strict=True)])
         return self.gain[:, None] * late + self.offset[:, None]
 
     def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
@@ -41,7 +47,8 @@ class Observation:
         if self.plain:
             return force, changes, force
         at = np.arange(force.size) - self.delay[0] / dt
-        late = np.array([np.interp(at, np.arange(force.size), row) for row in changes]).reshape(changes.shape)
+        held = np.where(force > self.least[0], changes, 0.0)
+        late = np.array([np.interp(at, np.arange(force.size), row) for row in held]).reshape(changes.shape)
         return self.see(force[None], dt)[0], self.gain[0] * late, force
 
 
@@ -55,6 +62,7 @@ def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
         column("measurement.force.gain", 1.0),
         column("measurement.force.offset", 0.0),
         column("measurement.force.delay", 0.0),
+        column("measurement.force.least", -np.inf),
     )
 
 

@@ -154,7 +154,7 @@ class Slot:
 
 @dataclass(frozen=True)
 class NetworkSpec:
-    """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset, delay).
+    """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset and so on).
 
     A network without ``joints`` has two ends: one is driven, the other held. With joints, ``ends`` says for every
     member of ``root`` what it connects; ``gravity`` in m/s^2 pulls at the masses.

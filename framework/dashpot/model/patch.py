@@ -69,7 +69,7 @@ def use_in_branch(text: str, branch: str, word: str) -> str:
 
 
 def add_measurement(text: str, key: str, entry: str) -> str:
-    """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``) under ``measurement: force:``.
+    """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``, ``least``) under ``measurement: force:``.
 
     An entry of that key is replaced.
     """

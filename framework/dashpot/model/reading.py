@@ -22,6 +22,7 @@ MEASUREMENT = {
     "force.delay": Kind("s", (-0.1, 0.1), "linear"),
     "force.gain": Kind("1", (0.2, 5.0), "linear"),
     "force.offset": Kind("N", (-1e6, 1e6), "linear"),
+    "force.least": Kind("N", (-1e6, 1e6), "linear"),
 }
 
 Elements = MappingType[str, type[Element]]

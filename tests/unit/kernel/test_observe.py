@@ -68,3 +68,16 @@ def test_the_channel_is_read_from_the_values_of_each_lane():
     assert (found.delay.tolist(), found.offset.tolist(), found.gain.tolist()) == ([1e-3, 0.0], [-2.0, 0.0], [1.0, 1.0])
     assert not found.plain
     assert read_observation(("a.stiffness",), np.array([[5.0]])).plain
+
+
+def test_a_specimen_that_is_not_held_shows_no_pull():
+    held = read_observation(("measurement.force.least",), np.array([[0.0], [-50.0]]))
+    force = np.stack([wave(TIME), wave(TIME)])
+    assert held.see(force, DT) == pytest.approx(np.stack([np.maximum(wave(TIME), 0.0), np.maximum(wave(TIME), -50.0)]))
+    assert not held.plain
+
+
+def test_small_changes_of_a_force_that_is_not_shown_are_not_shown():
+    held = read_observation(("measurement.force.least",), np.array([[0.0]]))
+    _, changes, _ = held.linear(wave(TIME), np.ones((2, TIME.size)), DT)
+    assert changes == pytest.approx(np.broadcast_to(wave(TIME) > 0.0, (2, TIME.size)).astype(float))
