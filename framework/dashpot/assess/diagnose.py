@@ -11,7 +11,7 @@ from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
-from dashpot.assess.pursuit import Pursuer, Pursuit, residuals_of
+from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, Pursuit, residuals_of
 from dashpot.assess.suspicion import linear_view
 from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
@@ -45,10 +45,12 @@ def diagnose(
     jobs: int = 1,
     registry: Registry,
     progress: Progress | None = None,
+    relevance: float = SMALLEST_GAIN,
 ) -> Diagnosis:
     """Triage the data, fit, look at what is left, pursue its causes, and say how sure that is.
 
-    Raises InputError for a network that does not compile on these data, and where no plugin provides a cause.
+    A cause that makes the training error smaller by less than the share ``relevance`` is not named. Raises InputError
+    for a network that does not compile on these data, and where no plugin provides a cause.
     """
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
@@ -60,7 +62,7 @@ def diagnose(
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out)
-    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name))
+    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name), relevance)
     pursuit = pursuer.run(model_of(fit))
     final = known_to(bench, pursuit)
     first = pursuit.ladder[0]

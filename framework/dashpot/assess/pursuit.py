@@ -87,13 +87,17 @@ class Pursuit:
 
 @dataclass(eq=False)
 class Pursuer:
-    """Runs a pursuit; holds what all rounds share."""
+    """Runs a pursuit; holds what all rounds share.
+
+    ``relevance`` is the share by which a cause has to make the training error smaller to be of interest.
+    """
 
     bench: Bench
     held_out: Sequence[ScoredRun]
     causes: Sequence[type[Cause]]
     seed: int
     watch: Callable[[str, float], None]
+    relevance: float = SMALLEST_GAIN
     rejected: list[Rejection] = field(default_factory=list)
     tried: int = 0
 
@@ -212,8 +216,8 @@ class Pursuer:
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
             return "explains no more than the accepted causes may be wrong by in their form"
-        if fall < SMALLEST_GAIN:
-            return f"makes the training runs better by less than {SMALLEST_GAIN:.2%}: of no practical relevance"
+        if fall < self.relevance:
+            return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and fall < SMALLEST_LATER_GAIN:
             return TOO_LITTLE
         return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
@@ -17,9 +18,17 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
+@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.05, show_default=True,
+              help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
 @switches("seed", "jobs", "json", "quiet", "force")
 def verb(
-    spec: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
+    spec: str,
+    dataset: str,
+    output: Path,
+    optimizer: str | None,
+    settings: tuple[str, ...],
+    relevance: float,
+    switches: Switches,
 ) -> None:
     """Say what a network gets wrong, name the cause, extend the network and measure the gain.
 
@@ -35,7 +44,7 @@ def verb(
     session = Session(switches, optimizer, settings)
     network, measured = session.network(spec), session.dataset(dataset)
     folder = session.claim(output, *diagnosis_files(network.name))
-    diagnosis = session.run(diagnose, network, measured)
+    diagnosis = session.run(partial(diagnose, relevance=relevance / 100.0), network, measured)
     with session.watch("writing the report"):
         report = write_diagnosis(diagnosis, folder)
     session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
