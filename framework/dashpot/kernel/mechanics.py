@@ -8,14 +8,14 @@ start    a first guess of the static equilibrium
 settle   Newton's step towards it
 rest     the motion and the memory with which the record begins
 predict  the part of a step that does not depend on the unknowns, and a first guess of them
-improve  Newton's step
-commit   the new motion, the new memory, what is measured
+improve  Newton's step, and the new memory and what is measured where it leads to
+commit   the end of the step becomes the begin of the next one
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import Protocol
@@ -57,6 +57,11 @@ def row_of(joint: str, key: str) -> str:
 def force_row(joint: str) -> str:
     """The row of the force that the outside exerts on a driven node, upwards, in N."""
     return row_of(joint, "force")
+
+
+def reached_row(name: str) -> str:
+    """The row in which a row is kept until the step is done."""
+    return f"{name}|reached"
 
 
 @dataclass(frozen=True)
@@ -172,21 +177,21 @@ class Balance(ABC):
         node = self.topology.joints[joint]
         return reduce(np.add, [symbol(f"{node.numbers}.{key}") for key in node.masses], ZERO)
 
-    def push(self, joint: str) -> Node:
-        """The sum of the forces of all edges on a node, upwards."""
+    def push(self, joint: str, forces: Sequence[Node] | None = None) -> Node:
+        """The sum of the forces of all edges on a node, upwards; ``forces`` may be given."""
         total = ZERO
-        for edge, force in zip(self.topology.edges, self.forces, strict=True):
+        for edge, force in zip(self.topology.edges, forces or self.forces, strict=True):
             if joint == edge.upper:
                 total = total + force
             elif joint == edge.lower:
                 total = total - force
         return total
 
-    def carried(self, joint: str) -> Node:
-        """The force that the outside has to exert on a node to move it as it moves."""
+    def carried(self, joint: str, forces: Sequence[Node] | None = None) -> Node:
+        """The force that the outside has to exert on a node to move it as it moves; ``forces`` as in ``push``."""
         mass = self.mass(joint)
         weight = ZERO if mass is ZERO else mass * (self.inertia(joint)[0] + GRAVITY)
-        return weight - self.push(joint)
+        return weight - self.push(joint, forces)
 
     def improve(self) -> dict[str, Node]:
         """Newton's step of all unknowns, damped where the last one did not get nearer; finished lanes stay."""
@@ -201,9 +206,19 @@ class Balance(ABC):
         # what is not a number is not far: such a lane is finished, and its forces tell
         near = np.logical_not(distance > TOLERANCE)
         share = np.where(near, 1.0, np.minimum(damped, FARTHEST / np.maximum(distance, FARTHEST)))
-        after = {row_of(joint, "next"): self._next(joint) + np.where(done, 0.0, share * way)
-                 for joint, way in ways.items()}  # fmt: skip
-        return {**after, DISTANCE: distance, DAMPING: damped, DONE: np.where(done | near, 1.0, 0.0)}
+        moves = {joint: np.where(done, 0.0, share * way) for joint, way in ways.items()}
+        after = {row_of(joint, "next"): self._next(joint) + move for joint, move in moves.items()}
+        return {
+            **after,
+            **self.reached(moves),
+            DISTANCE: distance,
+            DAMPING: damped,
+            DONE: np.where(done | near, 1.0, 0.0),
+        }
+
+    def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
+        """What else is known when the unknown nodes have made these moves."""
+        return {}
 
     def _next(self, joint: str) -> Node:
         return symbol(row_of(joint, "next"))
@@ -232,9 +247,9 @@ class Balance(ABC):
         hold = self.topology.joints[joint].hold
         return {"ground": ZERO, "driven": symbol(driven_symbol(joint, key))}.get(hold)
 
-    def outputs(self) -> dict[str, Node]:
-        """The forces at the driven nodes."""
-        return {force_row(joint): self.carried(joint) for joint in self.topology.held("driven")}
+    def outputs(self, forces: Sequence[Node] | None = None) -> dict[str, Node]:
+        """The forces at the driven nodes; ``forces`` as in ``push``."""
+        return {force_row(joint): self.carried(joint, forces) for joint in self.topology.held("driven")}
 
     @staticmethod
     def offset(edge: Edge) -> Node:
@@ -325,10 +340,24 @@ class _Moving(Balance):
             rows[row_of(joint, "next")] = x + STEP * (v + bend)
         return rows
 
+    def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
+        """Memories and measured forces at the end of the last move, by their tangents: it is within the tolerance.
+
+        A lane that is done stays as it is.
+        """
+        ways = [self.difference(edge, lambda joint: moves.get(joint, ZERO)) for edge in self.topology.edges]
+        forces = [force + tangent * way for force, tangent, way in zip(self.forces, self.tangents, ways, strict=True)]
+        found = self.outputs(forces)
+        for edge, law, way in zip(self.topology.edges, self.laws, ways, strict=True):
+            for name, node in law.states.items():
+                found[name] = self.along(edge, node) + self.along(edge, self.tangent(node)) * way
+        done = symbol(DONE) > 0.5
+        return {reached_row(name): np.where(done, symbol(reached_row(name)), node) for name, node in found.items()}
+
     def commit(self) -> dict[str, Node]:
         """The end of the step becomes the begin of the next one."""
-        rows = {name: self.along(edge, node) for edge, law in zip(self.topology.edges, self.laws, strict=True)
-                for name, node in law.states.items()}  # fmt: skip
+        names = [*(name for law in self.laws for name in law.states), *map(force_row, self.topology.held("driven"))]
+        rows: dict[str, Node] = {name: symbol(reached_row(name)) for name in names}
         for joint in self.topology.unknown:
             rows |= {
                 row_of(joint, "position"): self._next(joint),
@@ -337,4 +366,4 @@ class _Moving(Balance):
                 row_of(joint, "position_before"): symbol(row_of(joint, "position")),
                 row_of(joint, "velocity_before"): symbol(row_of(joint, "velocity")),
             }
-        return {**rows, **self.outputs()}
+        return rows

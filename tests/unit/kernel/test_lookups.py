@@ -48,7 +48,9 @@ def run(system: CompiledSystem):
 def spread_out(system: CompiledSystem, rng: np.random.Generator) -> np.ndarray:
     """Lanes in which the stiff spring takes from hardly anything to nearly all of the way."""
     values = np.repeat(system.start[None], LANES, axis=0)
-    values[:, system.paths.index("it.stiff.stiffness")] = np.exp(rng.uniform(np.log(1e4), np.log(1e8), LANES))
+    values[:, system.paths.index("it.stiff.stiffness")] = np.resize(np.geomspace(1e4, 1e8, 8), LANES) * np.exp(
+        rng.uniform(-0.3, 0.3, LANES)
+    )
     return values
 
 

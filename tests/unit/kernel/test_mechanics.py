@@ -7,7 +7,7 @@ from unit.kernel.networks import ELEMENTS
 
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
-from dashpot.kernel.mechanics import DISTANCE, Equations, force_row, row_of, write_equations
+from dashpot.kernel.mechanics import DISTANCE, Equations, force_row, reached_row, row_of, write_equations
 from dashpot.model.reading import parse_network
 from dashpot.model.topology import topology_of
 
@@ -24,6 +24,9 @@ NUMBERS = {
     "newton.tolerance": 1e-9, "newton.farthest": 10.0, "newton|done": 0.0, "newton|damping": 1.0,
     "newton|distance": 1e300, "newton|nothing": 0.0,
 }  # fmt: skip
+
+
+KEPT = {reached_row(force_row("table")): 123.0}
 
 
 def equations(text: str = HANGER) -> Equations:
@@ -46,9 +49,16 @@ MOVING = {
 }  # fmt: skip
 
 
-def test_the_platform_feels_the_spring_and_its_offset():
-    # 50 N/m (0.01 m - 0.004 m + 0.02 m)
-    assert value(equations().commit, force_row("table")) == pytest.approx(50.0 * 0.026)
+def test_the_platform_feels_the_spring_and_its_offset_where_newtons_step_leads_to():
+    rows = equations().improve
+    step = value(rows, row_of("block", "next"), **KEPT) - 0.004
+    # 50 N/m (0.01 m - 0.004 m - step + 0.02 m)
+    assert value(rows, reached_row(force_row("table")), **KEPT) == pytest.approx(50.0 * (0.026 - step))
+
+
+def test_a_finished_lane_keeps_what_it_reached():
+    assert value(equations().improve, reached_row(force_row("table")), **KEPT, **{"newton|done": 1.0}) == 123.0
+    assert value(equations().commit, force_row("table"), **KEPT) == 123.0
 
 
 def test_newtons_step_solves_a_linear_balance_at_once():
