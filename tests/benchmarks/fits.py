@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import numpy as np
 from numpy.typing import NDArray
+from parts import write_part
 from workload import LANES, SWEEPS, lanes, network
 
 from dashpot.contract.chain import make_optimizer
@@ -142,9 +143,14 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=10)
     parser.add_argument("--seconds", type=float, default=30.0, help="length of each sweep")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--write", action="store_true", help="keep the table")
     options = parser.parse_args()
+    lines = []
     for line in table(options.seeds, options.seconds, options.jobs):
         print(line, flush=True)
+        lines.append(line)
+    if options.write:
+        write_part("fits", "\n".join([f"{time.strftime('%Y-%m-%d')}, {options.jobs} threads.", "", *lines]))
 
 
 if __name__ == "__main__":

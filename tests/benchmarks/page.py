@@ -9,11 +9,11 @@ from typing import Any
 
 from axle import AXLE
 from counting import REGISTERS
+from parts import write_part
 from peers import NUMBALSODA, SUNDIALS
 from workload import LANES, NETWORK
 
-RESULTS, PAGE = Path(__file__).parent / "results", Path(__file__).parent / "README.md"
-BEGIN, END = "<!-- written: results -->", "<!-- end: results -->"
+RESULTS = Path(__file__).parent / "results"
 SWARM, AXLES, BY_HAND = f"{NETWORK}, {LANES} lanes", f"{AXLE}, 64 lanes", f"C by hand, {LANES} lanes"
 
 Content = dict[str, Any]
@@ -112,5 +112,4 @@ def write(content: Content) -> None:
     RESULTS.mkdir(exist_ok=True)
     text = json.dumps(content, indent=1) + "\n"
     (RESULTS / f"{content['versions']['dashpot']}.json").write_text(text, encoding="utf-8")
-    before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
-    PAGE.write_text(f"{before}{BEGIN}\n\n{table(content)}\n\n{END}{rest.partition(END)[2]}", encoding="utf-8")
+    write_part("results", table(content))
