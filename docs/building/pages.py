@@ -239,8 +239,11 @@ def _rates(found: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
 
 def benchmarks() -> Iterator[str]:
     """The kept benchmark, as its page in the tests has it."""
-    page = (ROOT / "tests" / "benchmarks" / "README.md").read_text(encoding="utf-8")
-    yield re.sub("<!--.*?-->", "", page)
+    folder = ROOT / "tests" / "benchmarks"
+    page = re.sub("<!--.*?-->", "", (folder / "README.md").read_text(encoding="utf-8"))
+    yield re.sub(
+        r"!\[(.*)\]\((.*\.svg)\)", lambda found: raw(inline_picture(found[1], (folder / found[2]).read_text())), page
+    )
 
 
 def _words(names: list[str]) -> str:

@@ -7,13 +7,14 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from axle import AXLE
 from counting import REGISTERS
 from parts import write_part
 from peers import NUMBALSODA, SUNDIALS
 from workload import LANES, NETWORK
 
-RESULTS = Path(__file__).parent / "results"
+RESULTS, FIGURE = Path(__file__).parent / "results", "growth.svg"
 SWARM, AXLES, BY_HAND = f"{NETWORK}, {LANES} lanes", f"{AXLE}, 64 lanes", f"C by hand, {LANES} lanes"
 
 Content = dict[str, Any]
@@ -36,8 +37,13 @@ def _parts(content: Content) -> Iterator[list[str]]:
         base = _row(content, work, first)["ns"]
         rows = [f"| {row['who']} | {row['ns']:.3g} | {row['ns'] / base:.3g} | {_error(row)} |" for row in content[work]]
         yield [f"| {work} | ns per lane and sample | ratio | error rms in N |", "| --- | ---: | ---: | ---: |", *rows]
-    rows = [f"| {row['who']} | {row['ns']:.3g} |" for row in content["ladder"]]
-    yield ["| growth | ns per lane and sample |", "| --- | ---: |", *rows]
+    rows = [f"| {what} | {_told(counts)} | {_told(spent)} | {uneven(counts, spent):.0%} |"
+            for what, (counts, spent) in growth(content).items()]  # fmt: skip
+    yield [
+        "| growth with | how many | ms | largest distance from a straight line |",
+        "| --- | --- | --- | ---: |",
+        *rows,
+    ]
     rows = [f"| {row['who']} | {row['ns']:.3g} | {row['sum_ns']:.3g} | {row['ratio']:.2f} |" for row in content["sums"]]
     yield ["| network | ns | sum of its branches alone | ratio |", "| --- | ---: | ---: | ---: |", *rows]
     rows = [f"| {who} | {' | '.join(map(str, found.values()))} |" for who, found in content["vectors"].items()]
@@ -47,6 +53,26 @@ def _parts(content: Content) -> Iterator[list[str]]:
         yield ["| instructions per lane and sample, AVX2 | |", "| --- | ---: |", *rows]
     rows = [f"| {what} | {seconds:.3g} |" for what, seconds in content["start"].items()]
     yield ["| start | s |", "| --- | ---: |", *rows]
+
+
+def growth(content: Content) -> dict[str, tuple[list[float], list[float]]]:
+    """How many there are and what they take in ms, by what there are more and more of."""
+    found: dict[str, tuple[list[float], list[float]]] = {}
+    for row in content["growth"]:
+        counts, spent = found.setdefault(row["what"], ([], []))
+        counts.append(row["count"])
+        spent.append(row["ms"])
+    return found
+
+
+def uneven(counts: Sequence[float], spent: Sequence[float]) -> float:
+    """The largest distance from the best straight line, in parts of the largest value."""
+    away = np.polyval(np.polyfit(counts, spent, 1), counts) - spent
+    return float(np.abs(away).max() / max(spent))
+
+
+def _told(numbers: Sequence[float]) -> str:
+    return ", ".join(f"{number:.3g}" if isinstance(number, float) else str(number) for number in numbers)
 
 
 def _head(content: Content) -> str:
@@ -112,4 +138,18 @@ def write(content: Content) -> None:
     RESULTS.mkdir(exist_ok=True)
     text = json.dumps(content, indent=1) + "\n"
     (RESULTS / f"{content['versions']['dashpot']}.json").write_text(text, encoding="utf-8")
-    write_part("results", table(content))
+    write_part("results", f"{table(content)}\n\n![Growth](results/{FIGURE})")
+    draw(content, RESULTS / FIGURE)
+
+
+def draw(content: Content, path: Path) -> None:
+    """The growth as a figure, each share of its largest value over its largest number."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.0, 3.6), layout="constrained")
+    axes = figure.add_subplot(xlabel="share of the largest number", ylabel="share of the longest time")
+    for what, (counts, spent) in growth(content).items():
+        axes.plot(np.divide(counts, counts[-1]), np.divide(spent, spent[-1]), "o-", label=f"{what}, up to {counts[-1]}")
+    axes.plot([0.0, 1.0], [0.0, 1.0], "k:", linewidth=1.0)
+    axes.legend(fontsize="small")
+    figure.savefig(path, metadata={"Date": None})

@@ -45,7 +45,7 @@ from dashpot.kernel.source import print_source
 LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
 ELEMENTS = {"maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms", "prandtl": "stiffness: 9 N/mm, limit: 20 N",
             "dahl": "stiffness: 60 N/mm, limit: 15 N"}  # fmt: skip
-COUNTS = (1, 2, 4, 8, 16)
+COUNTS, SHARES, GROUPS = (1, 2, 4, 8, 16), (0.25, 0.5, 0.75, 1.0), (16, 32, 64, 96, 192)
 HARDEST = 8  # 5 mm around 10 mm
 EXACT_PARTS = 64
 LIBRARIES = ("dashpot", "numpy", "llvmlite", "numba", "scipy", "numbalsoda", "scikit-sundae", "casadi")
@@ -72,22 +72,22 @@ def tire_rows(sweeps: tuple[Sweep, ...], rounds: int) -> Iterator[Row]:
     yield from _rows(field, rounds, error)
 
 
-def ladder_rows(sweep: Sweep, rounds: int) -> Iterator[Row]:
-    """Networks of one to sixteen elements of a kind, and of fewer samples and lanes: ns per lane and sample."""
-    drives = (sweep.drive(),)
-    field = []
+def growth_rows(sweep: Sweep, rounds: int) -> Iterator[Row]:
+    """Milliseconds of more and more elements of a kind, samples and lanes of Tire Model 5."""
+    drives, tasks = (sweep.drive(),), {}
     for word, numbers in ELEMENTS.items():
         for count in COUNTS:
             branches = f"  it: {{repeat: {count}, element: {word}, {numbers}}}\n"
-            task = Task.of(network_of(branches), drives)
-            field.append(Contestant(f"{count} {word}", task.score, task.units))
-    for share in (0.25, 0.5, 1.0):
+            tasks[f"{word} elements", count] = Task.of(network_of(branches), drives)
+    for share in SHARES:
         task = Task.of(network(), (replace(sweep, seconds=share * sweep.seconds).drive(),))
-        field.append(Contestant(f"{NETWORK}, {task.rows[0].drive.samples} samples", task.score, task.units))
-    for count in (8, 16, 32, 192):
-        task = Task.of(network(), drives, count)
-        field.append(Contestant(f"{NETWORK}, {count} lanes", task.score, task.units))
-    yield from _rows(field, rounds, {})
+        tasks["samples", task.rows[0].drive.samples] = task
+    for count in GROUPS:
+        tasks["lanes", count] = Task.of(network(), drives, count)
+    field = [Contestant(repr(key), task.score) for key, task in tasks.items()]
+    found = time_together(field, rounds)
+    for what, count in tasks:
+        yield {"what": what, "count": count, "ms": found[repr((what, count))].cpu / 1e6}
 
 
 def axle_rows(seconds: float, rounds: int) -> Iterator[Row]:
@@ -196,7 +196,7 @@ def measured(quick: bool, rounds: int) -> dict:
         "seconds": seconds, "sweeps": len(sweeps), "rounds": rounds, "peer_seconds": short,
         "W1": list(tire_rows(sweeps, rounds)), "W2": list(axle_rows(seconds, rounds)),
         "swarm": {"iterations": iterations, "seconds": swarm_seconds(seconds, iterations, 2)},
-        "ladder": list(ladder_rows(sweeps[-1], rounds)), "sums": list(sum_rows(sweeps[-1], rounds)),
+        "growth": list(growth_rows(sweeps[-1], rounds)), "sums": list(sum_rows(sweeps[-1], rounds)),
         "start": start_times(1 if quick else rounds), "vectors": vectors(),
         "instructions": {} if quick else instructions(),
     }  # fmt: skip
