@@ -68,6 +68,12 @@ class Rejection:
     reason: str
     expected_gain: float | None = None
     gain: float | None = None
+    place: str | None = None
+
+    @property
+    def where(self) -> tuple[str, ...]:
+        """The place, if there is one."""
+        return (self.place,) if self.place else ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +126,10 @@ class Pursuer:
         return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
 
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
-        """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out."""
+        """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
+
+        They have to make these runs better for certain, and by as much as any cause after the first.
+        """
         if not self.held_out:
             return
         directions = known_directions(self.bench, look.model, look.noise)
@@ -130,9 +139,10 @@ class Pursuer:
             if found is None:
                 return
             finding, mend = found
+            mend = plainly_strong(mend, ladder[-1], self.held_out)
             model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
             gain = self.gain_of(ladder[-1], model)
-            if gain is None or gain.value <= 0.0:
+            if gain is None or gain.interval[0] <= 0.0 or gain.value < max(self.relevance, SMALLEST_LATER_GAIN):
                 return
             trial = Trial(finding, model, finding.gain, finding.merit)
             accepted.append(Accepted(finding, trial, gain.value, gain, ()))
@@ -141,10 +151,10 @@ class Pursuer:
     def settle_gains(
         self, accepted: list[Accepted], look: Look, first: Look
     ) -> tuple[list[Accepted], Look, list[Model]]:
-        """The gain of every cause in plain error; one that surely loses on held-out runs goes, the last one first."""
+        """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first."""
         ladder = self.polish_ladder(first.model, accepted, look)
         gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
-        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.interval[1] <= 0.0]
+        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= 0.0]
         if not useless:
             return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
         entry = accepted[useless[-1]]
@@ -168,7 +178,7 @@ class Pursuer:
             if explained and finding.gain < self.least_fall(look):
                 self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding, self.bench.runs), None)
                 continue
-            self.watch(f"refit with {finding.candidate.cause.word}", 0.0)
+            self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(self.try_out(finding, look))
         ranked = sorted(trials, key=lambda trial: -trial.merit)
         for trial in ranked:
@@ -225,9 +235,8 @@ class Pursuer:
     def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
         """Note a candidate that did not hold, with the reason."""
         candidate = finding.candidate
-        self.rejected.append(
-            Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, gain.value if gain else None)
-        )
+        value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
+        self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
 
     def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it."""
@@ -249,14 +258,7 @@ class Pursuer:
             model = self.rebuild(kept, look.model, first.model, look.noise)
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             if model.chi_square - look.model.chi_square < price + look.screen.threshold:
-                word = accepted[number].finding.candidate.cause.word
-                self.rejected.append(
-                    Rejection(
-                        word,
-                        accepted[number].finding.candidate.suspect.form,
-                        "superfluous once the later causes are there",
-                    )
-                )
+                self.reject(accepted[number].finding, "superfluous once the later causes are there", None, None)
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
 
@@ -277,25 +279,25 @@ def choose_finalists(look: Look) -> list[Finding]:
     Beyond the third only those whose fall of chi square comes near that of the best.
     """
     significant = [finding for finding in look.screen.findings if finding.merit > look.screen.threshold]
-    best: dict[str, float] = {}
+    best: dict[tuple[str, str], float] = {}
     chosen = []
     for finding in significant:
-        word = finding.candidate.cause.word
-        if word not in best or finding.gain > 0.9 * best[word]:
-            best.setdefault(word, finding.gain)
+        name = finding.candidate.name
+        if name not in best or finding.gain > 0.9 * best[name]:
+            best.setdefault(name, finding.gain)
             chosen.append(finding)
     near = [finding for finding in chosen[FEWEST_FINALISTS:] if finding.gain > COMES_NEAR * chosen[0].gain]
     return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
 
 
 def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
-    """Among trials that fit alike the one with fewest numbers; the best trial of every other cause is its rival."""
+    """Among trials that fit alike the one with fewest numbers; the best one of every other cause or place is its rival."""
     near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
-    best: dict[str, Trial] = {}
+    best: dict[tuple[str, str], Trial] = {}
     for other in near:
-        best.setdefault(other.finding.candidate.cause.word, other)
-    best.pop(chosen.finding.candidate.cause.word)
+        best.setdefault(other.finding.candidate.name, other)
+    best.pop(chosen.finding.candidate.name)
     return chosen, tuple(best.values())
 
 
@@ -311,6 +313,13 @@ def misfits_of(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
     objective = Objective(compile_network(model.fitted), [mended(run, model.mends) for run in runs])
     misfits = objective.misfits(model.values)[0]
     return [misfits[piece] for piece in objective.pieces]
+
+
+def plainly_strong(mend: Mend, model: Model, runs: Sequence[ScoredRun]) -> Mend:
+    """The mend with the strengths that make the plain error of a model smallest on runs, its numbers kept."""
+    rows, misfits = shape_rows([mend], runs), misfits_of(model, runs)
+    shapes, misfit = np.concatenate([rows[run.name] for run in runs], axis=1), np.concatenate(misfits)
+    return replace(mend, strengths=-np.linalg.lstsq(shapes.T, misfit, rcond=1e-10)[0])
 
 
 def crossed_misfits(model: Model, runs: Sequence[ScoredRun], mends: Sequence[Mend]) -> list[Array]:
