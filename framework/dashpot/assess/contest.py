@@ -62,6 +62,7 @@ class Bench:
     """What every refit needs; ``sensors`` is the data sheet of the force channel by run.
 
     ``unseen`` are runs that no refit sees, but on which a fault that it finds in all runs has to be known, too.
+    ``watch`` hears how much of a long computation is done.
     """
 
     runs: Sequence[ScoredRun]
@@ -69,6 +70,7 @@ class Bench:
     sensors: Mapping[str, Mapping[str, float]]
     jobs: int = 1
     unseen: Sequence[ScoredRun] = ()
+    watch: Callable[[float], None] = lambda done: None
 
     def view(self, model: Model) -> ModelView:
         """A model on all runs as causes see it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from dashpot.assess.contest import Bench, Model
@@ -19,6 +20,7 @@ from dashpot.assess.verdict import give_verdict
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
+from dashpot.data.ends import one_force_each
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, measure_errors, prepare, silent
 from dashpot.fit.coordinates import search_coordinates
@@ -27,7 +29,7 @@ from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
-from dashpot.model.network import NetworkSpec
+from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 ATTEMPTS = 3
@@ -55,14 +57,16 @@ def diagnose(
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress = progress or silent
-    triage = examine(dataset)
+    triage = examine(one_force_each(dataset))
     dataset = triage.dataset
     setting = prepare(dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
-    bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out)
-    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, _watch(progress, spec.name), relevance)
+    watch = _watch(progress, spec.name)
+    bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
+                  partial(watch, "screen of all places"))  # fmt: skip
+    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, watch, relevance)
     pursuit = pursuer.run(model_of(fit))
     final = known_to(bench, pursuit)
     first = pursuit.ladder[0]
@@ -72,7 +76,7 @@ def diagnose(
     leftover = look_for_leftover(*linear_view(bench, last.model), last.noise, runs)
     return Diagnosis(
         setting=setting,
-        triage=replace(triage, remarks=(*triage.remarks, *restarts)),
+        triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec))),
         fit=fit,
         pursuit=pursuit,
         final=final,
@@ -80,7 +84,7 @@ def diagnose(
         after=measure_errors(final, mended_setting(setting, pursuit), jobs),
         misfit=tuple(misfit),
         leftover=leftover,
-        next_runs=next_runs(bench, pursuit),
+        next_runs={} if spec.joints else next_runs(bench, pursuit),
         verdict=give_verdict(triage.faults, pursuit, leftover),
         causes=causes,
         seed=seed,
@@ -100,6 +104,16 @@ def fit_to_rest(fit: Callable[[int], FitResult]) -> tuple[FitResult, list[str]]:
         f"The fit of {best.declared.name} did not come to rest ({attempts[0].ending}); of {len(attempts)} starts the "
         f"best counts, the last one {ending}."
     ]
+
+
+def limits_of(spec: NetworkSpec) -> list[str]:
+    """What is not looked for in a network of this kind."""
+    chains = [member.name for member in spec.root.members if isinstance(member, Group) and member.kind == "series"]
+    found = [f"Between the parts of the series connection '{name}' no cause is looked for, only between its ends; "
+             "give the node between them a name under 'nodes:'." for name in chains]  # fmt: skip
+    if spec.joints:
+        found.append("No further run is simulated to tell causes apart: that is done for networks with two ends only.")
+    return found
 
 
 def next_runs(bench: Bench, pursuit: Pursuit) -> dict[tuple[str, str], Telling]:

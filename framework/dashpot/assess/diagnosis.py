@@ -74,7 +74,7 @@ class Diagnosis:
             "predecessor": self.model.name,
         }
         head = [f"{self.model.name}, extended by a diagnosis."]
-        head += [f"cause: {named.cause.about}; {_gain_words(named.gain)}" for named in self.named]
+        head += [f"cause: {named.title}; {_gain_words(named.gain)}" for named in self.named]
         head.append(f"predecessor: {self.model.name}")
         return rename(fill_numbers(declared, self.final, record), self.extended_name.removesuffix(".yaml"), head)
 
@@ -136,8 +136,9 @@ class Diagnosis:
         """The same for the report, each with the names it is about."""
         found = []
         for named in self.named:
-            rivals = " or ".join(self.causes[word].about for word in named.rivals)
-            about = f"{named.cause.about} or {rivals}" if rivals else named.cause.about
+            others = [other.title for other in named.alternatives]
+            rivals = " or ".join(others or [self.causes[word].about for word in named.rivals])
+            about = f"{named.title} or {rivals}" if rivals else named.title
             found += [f"{about}: {text}" for text in self._telling(named)]
         return found
 
@@ -156,7 +157,8 @@ class Diagnosis:
         return {
             "cause": named.cause.word,
             "class": named.cause.kind,
-            "title": named.cause.about,
+            "title": named.title,
+            "place": named.site.words if named.site else None,
             "rank": rank,
             "accepted": True,
             "branch": named.branch,
@@ -166,6 +168,7 @@ class Diagnosis:
             "gain_interval": list(named.gain.interval) if named.gain else None,
             "parameters": named.parameters(),
             "indistinguishable_from": list(named.rivals),
+            "alternatives": [{"cause": other.cause.word, "title": other.title} for other in named.alternatives],
             "next_measurement": telling[0] if telling else None,
         }
 
@@ -175,6 +178,7 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "cause": cause.word,
         "class": "measurement",
         "title": cause.about,
+        "place": None,
         "rank": rank,
         "accepted": True,
         "branch": None,
@@ -185,6 +189,7 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "parameters": {fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
                        for fault in faults if fault.factor is not None},
         "indistinguishable_from": [],
+        "alternatives": [],
         "next_measurement": faults[0].cure,
     }  # fmt: skip
 

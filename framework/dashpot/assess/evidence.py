@@ -66,11 +66,11 @@ def detection_limits(screen: Screen) -> list[dict[str, Any]]:
     """
     return [
         {
-            "cause": limit.cause.word,
-            "title": limit.cause.about,
-            "quantity": " as ".join(dict.fromkeys([limit.suspect.quantity, limit.suspect.form])),
-            "value": limit.strength if limit.suspect.unit else limit.force,
-            "unit": limit.suspect.unit or "N",
+            "cause": limit.candidate.cause.word,
+            "title": limit.candidate.title,
+            "quantity": " as ".join(dict.fromkeys([limit.candidate.suspect.quantity, limit.candidate.suspect.form])),
+            "value": limit.strength if limit.candidate.suspect.unit else limit.force,
+            "unit": limit.candidate.suspect.unit or "N",
             "force": limit.force,
         }
         for limit in screen.limits
@@ -85,7 +85,7 @@ def telling_measurement(cause: type[Cause], rival: type[Cause]) -> str:
 def _rejected(causes: Mapping[str, type[Cause]], rejection: Rejection) -> dict[str, Any]:
     return {
         "cause": rejection.cause,
-        "title": f"{causes[rejection.cause].about} ({rejection.form})",
+        "title": " ".join([causes[rejection.cause].about, *rejection.where, f"({rejection.form})"]),
         "reason": rejection.reason,
         "expected_gain": rejection.expected_gain,
         "gain": rejection.gain,

@@ -10,8 +10,10 @@ from typing import Any
 from dashpot.assess.gain import Gain
 from dashpot.assess.mend import Mend
 from dashpot.assess.pursuit import Accepted, Pursuit
+from dashpot.assess.screen import Candidate
 from dashpot.contract.cause import Cause
 from dashpot.model.network import NetworkSpec, Value
+from dashpot.model.sites import Site
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +30,22 @@ class NamedCause:
     def rivals(self) -> tuple[str, ...]:
         """Words of the causes that fit alike."""
         return tuple(dict.fromkeys(rival for step in self.steps for rival in step.rivals))
+
+    @property
+    def site(self) -> Site | None:
+        """Where it is in a network with nodes; None at the rig and in a network with two ends."""
+        return self.steps[0].finding.candidate.site
+
+    @property
+    def title(self) -> str:
+        """What it is, and where."""
+        return self.steps[0].finding.candidate.title
+
+    @property
+    def alternatives(self) -> tuple[Candidate, ...]:
+        """What fits alike inside a network with nodes, each cause and place once."""
+        others = [other.finding.candidate for step in self.steps for other in step.others]
+        return tuple({other.name: other for other in others if other.site}.values())
 
     @property
     def branch(self) -> str | None:
@@ -59,12 +77,12 @@ class NamedCause:
 
 
 def name_causes(pursuit: Pursuit, final: NetworkSpec) -> list[NamedCause]:
-    """One entry for each accepted word, in the order of first acceptance."""
+    """One entry for each accepted word and place, in the order of first acceptance."""
     steps = list(zip(pursuit.accepted, pursuit.ladder, pursuit.ladder[1:], strict=False))
-    words = dict.fromkeys(entry.finding.candidate.cause.word for entry in pursuit.accepted)
+    names = dict.fromkeys(entry.finding.candidate.name for entry in pursuit.accepted)
     found = []
-    for word in words:
-        mine = [step for step in steps if step[0].finding.candidate.cause.word == word]
+    for name in names:
+        mine = [step for step in steps if step[0].finding.candidate.name == name]
         slots: dict[str, Value] = {}
         for _, before, after in mine:
             slots |= _added(before.declared, after.declared, final)

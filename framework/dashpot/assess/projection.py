@@ -121,3 +121,10 @@ def stack(*parts: SparseRows) -> SparseRows:
         for run in runs
     }
     return SparseRows(values, places, int(first[-1]))
+
+
+def side_by_side(one: SparseRows, other: SparseRows) -> SparseRows:
+    """Rows of the same numbering of which each part has some."""
+    values = {run: np.concatenate([one.values[run], other.values[run]]) for run in one.values}
+    places = {run: np.concatenate([one.places[run], other.places[run]]) for run in one.values}
+    return SparseRows(values, places, one.size)

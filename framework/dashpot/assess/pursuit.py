@@ -291,7 +291,7 @@ def choose_finalists(look: Look) -> list[Finding]:
 
 
 def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
-    """Among trials that fit alike the one with fewest numbers; the best one of every other cause or place is its rival."""
+    """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
     near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
     best: dict[tuple[str, str], Trial] = {}

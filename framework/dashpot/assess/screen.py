@@ -17,6 +17,7 @@ from dashpot.assess.noise import NoiseModel
 from dashpot.assess.projection import Projected, SparseRows, normal_equations, project_out, stack
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Atom, Cause, Suspect
+from dashpot.model.sites import Site
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -31,11 +32,22 @@ COARSE = 8  # places of a grid
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A suspect of a cause with its columns' place among all columns."""
+    """A suspect of a cause with its columns' place among all columns; ``site`` is where in a network with nodes."""
 
     cause: type[Cause]
     suspect: Suspect
     columns: slice
+    site: Site | None = None
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """The word of the cause, and the words of the site."""
+        return self.cause.word, self.site.words if self.site else ""
+
+    @property
+    def title(self) -> str:
+        """What the cause is, and where."""
+        return " ".join([self.cause.about, self.site.words] if self.site else [self.cause.about])
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +99,7 @@ class Limit:
     ``force`` is its RMS in N, ``strength`` its size at ``place`` of the suspect's grid.
     """
 
-    cause: type[Cause]
-    suspect: Suspect
+    candidate: Candidate
     place: float
     strength: float
     force: float
@@ -110,12 +121,12 @@ class Screen:
 
 
 def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows:
-    """The columns of all candidates on every run."""
+    """The columns on every run of all candidates but those inside a network with nodes."""
     values, places = {}, {}
     for run in view.runs:
         scored = view.scored[run]
         rows, at = [np.empty((0, scored.samples))], [np.empty(0, dtype=np.intp)]
-        for candidate in candidates:
+        for candidate in (candidate for candidate in candidates if candidate.site is None):
             found = np.atleast_2d(candidate.suspect.columns(view, run))[:, scored.first :]
             alive = np.flatnonzero(found.any(axis=1))
             rows.append(found[alive])
@@ -224,7 +235,7 @@ def _inverse(matrix: Array) -> tuple[Array, int]:
 def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[Limit, ...]:
     sizes = np.sqrt(columns.bank.squares() / projected.samples)
     kept = np.diag(projected.spread)
-    found: dict[type[Cause], Limit] = {}
+    found: dict[tuple[str, str], Limit] = {}
     for candidate in columns.candidates:
         where, suspect = candidate.columns, candidate.suspect
         usable = kept[where] > KEPT * projected.original[where]
@@ -235,9 +246,9 @@ def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[L
         forces = strength * sizes[where][usable]
         least = int(np.argmin(forces))
         place = suspect.grid[np.flatnonzero(usable)[least]]
-        limit = Limit(candidate.cause, suspect, place, float(strength[least]), float(forces[least]))
-        if candidate.cause not in found or limit.force < found[candidate.cause].force:
-            found[candidate.cause] = limit
+        limit = Limit(candidate, place, float(strength[least]), float(forces[least]))
+        if candidate.name not in found or limit.force < found[candidate.name].force:
+            found[candidate.name] = limit
     return tuple(found.values())
 
 

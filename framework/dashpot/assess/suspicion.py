@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model
+from dashpot.assess.inside import Inside
 from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
-from dashpot.assess.projection import SparseRows
+from dashpot.assess.projection import SparseRows, side_by_side
 from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
+from dashpot.assess.seat import Seat, seats_of
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
 from dashpot.data.sensor_errors import error_shapes
@@ -44,9 +47,12 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     noise = noise or first_noise(bench, model)
     model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
-    candidates, unavailable = gather_candidates(causes, view, model)
+    inside = Inside(model.fitted, bench.runs, bench.elements) if model.fitted.joints else None
+    candidates, unavailable = gather_candidates(causes, seats_of(view, model.fitted, inside))
     nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors)
     bank = collect_bank(view, candidates)
+    if inside:
+        bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
     columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates))
     for _ in range(NOISE_ROUNDS):
         noise = learn_noise(rich_residual(columns, noise), resolution(bench))
@@ -77,25 +83,21 @@ def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array]
 
 
 def gather_candidates(
-    causes: Sequence[type[Cause]],
-    view: ModelView,
-    model: Model,
+    causes: Sequence[type[Cause]], seats: Sequence[Seat]
 ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
     """All forms of all causes with the places of their columns, and the causes that cannot be tried with the reason."""
     found: list[Candidate] = []
     unavailable, first = [], 0
-    for cause in causes:
+    for cause, seat in product(causes, seats):
         try:
-            suspects = list(cause().suspects(view, model.fitted))
-            for suspect in suspects:
-                suspect.columns(view, view.runs[0])
+            suspects = seat.suspects(cause)
         except InputError as error:
             unavailable.append((cause.word, str(error)))
             continue
         for suspect in suspects:
-            found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid))))
+            found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid)), seat.site))
             first += len(suspect.grid)
-    return found, tuple(unavailable)
+    return found, tuple(dict.fromkeys(unavailable))
 
 
 def sensor_nuisance(

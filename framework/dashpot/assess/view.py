@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -81,10 +81,10 @@ class ModelView:
         """The force (n,) of the model along a changed deflection. ValueError for a view without its network."""
         if self.network is None:
             raise ValueError("expected a view that knows its network, got one made of forces alone")
-        network = compile_network(self.network)
-        drive = drive_from_samples(self.step(run), self.displacement(run) + change)
-        force = network.simulate(network.prepare(drive))
-        return network.observation(network.start).see(force[None], drive.dt)[0]
+        scored = self.scored[run]
+        moved = replace(scored, drive=drive_from_samples(scored.drive.dt, scored.drive.displacement + change))
+        objective = Objective(compile_network(self.network), [moved])
+        return objective.forces(objective.network.start)[0][0]
 
     def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
         """The forces (m, n) of an element with each of m sets of values.

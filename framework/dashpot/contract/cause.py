@@ -79,7 +79,9 @@ class Suspect:
 
     With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
-    ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what a strength of one is.
+    ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
+    those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
+    a strength of one is.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -95,6 +97,7 @@ class Suspect:
     unknowns: int = 1
     most: int = 1
     mends: bool = False
+    measured: bool = False
     local: bool = False
     quantity: str = "strength"
     unit: str = ""

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 from dashpot.expr.interpret import Recipe
 from dashpot.kernel.source import print_source
@@ -15,20 +16,29 @@ from dashpot.kernel.tiers import Program, sort_tiers
 from dashpot.kernel.trace import trace_network
 from dashpot.model.element import Element
 from dashpot.model.network import Branch, NetworkSpec
+from dashpot.model.topology import Topology
 
 KEPT = 512
 
 
 @dataclass(frozen=True)
-class _Build:
-    # a network by its structure; the spec is there to build it once
+class Build:
+    """A network by its structure; ``parts`` are there to build it once."""
+
     structure: Hashable
-    spec: NetworkSpec = field(compare=False)
+    parts: Any = field(compare=False)
+
+
+def structure_of(topology: Topology) -> Hashable:
+    """What the equations of a network with nodes depend on."""
+    joints = tuple((joint.name, joint.hold, joint.numbers, tuple(joint.masses)) for joint in topology.joints.values())
+    edges = tuple((_structure(edge.branch), edge.lower, edge.upper, edge.offset) for edge in topology.edges)
+    return joints, edges
 
 
 def program_of(spec: NetworkSpec) -> Program:
     """The program of a network with two ends. Raises TraceError and InputError as tracing does."""
-    return _program(_Build(tuple(_structure(branch) for branch in spec.leaves()), spec))
+    return _program(Build(tuple(_structure(branch) for branch in spec.leaves()), spec))
 
 
 @lru_cache(KEPT)
@@ -44,8 +54,8 @@ def recipe_of(program: Program) -> Recipe:
 
 
 @lru_cache(KEPT)
-def _program(build: _Build) -> Program:
-    return sort_tiers(trace_network(build.spec))
+def _program(build: Build) -> Program:
+    return sort_tiers(trace_network(build.parts))
 
 
 def _structure(branch: Branch) -> Hashable:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, wri
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.scheme import PAIR, alternate
 from dashpot.kernel.settings import with_settings
+from dashpot.kernel.structure import KEPT, Build, structure_of
 from dashpot.kernel.system_source import ARGUMENTS, UNBALANCED, UNSOLVED, SystemLayouts, print_system
 from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
 from dashpot.kernel.trace import refuse_missing_numbers
@@ -83,11 +84,12 @@ class Solution:
 
 @dataclass(frozen=True)
 class CompiledSystem(Compiled):
-    """A compiled network with unknown nodes; see ``Compiled``."""
+    """A compiled network with unknown nodes; see ``Compiled``. ``signals`` are forces over time that laws refer to."""
 
     topology: Topology
     layouts: SystemLayouts
     native: Native
+    signals: tuple[str, ...] = ()
 
     @cached_property
     def outputs(self) -> tuple[str, ...]:
@@ -109,6 +111,18 @@ class CompiledSystem(Compiled):
             self._moved(excitation, PAIR * pairs),
             self._moved(excitation, 2 * PAIR * pairs),
         )
+
+    def with_signals(self, run: SystemRows, signals: Mapping[str, Array]) -> SystemRows:
+        """A prepared run with forces (n,) in N for some of the ``signals``, straight from sample to sample."""
+        columns = {node.payload: number for number, node in enumerate(self.program.columns) if not node.arguments}
+        still, coarse, fine = run.still.copy(), run.coarse.copy(), run.fine.copy()
+        for signal, given in signals.items():
+            column = columns[driven_symbol(signal, "load")]
+            still[:, column] = given[0]
+            for rows in (coarse, fine):
+                parts = len(rows) // (given.size - 1)
+                rows[:, column] = (given[:-1, None] + np.outer(np.diff(given), np.arange(1, parts + 1) / parts)).ravel()
+        return replace(run, still=still, coarse=coarse, fine=fine)
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
@@ -213,6 +227,7 @@ class CompiledSystem(Compiled):
         for joint in self.topology.held("loaded"):
             at = np.arange(1, count + 1) / parts
             seen[driven_symbol(joint, "load")] = _between(excitation.loads[joint], at)
+        seen |= dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
         rule = alternate(excitation.dt / parts, count // PAIR)
         seen |= {f"rule.{key}": getattr(rule, key) for key in ("slope", "now", "before", "swing")}
         return self._columns(seen | self._newton(excitation), count)
@@ -226,7 +241,7 @@ class CompiledSystem(Compiled):
             seen |= {driven_symbol(joint, key): number for key, number in begin.items()}
         for joint in self.topology.held("loaded"):
             seen[driven_symbol(joint, "load")] = float(excitation.loads[joint][0])
-        return seen
+        return seen | dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
 
     def _newton(self, excitation: Excitation) -> dict[str, float]:
         spans = [np.ptp(drive.displacement) for drive in excitation.motions.values()]
@@ -240,15 +255,42 @@ class CompiledSystem(Compiled):
         return found
 
 
-def compile_system(spec: NetworkSpec, topology: Topology | None = None, meter: Meter | None = None) -> CompiledSystem:
-    """Trace, balance, sort, print, compile; a ``meter`` goes along. InputError for what cannot be compiled."""
+def compile_system(
+    spec: NetworkSpec, topology: Topology | None = None, meter: Meter | None = None, signals: Sequence[str] = ()
+) -> CompiledSystem:
+    """Trace, balance, sort, print, compile; a ``meter`` goes along. InputError for what cannot be compiled.
+
+    A law may refer to a force over time, one of the ``signals``, by its ``driven_symbol``; see ``with_signals``.
+    """
     refuse_missing_numbers(spec)
     topology = topology or topology_of(spec)
+    build = Build((structure_of(topology), tuple(signals)), (spec, topology, tuple(signals)))
+    printed = _print(build, meter) if meter else _shared(build)
+    native = load_native(printed.text, len(ARGUMENTS))
+    return CompiledSystem(spec, printed.program, topology, printed.layouts, native, tuple(signals))
+
+
+@dataclass(frozen=True)
+class _Printed:
+    program: Program
+    layouts: SystemLayouts
+    text: str
+
+
+@lru_cache(KEPT)
+def _shared(build: Build) -> _Printed:
+    # networks that are built alike share what is printed
+    return _print(build, None)
+
+
+def _print(build: Build, meter: Meter | None) -> _Printed:
+    spec, topology, signals = build.parts
     equations = write_equations(topology, meter)
+    known = {driven_symbol(signal, "load") for signal in signals}
+    equations = replace(equations, known=equations.known | known)
     program, passes = _sort(equations)
     layouts = SystemLayouts(program, equations, _shelves(spec), passes)
-    text = print_system(layouts, topology.held("driven"), topology.unknown, VECTORS)
-    return CompiledSystem(spec, program, topology, layouts, load_native(text, len(ARGUMENTS)))
+    return _Printed(program, layouts, print_system(layouts, topology.held("driven"), topology.unknown, VECTORS))
 
 
 def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:

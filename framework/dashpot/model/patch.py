@@ -40,6 +40,11 @@ def add_branch(text: str, lines: str) -> str:
     return add_entry(document, _mapping(document.root, "branches"), lines)
 
 
+def branch_names(text: str) -> tuple[str, ...]:
+    """The names of the outermost branches, in the order of the text."""
+    return tuple(_mapping(Document.parse(text).root, "branches").entries)
+
+
 def add_to_branch(text: str, branch: str, lines: str) -> str:
     """The text with an entry, given as unindented lines, added to a branch; ``group.branch`` is one inside a group.
 

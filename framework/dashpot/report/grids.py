@@ -210,7 +210,8 @@ def _in_rig_units(value: float, unit: str) -> dict[str, Any]:
 
 
 def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
-    others = cause.get("indistinguishable_from")
+    others = [_title_of(word, diagnosis) for word in cause.get("indistinguishable_from") or ()]
+    others = [cause_title(other) for other in cause.get("alternatives") or ()] or others
     return {
         "rank": cause.get("rank"),
         "cause": cause_title(cause) + (" (measurement)" if cause.get("class") == "measurement" else ""),
@@ -220,7 +221,7 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
         "gain": _percent(cause.get("gain")),
         "interval": percent_interval(cause.get("gain_interval")),
         "parameters": join(parameter_texts(cause)) if cause.get("parameters") else None,
-        "confused": join([_title_of(word, diagnosis) for word in others]) if others else None,
+        "confused": join(others) if others else None,
     }
 
 

@@ -168,6 +168,10 @@ def _named(causes: list[Json]) -> str:
 
 def _rivals(diagnosis: Json) -> list[Json]:
     causes = diagnosis["causes"]
+    places = [other for cause in causes for other in cause.get("alternatives") or ()]
+    if places:
+        named = [cause for cause in causes if cause.get("indistinguishable_from")]
+        return list({cause_title(cause): cause for cause in [*places, *named]}.values())[::-1]
     words = {cause["cause"] for cause in causes if cause.get("indistinguishable_from")}
     words |= {other for cause in causes for other in cause.get("indistinguishable_from") or []}
     known = {cause["cause"]: cause for cause in causes}

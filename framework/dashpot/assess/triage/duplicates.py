@@ -16,10 +16,15 @@ NOISELESS = 1e-7  # of the deviation: a computed force, which repeats itself exa
 
 
 def duplicate_runs(runs: Sequence[Run]) -> list[Fault]:
-    """Runs whose force is that of an earlier one to the last digit; computed forces without noise may be that."""
+    """Runs whose force is that of an earlier one to the last digit; computed forces without noise may be that.
+
+    The forces of one record may be, on a symmetric specimen.
+    """
     found: dict[str, Fault] = {}
     for first, second in combinations(runs, 2):
-        if first.name not in found and second.name not in found and _same(first, second):
+        if first.record == second.record or first.name in found or second.name in found:
+            continue
+        if _same(first, second):
             found[second.name] = Fault(
                 second.name, "duplicate", f"its force is that of run '{first.name}' to the last digit",
                 "A copy is no repeat: measure again, or remove it",
