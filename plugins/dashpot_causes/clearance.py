@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
 PLACES = 9
+SLIDING = np.array([0.005, 0.03, 0.15])  # of the stroke: how far the spring behind the play gives before it slides
 
 
 class Clearance(Cause):
@@ -32,15 +33,21 @@ class Clearance(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring behind play; a spring with a dead zone around zero; play between drive and specimen."""
+        """A spring behind play, or with a dead zone around zero; friction behind play; play ahead of the specimen."""
         gaps = tuple(np.geomspace(2e-3 * view.stroke, 0.3 * view.stroke, PLACES))
         units = {"stiffness": "N/m", "gap": "m"}
         yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
         low, high = view.reach
         if low < 0.0 < high:
             yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
+        for travel in SLIDING * view.stroke:
+            yield added_branch("loose_friction", "clearance", gaps[:-1], _loose(travel), {**units, "limit": "N"})
         lost = _Lost(gaps[::2])
         yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
+
+
+def _loose(travel: float) -> Callable[[float, float], Mapping[str, float]]:
+    return lambda limit, gap: {"limit": limit, "stiffness": limit / travel, "gap": gap}
 
 
 @dataclass(frozen=True)

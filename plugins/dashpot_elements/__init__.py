@@ -24,6 +24,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.hydro import Hydro
     from dashpot_elements.inerter import Inerter
     from dashpot_elements.iwan import Iwan
+    from dashpot_elements.loose_friction import LooseFriction
     from dashpot_elements.maxwell import Maxwell
     from dashpot_elements.power_law_damper import PowerLawDamper
     from dashpot_elements.prandtl import Prandtl
@@ -51,6 +52,7 @@ def dashpot_elements() -> list[type]:
         Dahl,
         Prandtl,
         Stribeck,
+        LooseFriction,
         BoucWen,
         Iwan,
         BeddingIn,

@@ -56,6 +56,14 @@ def test_backlash_gives_back_the_work_of_its_parallelogram():
     assert found.imag == pytest.approx(expected, rel=1e-5)
 
 
+def test_loose_friction_dissipates_where_it_slides_only():
+    stiffness, limit, gap, amplitude = 2.2e5, 60.0, 0.4e-3, 2e-3
+    found = dynamic_stiffness("loose_friction", amplitude, 5.0, 3, 8000, limit=limit, stiffness=stiffness, gap=gap)
+    # of every half cycle the slider takes what play and spring leave of the stroke
+    work = 4.0 * limit * (amplitude - gap - limit / stiffness)
+    assert found.imag == pytest.approx(work / (np.pi * amplitude**2), rel=1e-5)
+
+
 def test_an_asymmetric_damper_has_a_mean_force_of_one_and_a_half_its_second_harmonic():
     compression, rebound, amplitude, frequency = 500.0, 1500.0, 2e-3, 10.0
     mean, a, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 4000, compression=compression,

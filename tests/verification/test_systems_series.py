@@ -18,6 +18,7 @@ ELEMENTS = {
     "bouc_wen": "stiffness: 100 N/mm, limit: 100 N, shape: 0.7, exponent: 1.5",
     "clearance": "stiffness: 150 N/mm, gap: 0.3 mm",
     "backlash": "stiffness: 150 N/mm, gap: 0.3 mm",
+    "loose_friction": "limit: 60 N, stiffness: 150 N/mm, gap: 0.3 mm",
     "asymmetric_damper": "compression: 500 N*s/m, rebound: 1500 N*s/m, compression_digression: 3 s/m",
     "hydro": "fluid_mass: 5 kg, stiffness: 200 N/mm, damping: 500 N*s/m",
 }
