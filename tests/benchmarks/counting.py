@@ -26,7 +26,9 @@ from dashpot.kernel.source import print_source
 from dashpot.kernel.system_source import print_system
 
 REGISTERS = ("zmm", "ymm", "xmm")
-PROCESSOR, SECONDS, MORE = "haswell", 0.5, 4
+PROCESSOR, SECONDS = "haswell", 0.5
+# calls that are counted: so many that what Python does around them, which differs from start to start, hardly counts
+CALLS = {NETWORK: 200, f"{NETWORK}, 1 lane": 500, AXLE: 5}
 RUN = """
 import pickle, sys
 from dashpot.kernel.native import load_native
@@ -80,7 +82,7 @@ def instructions() -> dict[str, float]:
     """Instructions per lane and sample by network; empty without valgrind."""
     if not which("valgrind"):
         return {}
-    return {name: _counted(work) for name, work in works().items()}
+    return {name: _counted(work, CALLS[name]) for name, work in works().items()}
 
 
 def works() -> dict[str, Counted]:
@@ -99,17 +101,17 @@ def works() -> dict[str, Counted]:
     return {**found, AXLE: Counted(texts()[AXLE], recorder.calls[0], whole.units)}
 
 
-def _counted(work: Counted) -> float:
+def _counted(work: Counted, calls: int) -> float:
     with tempfile.TemporaryDirectory() as folder:
         given = Path(folder) / "work"
         given.write_bytes(pickle.dumps((work.text, work.arguments)))
-        few, many = (_collected(given, count) for count in (1, 1 + MORE))
-    return (many - few) / (MORE * work.units)
+        few, many = (_collected(given, count) for count in (1, 1 + calls))
+    return (many - few) / (calls * work.units)
 
 
 def _collected(given: Path, count: int) -> int:
     command = [sys.executable, "-c", RUN, str(given), str(count)]
-    environment = {**os.environ, "DASHPOT_PROCESSOR": PROCESSOR}
+    environment = {**os.environ, "DASHPOT_PROCESSOR": PROCESSOR, "PYTHONHASHSEED": "0"}
     subprocess.run(command, env=environment, check=True)  # compiles without valgrind
     counting = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command]
     told = subprocess.run(counting, env=environment, capture_output=True, text=True, check=True).stderr
