@@ -29,6 +29,7 @@ Array = NDArray[np.float64]
 STEPS = 20
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
+REACH = 10.0  # so many times as much as in its last step a refit may still gain
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,24 +78,37 @@ class Bench:
         return view_of(model.fitted, [*self.runs, *self.unseen], self.elements)
 
     def fit(
-        self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None, mends: Sequence[Mend] = ()
+        self,
+        declared: NetworkSpec,
+        start: NetworkSpec,
+        noise: NoiseModel | None,
+        mends: Sequence[Mend] = (),
+        beat: float = np.inf,
     ) -> Model:
         """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
 
         The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter.
+        A network without mends that will not come down to the chi square ``beat`` is left behind half way.
         """
-        model = self._fit(declared, start, noise, tuple(mends))
+        model = self._fit(declared, start, noise, tuple(mends), np.inf if mends else beat)
         for _ in range(MEND_ROUNDS if mends else 0):
             model = self._fit(declared, model.fitted, noise, self._strengthened(model, noise))
         return model
 
     def _fit(
-        self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel | None, mends: tuple[Mend, ...]
+        self,
+        declared: NetworkSpec,
+        start: NetworkSpec,
+        noise: NoiseModel | None,
+        mends: tuple[Mend, ...],
+        beat: float = np.inf,
     ) -> Model:
         runs = [mended(run, mends) for run in self.runs]
         objective = Objective(compile_network(start), runs, self.jobs, noise.whiten if noise else None)
         coordinates = search_coordinates(start)
-        found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE)
+        aim = np.sqrt(beat / objective.total)
+        found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE,
+                       hopeless=lambda before, after: after - REACH * (before - after) > aim)  # fmt: skip
         fitted = with_point(start, coordinates, found.point)
         chi_square = found.loss**2 * objective.total
         return Model(declared, fitted, coordinates, found.point, chi_square, found.outcome, mends)
@@ -119,10 +133,10 @@ class Bench:
             {name: jacobian[:, piece] for name, piece in pieces.items()},
         )
 
-    def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel) -> Model:
-        """The model with a patch of its text, refitted from its own numbers and those of the patch."""
+    def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel, beat: float = np.inf) -> Model:
+        """The model with a patch of its text, refitted from its own numbers and those of the patch; see ``fit``."""
         declared = parse_network(extend(model.declared.text), self.elements, model.declared.file)
-        return self.fit(declared, self.start_from(declared, model.fitted), noise, model.mends)
+        return self.fit(declared, self.start_from(declared, model.fitted), noise, model.mends, beat)
 
     def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
         """A network ready to be fitted: shared numbers inherited, the others given a range."""
@@ -131,7 +145,10 @@ class Bench:
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A finalist after its refit. ``merit`` is the fall of chi square less the price of its new parameters."""
+    """A finalist after its refit. ``merit`` is the fall of chi square less the price of its new parameters.
+
+    Where its refit was left behind by a better finalist, both are what it had come to.
+    """
 
     finding: Finding
     model: Model
@@ -140,15 +157,17 @@ class Trial:
     failure: str = ""
 
 
-def try_finding(bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int) -> Trial:
-    """Extend the base by a finding, or mend the measurement, and refit."""
+def try_finding(
+    bench: Bench, base: Model, finding: Finding, noise: NoiseModel, samples: int, beat: float = np.inf
+) -> Trial:
+    """Extend the base by a finding, or mend the measurement, and refit, as long as it may come down to ``beat``."""
     suspect = finding.candidate.suspect
     try:
         if suspect.mends:
             mend = make_mend(bench.view(base), finding)
             model = bench.fit(base.declared, base.fitted, noise, (*base.mends, mend))
         else:
-            model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise)
+            model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise, beat)
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     gain = base.chi_square - model.chi_square

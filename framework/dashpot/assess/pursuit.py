@@ -22,6 +22,7 @@ from dashpot.assess.suspicion import Look, expected_gain, look_at
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
 from dashpot.fit.objective import Objective
+from dashpot.fit.refine import Outcome
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
@@ -179,14 +180,18 @@ class Pursuer:
                 self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding, self.bench.runs), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
-            trials.append(self.try_out(finding, look))
-        ranked = sorted(trials, key=lambda trial: -trial.merit)
-        for trial in ranked:
+            trials.append(self.try_out(finding, look, to_beat(trials, look)))
+        while trials:
+            trial, *rest = ranked = sorted(trials, key=lambda trial: -trial.merit)
+            if trial.model.outcome is Outcome.LEFT_BEHIND:
+                trials = [self.try_out(each.finding, look) for each in ranked]
+                continue
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
             gain = self.gain_of(look.model, trial.model)
             reason = self.objection(trial, gain, look, explained)
             if reason:
                 self.reject(trial.finding, reason, foreseen, gain)
+                trials = rest
                 continue
             chosen, others = settle_ties(trial, ranked)
             for other in ranked:
@@ -202,9 +207,9 @@ class Pursuer:
         """The fall of chi square below which not even a refit would make a later cause worth a name."""
         return REFIT_MAY_DOUBLE * (1.0 - (1.0 - SMALLEST_LATER_GAIN) ** 2) * look.model.chi_square
 
-    def try_out(self, finding: Finding, look: Look) -> Trial:
-        """A finding as a refitted model."""
-        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples)
+    def try_out(self, finding: Finding, look: Look, beat: float = np.inf) -> Trial:
+        """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
+        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, beat)
 
     def simplify(self, trial: Trial, look: Look) -> Trial:
         """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
@@ -296,9 +301,23 @@ def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Tri
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
     best: dict[tuple[str, str], Trial] = {}
     for other in near:
-        best.setdefault(other.finding.candidate.name, other)
+        if not idles(other, chosen):
+            best.setdefault(other.finding.candidate.name, other)
     best.pop(chosen.finding.candidate.name)
     return chosen, tuple(best.values())
+
+
+def to_beat(trials: Sequence[Trial], look: Look) -> float:
+    """The chi square from which on a trial comes near the best one so far."""
+    best = max(trials, key=lambda trial: trial.merit, default=None)
+    return look.model.chi_square - best.merit + tie_width(best) if best and not best.failure else np.inf
+
+
+def idles(other: Trial, chosen: Trial) -> bool:
+    """Whether a trial at the site of the chosen one has more numbers in vain: it is the same thing, elaborated."""
+    site = other.finding.candidate.site
+    same = site is not None and site == chosen.finding.candidate.site
+    return same and other.model.numbers > chosen.model.numbers and other.merit <= chosen.merit
 
 
 def tie_width(trial: Trial) -> float:

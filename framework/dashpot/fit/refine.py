@@ -24,6 +24,7 @@ class Outcome(Enum):
     CONVERGED = "converged"
     STEPS_SPENT = "the largest number of steps was reached before the fit stood still; allow more steps"
     BUDGET_SPENT = "the budget was spent before the fit stood still"
+    LEFT_BEHIND = "another model was out of reach"
     FAILED = "the simulation is not finite at the start; check the start values"
 
 
@@ -45,11 +46,13 @@ def refine(
     tolerance: float = 1e-7,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
+    hopeless: Callable[[float, float], bool] = lambda before, after: False,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
-    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors.
+    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. A step
+    from one loss to another that is ``hopeless`` is the last one.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
@@ -70,10 +73,12 @@ def refine(
                 return Refined(point, loss, Outcome.CONVERGED, spent)
             slack *= 100.0
             continue
-        gain, loss, point = 1.0 - losses[best] / loss, float(losses[best]), tries[best]
+        before, loss, point = loss, float(losses[best]), tries[best]
         slack = max(DAMPINGS[best] / 10.0, 1e-3)
-        if gain < tolerance:
+        if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
+        if hopeless(before, loss):
+            return Refined(point, loss, Outcome.LEFT_BEHIND, spent)
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
