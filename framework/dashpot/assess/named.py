@@ -94,7 +94,7 @@ def name_causes(pursuit: Pursuit, final: NetworkSpec) -> list[NamedCause]:
 
 
 def _added(before: NetworkSpec, after: NetworkSpec, final: NetworkSpec) -> dict[str, Value]:
-    known = {slot.path for slot in before.slots()}
+    known = {slot.path for slot in before.slots()} | {f"{name}.offset" for name in after.ends}
     new = {slot.path for slot in after.slots()} - known
     found = [slot for slot in final.slots() if slot.path in new]
     # in the order of the text, where a cause puts what matters first

@@ -16,6 +16,7 @@ from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
 from dashpot.assess.projection import SparseRows, side_by_side
 from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
 from dashpot.assess.seat import Seat, seats_of
+from dashpot.assess.selected import selected_residual
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
 from dashpot.data.sensor_errors import error_shapes
@@ -27,6 +28,7 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 NOISE_ROUNDS = 2
+INNER_ROUNDS = 4
 RESOLUTION = 1e-5  # of the deviation of the force
 
 
@@ -54,8 +56,9 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     if inside:
         bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
     columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates))
-    for _ in range(NOISE_ROUNDS):
-        noise = learn_noise(rich_residual(columns, noise), resolution(bench))
+    noise_of, rounds = (selected_residual, INNER_ROUNDS) if inside else (rich_residual, NOISE_ROUNDS)
+    for _ in range(rounds):
+        noise = learn_noise(noise_of(columns, noise), resolution(bench))
     model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
     columns = replace(columns, residual=residual, tangents=SparseRows.dense(tangents))
