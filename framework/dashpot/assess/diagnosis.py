@@ -157,7 +157,7 @@ class Diagnosis:
         return {
             "cause": named.cause.word,
             "class": named.cause.kind,
-            "title": named.title,
+            "title": named.cause.about,
             "place": named.site.words if named.site else None,
             "rank": rank,
             "accepted": True,
@@ -168,7 +168,7 @@ class Diagnosis:
             "gain_interval": list(named.gain.interval) if named.gain else None,
             "parameters": named.parameters(),
             "indistinguishable_from": list(named.rivals),
-            "alternatives": [{"cause": other.cause.word, "title": other.title} for other in named.alternatives],
+            "alternatives": [other.told() for other in named.alternatives],
             "next_measurement": telling[0] if telling else None,
         }
 

@@ -66,8 +66,7 @@ def detection_limits(screen: Screen) -> list[dict[str, Any]]:
     """
     return [
         {
-            "cause": limit.candidate.cause.word,
-            "title": limit.candidate.title,
+            **limit.candidate.told(),
             "quantity": " as ".join(dict.fromkeys([limit.candidate.suspect.quantity, limit.candidate.suspect.form])),
             "value": limit.strength if limit.candidate.suspect.unit else limit.force,
             "unit": limit.candidate.suspect.unit or "N",
@@ -85,7 +84,8 @@ def telling_measurement(cause: type[Cause], rival: type[Cause]) -> str:
 def _rejected(causes: Mapping[str, type[Cause]], rejection: Rejection) -> dict[str, Any]:
     return {
         "cause": rejection.cause,
-        "title": " ".join([causes[rejection.cause].about, *rejection.where, f"({rejection.form})"]),
+        "title": f"{causes[rejection.cause].about} ({rejection.form})",
+        "place": rejection.place,
         "reason": rejection.reason,
         "expected_gain": rejection.expected_gain,
         "gain": rejection.gain,

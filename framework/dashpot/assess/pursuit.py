@@ -71,11 +71,6 @@ class Rejection:
     gain: float | None = None
     place: str | None = None
 
-    @property
-    def where(self) -> tuple[str, ...]:
-        """The place, if there is one."""
-        return (self.place,) if self.place else ()
-
 
 @dataclass(frozen=True, eq=False)
 class Pursuit:

@@ -44,6 +44,11 @@ class Candidate:
         """The word of the cause, and the words of the site."""
         return self.cause.word, self.site.words if self.site else ""
 
+    def told(self) -> dict[str, str | None]:
+        """Word, title and place as they stand in result files."""
+        place = self.site.words if self.site else None
+        return {"cause": self.cause.word, "title": self.cause.about, "place": place}
+
     @property
     def title(self) -> str:
         """What the cause is, and where."""

@@ -131,9 +131,14 @@ def rejected_grid(rejected: Sequence[Json]) -> Grid:
     return Grid("Tried and rejected", columns, rows, csv_name="rejected.csv")
 
 
-def cause_title(cause: Json) -> str:
+def cause_name(cause: Json) -> str:
     """The cause in the engineer's words: its `title` where its plugin gave one, else its word."""
     return cause.get("title") or cause["cause"].replace("_", " ")
+
+
+def cause_title(cause: Json) -> str:
+    """The same with its `place` in the network, where it has one."""
+    return " ".join(filter(None, [cause_name(cause), cause.get("place")]))
 
 
 def parameter_texts(cause: Json) -> list[str]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_title, floor_value
+from dashpot.report.grids import cause_name, cause_title, floor_value
 from dashpot.report.readable import join, number, percent, quantity, with_interval
 
 Json = Mapping[str, Any]
@@ -59,7 +59,8 @@ def cause_phrase(cause: Json) -> str:
     first = next(iter(parameters.values()), {})
     if first.get("value") is None or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
-    return f"{cause_title(cause)} of {with_interval(first['value'], first.get('interval'), first.get('unit') or '')}"
+    size = with_interval(first["value"], first.get("interval"), first.get("unit") or "")
+    return " ".join(filter(None, [cause_name(cause), "of", size, cause.get("place")]))
 
 
 def _is_known(parameter: Json) -> bool:
@@ -129,8 +130,8 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     if len(rivals) < 2:
         return f"{error_phrase(errors)}: these data cannot tell its cause."
     sure = [cause for cause in accepted_causes(diagnosis) if not cause.get("indistinguishable_from")]
-    known = [cause["cause"] for cause in sure]
-    names = join([f"more {cause_title(c)}" if c["cause"] in known else cause_phrase(c) for c in rivals])
+    known = [cause_title(cause) for cause in sure]
+    names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
     if not sure:
         return f"{error_phrase(errors)}: {names} explain it alike, and these data cannot tell them apart."
     rest = f"a further part {names} explain alike, and these data cannot tell them apart"

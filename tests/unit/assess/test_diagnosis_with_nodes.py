@@ -92,7 +92,8 @@ def test_friction_of_a_suspension_is_named_with_place_and_size(rng):
     assert found["rmse"]["after"]["held_out"] == pytest.approx(2.0, rel=0.1)
     assert diagnosis.extended_text.count("between: [wheel, body]") == 3
     assert "# weighed" in diagnosis.extended_text
-    assert "dry friction between wheel and body" in diagnosis_text(diagnosis).splitlines()[-1]
+    said = diagnosis_text(diagnosis).splitlines()[-1]
+    assert "dry friction of " in said and " between wheel and body, missing in the model" in said
     assert any("refit with friction between wheel and body" in stage for stage in stages)
     assert any("two ends only" in warning for warning in diagnosis.evidence()["warnings"])
 

@@ -140,3 +140,18 @@ def test_silence_says_how_small_an_effect_it_is_about():
     said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
     assert "from a force of 9.00 N RMS on" in said
     assert "delay (delay 45.0 us)" in said
+
+
+SUSPENSION, BAR = "between wheel_left and body, likewise wheel_right and body", "between wheel_left and wheel_right"
+
+
+def test_a_cause_in_a_network_with_nodes_is_told_with_its_place():
+    said = headline(diagnosis(causes=[friction(place=SUSPENSION)]))
+    assert f"76 % of it is dry friction of 41 N [38, 44] {SUSPENSION}, missing in the model" in said
+
+
+def test_the_same_cause_at_another_place_is_a_rival():
+    other = {"cause": "friction", "title": "dry friction", "place": BAR}
+    cause = friction(place=SUSPENSION, indistinguishable_from=["friction"], alternatives=[other])
+    said = headline(diagnosis(verdict="ambiguous", causes=[cause]))
+    assert f"dry friction of 41 N [38, 44] {SUSPENSION} and dry friction {BAR} explain it alike" in said

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from dashpot.report.grids import cause_title
 from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, layout, plain
 
@@ -14,11 +15,11 @@ EXPECTED, REALISED, LOW, HIGH = "expected gain (%)", "gain (%)", "gain from (%)"
 def gain_intervals(causes: Sequence[Mapping[str, Any]]) -> Figure:
     """Expected gain (open) and gain on held-out runs (filled, with its interval) of each cause, in percent.
 
-    Each cause: `cause`, optionally `title`, and as shares of one, each None where unknown: `expected_gain`, `gain`,
-    `gain_interval` (low, high); `accepted`.
+    Each cause: `cause`, optionally `title` and `place`, and as shares of one, each None where unknown:
+    `expected_gain`, `gain`, `gain_interval` (low, high); `accepted`.
     """
     columns: dict[str, list[Any]] = {
-        "cause": [_title(cause) for cause in causes],
+        "cause": [cause_title(cause) for cause in causes],
         EXPECTED: [_percent(cause.get("expected_gain")) for cause in causes],
         REALISED: [_percent(cause.get("gain")) for cause in causes],
         LOW: [_percent((cause.get("gain_interval") or (None, None))[0]) for cause in causes],
@@ -70,10 +71,6 @@ def _layout(names: Sequence[str]) -> dict[str, Any]:
         xaxis=axis("gain (% of the error)", zeroline=True),
         yaxis=axis(type="category", categoryorder="array", categoryarray=list(reversed(names))),
     )
-
-
-def _title(cause: Mapping[str, Any]) -> str:
-    return cause.get("title") or cause["cause"].replace("_", " ")
 
 
 def _percent(share: float | None) -> float | None:
