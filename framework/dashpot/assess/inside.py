@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate
 from dashpot.assess.view import ModelView
+from dashpot.contract.cause import Suspect
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
 from dashpot.fit.scored import ScoredRun
@@ -99,10 +100,14 @@ class Inside:
         return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
     def _answers(self, inner: Sequence[Candidate], record: str) -> dict[str, Array]:
-        found = [self._changes(site, [one.suspect for one in inner if one.site == site], record) for site in self.sites]
-        return {run.name: np.concatenate([changes[run.name] for changes in found]) for run in self.records[record]}
+        at = {site: [one.suspect for one in inner if one.site == site] for site in self.sites}
+        found = [self._changes(site, suspects, record) for site, suspects in at.items() if suspects]
+        return {
+            run.name: np.concatenate([np.empty((0, run.samples)), *(changes[run.name] for changes in found)])
+            for run in self.records[record]
+        }
 
-    def _changes(self, site: Site, suspects: Sequence, record: str) -> dict[str, Array]:
+    def _changes(self, site: Site, suspects: Sequence[Suspect], record: str) -> dict[str, Array]:
         view = self.view(site)
         forces = {
             pair: np.concatenate([np.atleast_2d(suspect.columns(view, _name(record, pair))) for suspect in suspects])
@@ -158,4 +163,4 @@ def _name(record: str, pair: Pair) -> str:
 
 
 def _places(candidates: Sequence[Candidate]) -> NDArray[np.intp]:
-    return np.concatenate([np.arange(one.columns.start, one.columns.stop) for one in candidates])
+    return np.concatenate([np.arange(0), *(np.arange(one.columns.start, one.columns.stop) for one in candidates)])

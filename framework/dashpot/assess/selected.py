@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
-from dashpot.assess.projection import Normal, Projected, normal_equations, project_out, stack
+from dashpot.assess.projection import Normal, Projected, normal_equations, project_out
 from dashpot.assess.screen import Columns
 
 Array = NDArray[np.float64]
@@ -20,13 +20,17 @@ KEPT = 1e-4  # of the square of a column must be left by those chosen before
 
 def selected_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     """What is left of each run after tangents, sensor errors and the suspects that are significant together."""
-    rows = stack(columns.tangents, columns.nuisance, columns.bank)
-    normal = normal_equations(columns.residual, rows, noise)
+    kinds = (columns.tangents, columns.nuisance, columns.bank)
+    normal = normal_equations(columns.residual, kinds, noise)
     fixed = columns.tangents.size + columns.nuisance.size
-    chosen = np.concatenate([np.arange(fixed), fixed + select(project_out(normal, fixed))]).astype(int)
-    strengths = np.zeros(rows.size)
+    chosen = np.concatenate([np.arange(fixed), fixed + select(project_out(normal, fixed))])
+    strengths = np.zeros(fixed + columns.bank.size)
     strengths[chosen] = _solve(normal, chosen)
-    return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
+    parts = np.split(strengths, np.cumsum([kind.size for kind in kinds])[:-1])
+    return {
+        run: values - sum(kind.combined(part, run) for kind, part in zip(kinds, parts, strict=True))
+        for run, values in columns.residual.items()
+    }
 
 
 def select(projected: Projected) -> NDArray[np.intp]:

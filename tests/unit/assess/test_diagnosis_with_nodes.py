@@ -192,6 +192,11 @@ def test_at_the_rig_the_motion_of_one_end_may_be_another(inside):
     assert np.mean(change) == pytest.approx(1e-4 * series, rel=1e-3)
 
 
+def test_without_suspects_the_inside_has_no_columns(inside):
+    bank = inside.bank(gather_candidates([MovedAtTheRig], seats(inside))[0])
+    assert [values.shape[0] for values in bank.values.values()] == [0, 0]
+
+
 def test_the_bench_hears_how_far_the_screen_is(inside):
     heard = []
     bench = Bench(inside.runs, inside.elements, {}, watch=heard.append)
