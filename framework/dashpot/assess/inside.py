@@ -96,7 +96,8 @@ class Inside:
                 watch(number / len(self.records))
                 for run, rows in found.items():
                     alive = np.flatnonzero(rows.any(axis=1) & np.isfinite(rows).all(axis=1))
-                    values[run], places[run] = rows[alive], _places(inner)[alive]
+                    # there are many columns, known to three digits: seven are kept
+                    values[run], places[run] = rows[alive].astype(np.float32), _places(inner)[alive]
         return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
     def _answers(self, inner: Sequence[Candidate], record: str) -> dict[str, Array]:

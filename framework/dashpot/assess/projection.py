@@ -124,7 +124,10 @@ def stack(*parts: SparseRows) -> SparseRows:
 
 
 def side_by_side(one: SparseRows, other: SparseRows) -> SparseRows:
-    """Rows of the same numbering of which each part has some."""
-    values = {run: np.concatenate([one.values[run], other.values[run]]) for run in one.values}
+    """Rows of the same numbering of which each part has some, as precise as those of the other part."""
+    values = {
+        run: np.concatenate([one.values[run], rows], dtype=rows.dtype, casting="same_kind")
+        for run, rows in other.values.items()
+    }
     places = {run: np.concatenate([one.places[run], other.places[run]]) for run in one.values}
     return SparseRows(values, places, one.size)
