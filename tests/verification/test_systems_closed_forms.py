@@ -13,7 +13,7 @@ from verification.truth.motion import smooth_motion
 from dashpot.kernel.system import Status
 
 GRAVITY = 9.81
-LANES = 24
+LANES, MOTIONS, LANDINGS, IMPACTS = 24, 5, 8, 15
 
 
 @pytest.fixture
@@ -54,7 +54,7 @@ def test_a_spring_and_a_damper_in_series_are_a_maxwell_element(rng):
 
 @pytest.mark.parametrize("sharpness", [1.0, 10.0])
 def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, state):
-    at, motion = times(0.5), smooth_motion(rng, 0.0, 3e-3)
+    at, motions = times(0.5), [smooth_motion(rng, 0.0, 3e-3) for _ in range(MOTIONS)]
     network = series("spring, stiffness: 20 N/mm", "dahl, stiffness: 200 N/mm, limit: 20 N")
     stiffness, limit = around(rng, 2e4), around(rng, 20.0)
     values = lanes(network, leg__first__stiffness=stiffness, leg__second__stiffness=sharpness * stiffness,
@@ -63,8 +63,10 @@ def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, s
     numbers = np.repeat(prandtl.start[None], LANES, axis=0)
     for key, column in (("stiffness", stiffness), ("limit", limit)):
         numbers[:, prandtl.paths.index(f"it.{key}")] = column
-    whole = prandtl.simulate(prandtl.prepare(drive_of(motion, at)), numbers)
-    errors = rms(solved(network, at, motion, values).force[:, 0] - whole) / limit
+    errors = np.concatenate([
+        rms(solved(network, at, motion, values).force[:, 0]
+            - prandtl.simulate(prandtl.prepare(drive_of(motion, at)), numbers)) / limit for motion in motions
+    ])  # fmt: skip
     state(f"spring and slider {sharpness:g} times as stiff in series at 1 ms: {np.median(errors):.1e} of the limit, "
           f"largest {errors.max():.1e}")  # fmt: skip
     # where the slider turns Newton's method stops a few nanometres beside the root
@@ -99,20 +101,28 @@ def integrated(rate, start, at):
 def test_a_block_on_a_table_flies_freely_after_it_lost_contact(rng, state):
     foot = "foot: {element: contact, stiffness: 200 N/mm, between: [table, block]}"
     network = system("{table: driven, block: {mass: 20 kg}}", foot, "9.81 m/s^2")
-    at, motion = times(0.5), smooth_motion(rng, 0.0, 8e-3, 6.0, 14.0)
-    found = solved(network, at, motion)
-    y = integrated(lambda t, y: [y[1], 2e5 * max(float(motion.place(t)) - y[0], 0.0) / 20.0 - GRAVITY],
-                   [-20.0 * GRAVITY / 2e5, 0.0], at)  # fmt: skip
-    exact, place = 2e5 * np.maximum(motion.place(at) - y[0], 0.0), found.motion[0, 0]
-    aloft = exact == 0.0
-    free = aloft[:-2] & aloft[1:-1] & aloft[2:]
-    state(f"lift-off: error {rms(found.force[0, 0] - exact):.1e} N, estimate {found.error[0, 0]:.1e} N, of the RMS "
-          f"{exact.std():.0f} N; {free.sum()} of {at.size} samples in flight")  # fmt: skip
-    assert free.sum() > 20
+    at, flights, pulls, errors = times(0.5), [], [], []
+    for _ in range(LANDINGS):
+        motion = smooth_motion(rng, 0.0, 8e-3, 6.0, 14.0)
+
+        def rate(t, y, motion=motion):
+            return [y[1], 2e5 * max(float(motion.place(t)) - y[0], 0.0) / 20.0 - GRAVITY]
+
+        found, y = solved(network, at, motion), integrated(rate, [-20.0 * GRAVITY / 2e5, 0.0], at)
+        exact, place = 2e5 * np.maximum(motion.place(at) - y[0], 0.0), found.motion[0, 0]
+        # clear of the table at three samples, and one more to either side, as it is left and met between two of them
+        free = np.convolve(y[0] - motion.place(at) > 20e-6, np.ones(5), "valid") == 5.0
+        flights.append(np.diff(place, 2)[1:-1][free] / 1e-6 + GRAVITY)
+        pulls.append(max(0.0, -np.min(found.force)) / exact.max())
+        errors.append(rms(found.force[0, 0] - exact) / exact.std())
+    state(f"lift-off at 1 ms: error {np.median(errors):.1e} of the RMS force, largest {max(errors):.1e}; the contact "
+          f"pulls by at most {max(pulls):.1e} of the largest force")  # fmt: skip
     # both courses fly along parabolas, which the scheme follows exactly
-    assert np.diff(place, 2)[free] / 1e-6 == pytest.approx(np.full(free.sum(), -GRAVITY), abs=2e-2)
-    assert np.min(found.force) > -1e-3 * exact.max()
-    assert rms(found.force[0, 0] - exact) < 3e-3 * exact.std()
+    flown = np.abs(np.concatenate(flights))
+    assert flown.size > 20 * LANDINGS and np.mean(flown < 2e-2) > 0.99
+    # at which point of a step the table is met is chance: a single sample may miss it by more
+    assert np.median(pulls) < 1e-4 and max(pulls) < 0.1
+    assert np.median(errors) < 1e-3 and max(errors) < 2e-2
 
 
 STOPS = """
@@ -125,7 +135,7 @@ STOPS = """
 def test_impacts_on_end_stops_converge_to_their_integration(rng, state):
     network = system("{table: driven, block: {mass: 20 kg}, wall: ground}", STOPS)
     at, shares, errors = times(0.4), [], []
-    for _ in range(7):
+    for _ in range(IMPACTS):
         motion = smooth_motion(rng, 0.0, 6e-3, 3.0, 12.0)
 
         def rate(t, y, motion=motion):
