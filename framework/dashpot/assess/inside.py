@@ -16,6 +16,7 @@ from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Suspect
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
+from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.influence import Influence
 from dashpot.kernel.network import compile_network
@@ -46,8 +47,9 @@ class SiteView(ModelView):
     @cached_property
     def _carried(self) -> dict[str, Array]:
         assert self.members is not None
-        network = compile_network(self.members)
-        return {name: network.simulate(network.prepare(run.excitation)) for name, run in self.scored.items()}
+        objective = Objective(compile_network(self.members), list(self.scored.values()))
+        forces = objective.forces(objective.network.start)
+        return {run: force[0] for run, force in zip(self.scored, forces, strict=True)}
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,7 +95,7 @@ def _share(lane: int) -> str:
 def _push(number: int) -> type[Element]:
     """The law of a force that is given, a share of the signal of each lane."""
 
-    def step(self, x, z, p, dt):  # noqa: ANN001, ANN202
+    def step(self: Element, x: Any, z: Any, p: Any, dt: Any) -> Response:
         signals = (symbol(driven_symbol(_signal(number, lane), "load")) for lane in range(WIDTH))
         return Response(sum(getattr(p, _share(lane)) * signal for lane, signal in enumerate(signals)))
 
