@@ -100,6 +100,15 @@ def line(car: dict[str, Any]) -> str:
             f"{low:7.3f} to {high:7.3f}  {off:+6.2f}  {found['error']:7.2f}  {found['model']}{mark}")  # fmt: skip
 
 
+def kept(seed: int, cars: list[dict[str, Any]]) -> dict[str, Any]:
+    """What is worth keeping of a run: each car's truth and the study's answer."""
+    keys = ("value", "interval", "error", "model")
+    rows = [{"number": car["number"], "truth": car["truth"],
+             "mount": car["mount"] if np.isfinite(car["mount"]) else None, **{key: answer(car)[key] for key in keys}}
+            for car in cars]  # fmt: skip
+    return {"seed": seed, "cars": sorted(rows, key=lambda row: row["number"])}
+
+
 def holds(car: dict[str, Any]) -> bool:
     """Whether the interval holds the true mass."""
     low, high = answer(car)["interval"]
@@ -114,6 +123,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=None, help="drawn where it is not given, and printed")
     parser.add_argument("--jobs", type=int, default=1, help="cars at the same time")
     parser.add_argument("--output", type=Path, help="a file for every car's result, as lines of JSON")
+    parser.add_argument("--keep", type=Path, help="a JSON file for the true and the identified masses")
     asked = parser.parse_args()
     seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
     print(f"seed {seed}", flush=True)
@@ -130,6 +140,8 @@ def main() -> None:
                 with asked.output.open("a") as stream:
                     stream.write(json.dumps({"seed": seed, **cars[-1]}) + "\n")
     print(*lines(cars), sep="\n")
+    if asked.keep:
+        asked.keep.write_text(json.dumps(kept(seed, cars), indent=1) + "\n")
     if len(cars) < asked.cars:
         raise SystemExit(f"{asked.cars - len(cars)} cars failed, see above")
 
