@@ -11,7 +11,8 @@ from dashpot.model.picture import Series, Symbol
 
 
 class LooseFriction(Element):
-    """An ideal slider behind a spring behind play: F = stiffness (s - s within the gap), |s| <= gap + limit/stiffness.
+    """A slider behind a spring behind play: no force while |s| < gap, beyond F = stiffness (|s| - gap) sgn(s),
+    |s| <= gap + limit/stiffness.
 
     After a turn the spring relaxes, then the play is crossed without force, 2 gap long, then the spring is loaded the
     other way until the slider gives way at the limit. Rate independent; minor loops close.
