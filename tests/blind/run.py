@@ -79,9 +79,9 @@ def main() -> None:
         outcome = run_case(first + number, base, kind, options.strength, options.design, options.jobs)
         outcomes.append(outcome)
         print(outcome.line(), flush=True)
+        if options.output:  # what was done stays when the run is interrupted
+            options.output.write_text(json.dumps({"seed": first, **summary(outcomes)}, indent=1) + "\n")
     print_table(outcomes)
-    if options.output:
-        options.output.write_text(json.dumps({"seed": first, **summary(outcomes)}, indent=1) + "\n")
 
 
 if __name__ == "__main__":
