@@ -7,6 +7,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+import numpy as np
+
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
@@ -61,7 +63,8 @@ def diagnose(
     dataset = triage.dataset
     setting = prepare(dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
-    fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress))
+    fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
+                                swing_of(setting))  # fmt: skip
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
@@ -91,19 +94,42 @@ def diagnose(
     )
 
 
-def fit_to_rest(fit: Callable[[int], FitResult]) -> tuple[FitResult, list[str]]:
-    """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it."""
-    attempts = [fit(0)]
-    while attempts[-1].ending != Outcome.CONVERGED.value and len(attempts) < ATTEMPTS:
+def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:
+    """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it.
+
+    A fit that errs by more than the ``swing`` (N) of the forces has converged to something absurd, and does not count.
+    """
+    faults = []
+    attempts: list[FitResult] = []
+    while len(attempts) < ATTEMPTS:
         attempts.append(fit(len(attempts)))
+        fault = _fault_of(attempts[-1], swing)
+        if not fault:
+            break
+        faults.append(fault)
     best = min(attempts, key=lambda found: found.errors.train)
-    if len(attempts) == 1:
+    if not faults:
         return best, []
-    ending = "converged" if attempts[-1].ending == Outcome.CONVERGED.value else "did not converge either"
+    ending = "also failed" if len(faults) == len(attempts) else "came to rest"
     return best, [
-        f"The fit of {best.declared.name} did not come to rest ({attempts[0].ending}); of {len(attempts)} starts the "
-        f"best counts, the last one {ending}."
+        f"The fit of {best.declared.name} did not come to rest ({faults[0]}); of {len(attempts)} starts the best "
+        f"counts, the last one {ending}."
     ]
+
+
+def _fault_of(fit: FitResult, swing: float) -> str:
+    if fit.ending != Outcome.CONVERGED.value:
+        return fit.ending
+    if fit.errors.train > swing:
+        return (
+            f"it errs by {fit.errors.train:.3g} N where the forces vary by {swing:.3g} N: check units and start values"
+        )
+    return ""
+
+
+def swing_of(setting: Setting) -> float:
+    """The root mean square of how the forces of the training runs vary about their means, N."""
+    return float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in setting.train])))
 
 
 def limits_of(spec: NetworkSpec) -> list[str]:

@@ -147,10 +147,14 @@ class Pursuer:
     def settle_gains(
         self, accepted: list[Accepted], look: Look, first: Look
     ) -> tuple[list[Accepted], Look, list[Model]]:
-        """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first."""
+        """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first.
+
+        A further cause has to gain there what is of interest at all.
+        """
         ladder = self.polish_ladder(first.model, accepted, look)
         gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
-        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= 0.0]
+        useless = [number for number, gain in enumerate(gains)
+                   if gain is not None and gain.value <= (self.relevance if number else 0.0)]  # fmt: skip
         if not useless:
             return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
         entry = accepted[useless[-1]]
