@@ -11,7 +11,8 @@ from dashpot.model.network import NetworkSpec
 
 UNITS = {"limit": "N", "stiffness": "N/m", "creep_velocity": "m/s"}
 PLACES = 15
-SPEEDS = 8
+SPEEDS = 5
+RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
 MOST = 3
 
 
@@ -39,7 +40,12 @@ class Friction(Cause):
                 UNITS,
                 most=MOST,
             )
-        speeds = np.geomspace(1e-3 * view.speed, 0.3 * view.speed, SPEEDS)
+        low, high = RIGID[0] * view.speed, RIGID[1] * view.speed
         yield added_branch(
-            "coulomb", "friction", tuple(speeds), lambda limit, speed: {"limit": limit, "creep_velocity": speed}, UNITS
+            "coulomb",
+            "friction",
+            tuple(np.geomspace(low, high, SPEEDS)),
+            lambda limit, speed: {"limit": limit, "creep_velocity": speed},
+            UNITS,
+            bounds={"creep_velocity": (0.1 * low, 1.5 * high)},
         )

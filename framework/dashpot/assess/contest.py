@@ -87,13 +87,14 @@ class Bench:
     ) -> Model:
         """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
 
-        The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter.
-        A network without mends that will not come down to the chi square ``beat`` is left behind half way.
+        The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter;
+        the best turn counts. A network without mends that will not come down to the chi square ``beat`` is left behind
+        half way.
         """
-        model = self._fit(declared, start, noise, tuple(mends), np.inf if mends else beat)
+        turns = [self._fit(declared, start, noise, tuple(mends), np.inf if mends else beat)]
         for _ in range(MEND_ROUNDS if mends else 0):
-            model = self._fit(declared, model.fitted, noise, self._strengthened(model, noise))
-        return model
+            turns.append(self._fit(declared, turns[-1].fitted, noise, self._strengthened(turns[-1], noise)))
+        return min(turns, key=lambda model: model.chi_square if np.isfinite(model.chi_square) else np.inf)
 
     def _fit(
         self,

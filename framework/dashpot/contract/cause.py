@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import ClassVar, Literal, Protocol
 
 import numpy as np
@@ -15,6 +16,8 @@ from dashpot.model.patch import add_branch
 
 Array = NDArray[np.float64]
 Atom = tuple[float, float]  # strength and place on the grid
+Pair = tuple[float, float]
+NOTHING: Mapping[str, Pair] = MappingProxyType({})
 
 
 class View(Protocol):
@@ -145,10 +148,11 @@ def added_branch(
     most: int = 1,
     unknowns: int = 1,
     fixed: Sequence[str] = (),
+    bounds: Mapping[str, Pair] = NOTHING,
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
-    Those named in ``fixed`` are written as plain numbers, the others to be found.
+    Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
 
     Examples:
         >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
@@ -163,7 +167,7 @@ def added_branch(
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
             text = add_branch(
-                text, branch_lines(free_name(text, branch), element, values(strength, place), units, fixed)
+                text, branch_lines(free_name(text, branch), element, values(strength, place), units, fixed, bounds)
             )
         return text
 
@@ -201,13 +205,21 @@ def one_of_the_runs(
 
 
 def branch_lines(
-    name: str, element: str, values: Mapping[str, float], units: Mapping[str, str], fixed: Sequence[str] = ()
+    name: str,
+    element: str,
+    values: Mapping[str, float],
+    units: Mapping[str, str],
+    fixed: Sequence[str] = (),
+    bounds: Mapping[str, Pair] = NOTHING,
 ) -> str:
-    """A branch as lines of YAML, its parameters free but for those named in ``fixed``."""
+    """A branch as lines of YAML, its parameters free, some within ``bounds`` (SI), but for those named in ``fixed``."""
     from dashpot.text.quantity import pretty
 
     texts = {key: pretty(value, units[key], 6) for key, value in values.items()}
-    numbers = [f"  {key}: {text}" if key in fixed else f"  {key}: {{start: {text}}}" for key, text in texts.items()]
+    within = {key: ", ".join(pretty(end, units[key], 6) for end in pair) for key, pair in bounds.items()}
+    starts = {key: f"{{start: {text}{f', bounds: [{within[key]}]' if key in within else ''}}}"
+              for key, text in texts.items()}  # fmt: skip
+    numbers = [f"  {key}: {texts[key] if key in fixed else starts[key]}" for key in texts]
     return "\n".join([f"{name}:", f"  element: {element}", *numbers])
 
 
