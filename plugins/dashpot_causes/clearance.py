@@ -14,6 +14,7 @@ from dashpot.model.network import NetworkSpec
 Array = NDArray[np.float64]
 PLACES = 9
 SLIDING = np.array([0.005, 0.03, 0.15])  # of the stroke: how far the spring behind the play gives before it slides
+PLAIN = 0.01  # of the stroke: friction behind less play cannot be told from friction
 
 
 class Clearance(Cause):
@@ -40,8 +41,10 @@ class Clearance(Cause):
         low, high = view.reach
         if low < 0.0 < high:
             yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
+        loose = tuple(gap for gap in gaps[:-1] if gap > PLAIN * view.stroke)
         for travel in SLIDING * view.stroke:
-            yield added_branch("loose_friction", "clearance", gaps[:-1], _loose(travel), {**units, "limit": "N"})
+            yield added_branch("loose_friction", "clearance", loose, _loose(travel), {**units, "limit": "N"},
+                               bounds={"gap": (PLAIN * view.stroke, view.stroke)})  # fmt: skip
         lost = _Lost(gaps[::2])
         yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
 
