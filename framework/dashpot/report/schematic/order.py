@@ -120,7 +120,25 @@ def _ordered(graph: Graph, levels: Levels) -> Arrangement:
 
     if len(graph.bundles) <= EXHAUSTIVE:
         return min(map(made, permutations(graph.bundles)), key=_cost)
-    return _improved(made, list(graph.bundles))
+    starts = [list(graph.bundles), _side_by_side(graph, levels)]
+    return min((_improved(made, start) for start in starts), key=_cost)
+
+
+def _side_by_side(graph: Graph, levels: Levels) -> list[Bundle]:
+    """What hangs together without the nodes that are held stands together; a bundle between two sides in between."""
+    sides = {key: {key} for key, node in graph.nodes.items() if node.mark is None}
+    across = [bundle for bundle in graph.bundles if levels[bundle.lower] == levels[bundle.upper]]
+    upright = [bundle for bundle in graph.bundles if bundle not in across]
+    for bundle in upright:
+        if bundle.lower in sides and bundle.upper in sides:
+            joined = sides[bundle.lower] | sides[bundle.upper]
+            sides.update(dict.fromkeys(joined, joined))
+    groups: dict[frozenset[str], list[Bundle]] = {}
+    for bundle in upright:
+        side = next((frozenset(sides[key]) for key in (bundle.lower, bundle.upper) if key in sides), frozenset())
+        groups.setdefault(side, []).append(bundle)
+    first, *rest = groups.values()
+    return [*first, *across, *(bundle for group in rest for bundle in group)]
 
 
 def _improved(made: Callable[[Sequence[Bundle]], Arrangement], order: list[Bundle]) -> Arrangement:
