@@ -191,8 +191,13 @@ def accuracy() -> Iterator[str]:
         "They share no code with dashpot, and the label was opened after the verdict. So few cases leave wide margins: "
         "mind the intervals. A family are causes whose forms overlap, such as friction and softening with amplitude."
     )
-    for path in sorted((ROOT / "tests" / "blind" / "results").glob("*.json"), key=lambda path: path.stem):
-        yield from _kept(path.stem, json.loads(path.read_text(encoding="utf-8")))
+    for name, found in _results("blind"):
+        yield from _kept(name, found)
+
+
+def _results(command: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    for path in sorted((ROOT / "tests" / command / "results").glob("*.json"), key=lambda path: path.stem):
+        yield path.stem, json.loads(path.read_text(encoding="utf-8"))
 
 
 def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
@@ -255,8 +260,8 @@ def masses() -> Iterator[str]:
         "interval is that of the model with the least error on a sweep that it never saw. An error far above the "
         "noise, here 5 N, says that a model did not come to its end or lacks something: then the interval is wide."
     )
-    for path in sorted((ROOT / "tests" / "unsprung_mass" / "results").glob("*.json"), key=lambda path: path.stem):
-        yield from _weighed(path.stem, json.loads(path.read_text(encoding="utf-8")))
+    for version, found in _results("unsprung_mass"):
+        yield from _weighed(version, found)
 
 
 def _weighed(version: str, found: Mapping[str, Any]) -> Iterator[str]:

@@ -8,8 +8,9 @@ import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.levelling import levelling_force
 
-UNITS = {"limit": "N", "stiffness": "N/m", "creep_velocity": "m/s"}
+UNITS = {"limit": "N", "stiffness": "N/m"}
 PLACES = 15
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
@@ -40,12 +41,4 @@ class Friction(Cause):
                 UNITS,
                 most=MOST,
             )
-        low, high = RIGID[0] * view.speed, RIGID[1] * view.speed
-        yield added_branch(
-            "coulomb",
-            "friction",
-            tuple(np.geomspace(low, high, SPEEDS)),
-            lambda limit, speed: {"limit": limit, "creep_velocity": speed},
-            UNITS,
-            bounds={"creep_velocity": (0.1 * low, 1.5 * high)},
-        )
+        yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-import numpy as np
-
-from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
+from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
+from dashpot_causes.levelling import levelling_force
 
 UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
@@ -17,7 +16,6 @@ PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
 BOUNDS = ((0.2, 0.9), (1.1, 1.8), (2.2, 4.0))
 SHARE = 0.3
 LEVELLING, LEVELS = (0.02, 0.5), 5  # of the speed: where a digressive damper becomes level
-LEVELLING_UNITS = {"limit": "N", "creep_velocity": "m/s"}
 
 
 class PowerLawDamping(Cause):
@@ -55,12 +53,4 @@ class PowerLawDamping(Cause):
             return add_branch(text, "\n".join(lines))
 
         yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N")
-        low, high = LEVELLING[0] * view.speed, LEVELLING[1] * view.speed
-        yield added_branch(
-            "coulomb",
-            "power_law_damping",
-            tuple(np.geomspace(low, high, LEVELS)),
-            lambda limit, speed: {"limit": limit, "creep_velocity": speed},
-            LEVELLING_UNITS,
-            bounds={"creep_velocity": (0.75 * low, 4.0 * high)},
-        )
+        yield levelling_force(view, "power_law_damping", LEVELLING, LEVELS, (0.75, 4.0))

@@ -7,8 +7,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
@@ -64,7 +62,7 @@ def diagnose(
     setting = prepare(dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
-                                swing_of(setting))  # fmt: skip
+                                setting.swing)  # fmt: skip
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
@@ -125,11 +123,6 @@ def _fault_of(fit: FitResult, swing: float) -> str:
             f"it errs by {fit.errors.train:.3g} N where the forces vary by {swing:.3g} N: check units and start values"
         )
     return ""
-
-
-def swing_of(setting: Setting) -> float:
-    """The root mean square of how the forces of the training runs vary about their means, N."""
-    return float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in setting.train])))
 
 
 def limits_of(spec: NetworkSpec) -> list[str]:

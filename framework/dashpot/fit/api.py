@@ -67,6 +67,11 @@ class Setting:
         """The held-out runs."""
         return [self.scored[name] for name in self.split.held_out]
 
+    @property
+    def swing(self) -> float:
+        """The root mean square of how the forces of the training runs vary about their means, N."""
+        return float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in self.train])))
+
 
 def prepare(dataset: Dataset, seed: int = 0) -> Setting:
     """Score the runs, each force by itself, split them, find the noise floor."""

@@ -85,9 +85,8 @@ def force_error(*judged: tuple[Errors, Setting]) -> float:
 
 
 def _misfit_share(errors: Errors, setting: Setting) -> float:
-    swing = np.sqrt(np.mean([np.var(run.force[run.first :]) for run in setting.train]))
     misfit = max(errors.train**2 - (setting.floor.value or 0.0) ** 2, 0.0)
-    return float(np.sqrt(misfit) / swing) if swing > 0.0 else 0.0
+    return float(np.sqrt(misfit) / setting.swing) if setting.swing > 0.0 else 0.0
 
 
 def effect(coordinates: Coordinates, moved: Array) -> dict[str, float]:
