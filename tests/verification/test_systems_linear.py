@@ -30,7 +30,7 @@ def test_the_force_is_that_of_the_state_space_of_third_order_in_the_step(name, r
     linear, at, motion = LINEAR[name], times(0.6), smooth_motion(rng, 0.0, 3e-3)
     network, values = linear.network, draws(linear, rng)
     exact = np.array([linear.exact(lane).force(motion, at) for lane in values])
-    size = np.median(rms(exact - exact[:, :1]))
+    sizes = rms(exact - exact[:, :1])
     errors, estimates = [], []
     for pairs in PAIRS:
         found = network.solve(network.prepare(excitation(at, {network.outputs[0]: motion}), pairs), values)
@@ -40,10 +40,10 @@ def test_the_force_is_that_of_the_state_space_of_third_order_in_the_step(name, r
     order = np.log2(np.array(errors[:-1]) / errors[1:])
     promised = np.log2(np.array(estimates[:-1]) / estimates[1:])
     shares = errors[0] / estimates[0]
-    state(f"{name} at 1 ms: error {np.median(errors[0]) / size:.1e} of the RMS force {size:.0f} N, order "
+    state(f"{name} at 1 ms: error {np.median(errors[0] / sizes):.1e} of the RMS force, order "
           f"{np.median(order):.2f}; estimate of order {np.median(promised):.2f}, {1.0 / np.median(shares):.0f} times "
           f"the error (from {1.0 / shares.max():.0f} to {1.0 / shares.min():.0f})")  # fmt: skip
-    assert np.max(errors[0]) < 1e-4 * size
+    assert np.max(errors[0] / sizes) < 1e-4
     assert np.median(order[0]) > 2.8 and np.median(order[1]) > 2.8
     # the estimate is that of the short steps, whose leading error has been taken away from the answer
     assert promised == pytest.approx(np.full_like(promised, 2.0), abs=0.1)
