@@ -187,7 +187,7 @@ def test_confidence_is_the_scatter_of_the_stiffness_under_noise_of_any_colour(me
     displacement = 1e-3 * np.sin(phase(np.arange(15000) * SAMPLE_TIME))
     motion = follow(displacement, SAMPLE_TIME)
     scores = []
-    for _ in range(12):
+    for _ in range(40):
         noise = lfilter([np.sqrt(1.0 - memory**2)], [1.0, -memory], random.normal(0.0, 10.0, 18000))[3000:]
         found = harmonics_of(2e5 * displacement + noise, motion)
         scores += [(found.storage - 2e5) / found.confidence, found.loss / found.confidence]
