@@ -9,51 +9,59 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import random
 import sys
 import time
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 from score import Outcome, print_table, summary
-from truth import draw_case
+from truth import KINDS_OF_BASE, draw_case
 
-POLYNOMIAL = """\
-format: dashpot-network/1
-name: polynomial
-branches:
-  stiffness:
-    element: spring
-    stiffness: {polynomial: [{start: 200 N/mm}, {start: 1 N/mm^2}]}
-  damping: {element: damper, damping: {start: 100 N*s/m}}
-"""
+NETWORKS = Path(__file__).parent / "networks"
 
 
-def diagnose_case(case, base: str, jobs: int):
-    """The verdict of the engine on a case's folder."""
+@dataclass(frozen=True)
+class Bench:
+    """How cases are made and diagnosed.
+
+    ``design``: which runs are driven; ``sensors``: the force channel errs within its data sheet; ``without``: the
+    engine is robbed of the cause plugins that would name what is hidden.
+    """
+
+    design: str = "full"
+    sensors: bool = False
+    without: bool = False
+    jobs: int = 2
+
+    def run(self, seed: int, base: str, kind: str | None = None, strength: float | None = None) -> Outcome:
+        """Draw, diagnose, record the verdict, open the label."""
+        if self.without and kind is None:
+            kind = random.Random(seed).choice(KINDS_OF_BASE[base])
+        case = draw_case(seed, base, kind, strength, design=self.design, sensors=self.sensors)
+        began = time.perf_counter()
+        verdict = diagnose_folder(case.folder, base, self.jobs, kind.split("+") if self.without else [])
+        seconds = time.perf_counter() - began
+        named = [cause["cause"] for cause in verdict["causes"]]
+        truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
+        return Outcome(seed, base, truth, verdict, seconds, self.without)
+
+
+def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> dict:
+    """The verdict of the engine on a dataset, from the network of a base, without the plugins of some causes."""
     from dashpot.assess.diagnose import diagnose
     from dashpot.contract.registry import load_registry
     from dashpot.data.dataset import read_dataset
-    from dashpot.model.reading import parse_network, read_network
+    from dashpot.model.reading import read_network
 
     registry = load_registry()
-    dataset = read_dataset(case.folder, {word: reader() for word, reader in registry.formats.items()})
-    if base == "polynomial":
-        spec = parse_network(POLYNOMIAL, registry.elements)
-    else:
-        spec = read_network(base, registry.elements)
+    registry = replace(registry, causes={word: c for word, c in registry.causes.items() if word not in without})
+    dataset = read_dataset(folder, {word: reader() for word, reader in registry.formats.items()})
+    own = NETWORKS / f"{base}.yaml"
+    spec = read_network(own if own.exists() else base, registry.elements)
     return diagnose(spec, dataset, jobs=jobs, registry=registry).as_dict()
-
-
-def run_case(seed: int, base: str, kind: str | None, strength: float | None, design: str, jobs: int) -> Outcome:
-    """Draw, diagnose, record the verdict, open the label."""
-    case = draw_case(seed, base, kind, strength, design=design)
-    began = time.perf_counter()
-    verdict = diagnose_case(case, base, jobs)
-    seconds = time.perf_counter() - began
-    named = [cause["cause"] for cause in verdict["causes"]]
-    truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
-    return Outcome(seed, base, truth, verdict, seconds)
 
 
 def main() -> None:
@@ -61,24 +69,25 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=None, help="repeats a run; drawn anew without it")
-    parser.add_argument("--base", nargs="*", default=["kelvin_voigt", "spring", "ftire", "polynomial"])
+    parser.add_argument("--base", nargs="*", default=list(KINDS_OF_BASE), choices=list(KINDS_OF_BASE))
     parser.add_argument("--kind", default=None, help="a cause word, 'null', or words joined by '+'")
     parser.add_argument(
-        "--strength", type=float, default=None, help="effect over noise; drawn from 0.3 to 10 without it"
+        "--strength", type=float, default=None, help="effect over noise; drawn from 0.1 to 10 without it"
     )
     parser.add_argument("--design", default="full")
+    parser.add_argument("--sensors", action="store_true", help="the force channel errs within its data sheet")
+    parser.add_argument("--without", action="store_true", help="the engine lacks the plugin of what is hidden")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")
     options = parser.parse_args()
     first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
     print(f"seed {first}: --seed {first} repeats this run")
+    bench = Bench(options.design, options.sensors, options.without, options.jobs)
     outcomes = []
     for number in range(options.cases):
         base = options.base[number % len(options.base)]
-        kind = "stiffness_curve" if base == "polynomial" and options.kind is None else options.kind
-        outcome = run_case(first + number, base, kind, options.strength, options.design, options.jobs)
-        outcomes.append(outcome)
-        print(outcome.line(), flush=True)
+        outcomes.append(bench.run(first + number, base, options.kind, options.strength))
+        print(outcomes[-1].line(), flush=True)
         if options.output:  # what was done stays when the run is interrupted
             options.output.write_text(json.dumps({"seed": first, **summary(outcomes)}, indent=1) + "\n")
     print_table(outcomes)

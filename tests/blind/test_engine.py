@@ -3,7 +3,7 @@
 Bounds are binomial: an engine that is right in 95 % of the cases fails here less than once in 2 000 runs.
 """
 
-from run import run_case
+from run import Bench
 from score import NOTHING, Outcome
 
 KINDS = ("friction", "relaxation", "moving_mass", "preload_dependent_damping")
@@ -13,7 +13,7 @@ STRENGTH = 2.0
 
 def test_hidden_effects_are_named_first(seed):
     """Of four effects in forms that are not our elements' most are named first, with a gain on runs never seen."""
-    outcomes = [run_case(seed + k, "kelvin_voigt", kind, STRENGTH, "full", 2) for k, kind in enumerate(KINDS)]
+    outcomes = [Bench().run(seed + k, "kelvin_voigt", kind, STRENGTH) for k, kind in enumerate(KINDS)]
     told(outcomes)
     right = [outcome for outcome in outcomes if outcome.right]
     assert len(right) >= RIGHT_AT_LEAST
@@ -22,14 +22,14 @@ def test_hidden_effects_are_named_first(seed):
 
 def test_viscous_damping_is_found_where_the_base_has_none(seed):
     """A spring without damper on a damped specimen: at least one of three is named right (P(none | 0.95) = 1e-4)."""
-    outcomes = [run_case(seed + k, "spring", "viscous_damping", STRENGTH, "full", 2) for k in range(3)]
+    outcomes = [Bench().run(seed + k, "spring", "viscous_damping", STRENGTH) for k in range(3)]
     told(outcomes)
     assert any(outcome.right for outcome in outcomes)
 
 
 def test_nothing_is_named_where_nothing_is_hidden(seed):
     """Two null cases: not both may raise a false alarm (P(both | 1 %) = 1e-4), and silence is called by its name."""
-    outcomes = [run_case(seed + k, base, "null", None, "full", 2) for k, base in enumerate(("kelvin_voigt", "ftire"))]
+    outcomes = [Bench().run(seed + k, base, "null") for k, base in enumerate(("kelvin_voigt", "ftire"))]
     told(outcomes)
     assert sum(bool(outcome.named) for outcome in outcomes) <= 1
     assert any(outcome.verdict["verdict"] == NOTHING for outcome in outcomes)
@@ -37,7 +37,7 @@ def test_nothing_is_named_where_nothing_is_hidden(seed):
 
 def test_a_diagnosis_goes_through_on_a_single_run(seed):
     """With one sweep there is nothing to hold out: the gain is null and the reason is said, not invented."""
-    outcome = run_case(seed, "kelvin_voigt", "friction", STRENGTH, "one_sweep", 2)
+    outcome = Bench("one_sweep").run(seed, "kelvin_voigt", "friction", STRENGTH)
     told([outcome])
     assert outcome.verdict["held_out"] == []
     assert all(cause["gain"] is None for cause in outcome.verdict["causes"])

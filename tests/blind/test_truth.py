@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from scipy.special import gamma, wrightomega
 from truth import FORMS, KINDS_OF_BASE, SealBroken, draw_case
-from truth.base import draw_base, integrate_prandtl
+from truth.base import draw_base
+from truth.branches import integrate_dahl, integrate_prandtl
 from truth.case import _Bench
 from truth.channel import FirstOrderLag, PureDelay
 from truth.damping import Exponential, NearlyQuadratic, Quadratic, Rational, Tanh, Viscous
@@ -24,6 +25,7 @@ from truth.label import proves
 from truth.motion import STEP, STEPS_PER_SAMPLE, Motion, harmonic, sweep, triangle
 from truth.noise import Noise
 from truth.relaxation import ColeCole, Maxwell, Springpot, StretchedExponential
+from truth.sensor import Channel
 
 PACKAGE = Path(__file__).parent / "truth"
 ALLOWED = sys.stdlib_module_names | {"numpy", "scipy", "numba"}
@@ -264,14 +266,71 @@ def test_prandtl_branch_of_the_base_follows_the_wright_omega_solution():
     assert np.allclose(integrate_prandtl(path, stiffness, limit), limit * (1 - left), atol=1e-3 * limit)
 
 
-@pytest.mark.parametrize("name", KINDS_OF_BASE)
-def test_bases_carry_a_progressive_spring_of_a_tire(name, seed):
+def test_dahl_branch_of_the_base_is_its_differential_equation():
+    # dF/dx = stiffness (1 - F / limit) going up, stiffness (1 + F / limit) coming back
+    stiffness, limit = 80e3, 12.0
+    there = np.linspace(0.0, 0.3e-3, 4001)
+    path = np.concatenate([there, there[-2::-1]])
+    force = integrate_dahl(path, stiffness, limit)
+    middle = 0.5 * (force[1:] + force[:-1])
+    slope = np.diff(force) / np.diff(path)
+    assert np.allclose(slope, stiffness * (1 - np.sign(np.diff(path)) * middle / limit), atol=1e-5 * stiffness)
+    assert force[there.size - 1] == pytest.approx(limit * (1 - np.exp(-there[-1] * stiffness / limit)), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", sorted(KINDS_OF_BASE.keys() - {"damper"}))
+def test_tires_carry_a_progressive_spring(name, seed):
     base = draw_base(name, np.random.default_rng(seed))
     path = np.linspace(0.0, LOOP_DEPTH, 200)
     still = np.zeros(200)
-    tangent = np.diff(base.branches(Motion(path, path, still, still))["spring"]) / np.diff(path)
+    tangent = np.diff(base.branches["spring"].force(Motion(path, path, still, still))) / np.diff(path)
     assert (np.diff(tangent) > 0).all()
     assert 150e3 < tangent.min() and tangent.max() < 400e3
+
+
+def test_a_shock_absorber_only_takes_energy_and_levels_out(seed):
+    valves = draw_base("damper", np.random.default_rng(seed)).branches["valves"]
+    speed = np.linspace(-0.8, 0.8, 401)
+    force = valves.force(Motion(speed, speed, speed, speed))
+    slope = np.diff(force)
+    assert (force * speed >= 0.0).all()
+    assert slope[200] > 1.5 * slope[-1] and slope[200] > 1.5 * slope[0]
+
+
+@pytest.mark.parametrize("name", KINDS_OF_BASE)
+def test_what_a_refit_can_follow_is_left_out_of_the_strength(name, seed):
+    """Every number of every branch, changed by a little, leaves nearly nothing."""
+    rng = np.random.default_rng(seed)
+    base, motion = draw_base(name, rng), drive((2e-3, 20e-3))
+    tangents = base.tangents(motion)
+    for branch in base.branches.values():
+        for changed in branch.tangents(motion):
+            left = changed - tangents @ np.linalg.lstsq(tangents, changed, rcond=None)[0]
+            assert np.sqrt(np.mean(left**2)) <= 1e-6 * np.sqrt(np.mean(changed**2))
+
+
+# --- sensor ------------------------------------------------------------------------------------------------------
+
+
+def test_a_channel_shows_a_force_late_scaled_and_shifted():
+    time = np.arange(20000) * STEP
+    shown = Channel(2e-3, -3.0, 80e-6).shows(time, 1e3 * np.sin(40.0 * time))
+    assert shown[100:] == pytest.approx(1.002e3 * np.sin(40.0 * (time[100:] - 80e-6)) - 3.0, abs=1e-5)
+
+
+def test_every_run_has_other_errors_within_the_data_sheet(seed, tmp_path):
+    """The same case with exact channels and with those that err: gain and zero are found again by regression."""
+    for name, sensors in (("exact", False), ("erring", True)):
+        draw_case(seed, "spring", "null", sensors=sensors, folder=tmp_path / name)
+    gains = []
+    for file in sorted((tmp_path / "exact").glob("*.npz")):
+        exact, erring = np.load(file)["F"], np.load(tmp_path / "erring" / file.name)["F"]
+        gains.append(np.polyfit(exact, erring - exact, 1)[0])
+    assert 0.3e-3 < np.std(gains) < 2.5e-3
+    assert (
+        "sensors: {force: {gain: 0.1 %, zero: 1.5 N, delay: 30 us}}" in (tmp_path / "erring/dataset.yaml").read_text()
+    )
+    assert "sensors" not in (tmp_path / "exact/dataset.yaml").read_text()
 
 
 # --- noise -------------------------------------------------------------------------------------------------------

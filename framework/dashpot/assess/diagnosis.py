@@ -95,7 +95,7 @@ class Diagnosis:
             "held_out": list(self.setting.split.held_out),
             "tried": self.pursuit.tried,
             "rejected": [vars(rejection) for rejection in self.pursuit.rejected],
-            "limits": detection_limits(self.pursuit.last.screen),
+            "limits": detection_limits(self.pursuit),
             "leftover": {"score": self.leftover.score, "size": self.leftover.size},
             "seed": self.seed,
         }

@@ -9,7 +9,6 @@ from typing import Any
 
 import dashpot
 from dashpot.assess.pursuit import Pursuit, Rejection, residuals_of
-from dashpot.assess.screen import Screen
 from dashpot.assess.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting
@@ -34,7 +33,7 @@ def gather_evidence(
         "patch": patch,
         "rejected": [_rejected(causes, rejection) for rejection in pursuit.rejected],
         "tried": pursuit.tried,
-        "limits": detection_limits(pursuit.last.screen),
+        "limits": detection_limits(pursuit),
         "warnings": [*triage, *warnings_of(setting, [fit])]
         + [f"The cause '{word}' could not be tried: {reason}" for word, reason in pursuit.last.unavailable],
         "history": {fit.declared.name: history_of(fit)},
@@ -59,8 +58,8 @@ def history_of(fit: FitResult) -> dict[str, list[float]]:
     return {"evaluations": [float(count) for count, _ in fit.history], "best": [loss for _, loss in fit.history]}
 
 
-def detection_limits(screen: Screen) -> list[dict[str, Any]]:
-    """The smallest strength of each cause that the screen would have found with 95 % power.
+def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
+    """The smallest strength of each cause that would have been found with 95 % power, and is of practical relevance.
 
     ``value`` is told in the cause's own ``unit``, ``force`` is the RMS force in N that it makes.
     """
@@ -72,7 +71,7 @@ def detection_limits(screen: Screen) -> list[dict[str, Any]]:
             "unit": limit.candidate.suspect.unit or "N",
             "force": limit.force,
         }
-        for limit in screen.limits
+        for limit in (known.at_least(pursuit.least_force) for known in pursuit.last.screen.limits)
     ]
 
 

@@ -6,7 +6,7 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -36,7 +36,7 @@ TIE_SHARE = 5e-4
 SHARE_OF_FORM = 1e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
-SMALLEST_GAIN = 5e-4
+SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
 REFIT_MAY_DOUBLE = 0.5
@@ -77,6 +77,7 @@ class Pursuit:
     """The way from the first look to the last one.
 
     ``ladder`` holds the first model and the model after each accepted cause, refitted to the plain error in N.
+    ``least_force`` is the RMS in N that a cause has to add to the last model to be of interest.
     """
 
     first: Look
@@ -85,6 +86,7 @@ class Pursuit:
     rejected: tuple[Rejection, ...]
     tried: int
     ladder: tuple[Model, ...]
+    least_force: float
 
 
 @dataclass(eq=False)
@@ -119,7 +121,8 @@ class Pursuer:
             accepted, look = self.prune(accepted, look, first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         self.judge_the_jury(accepted, look, ladder)
-        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder))
+        least_force = float(np.sqrt(1.0 - (1.0 - self.relevance) ** 2) * pooled(look.columns.residual.values()))
+        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder), least_force)
 
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
@@ -187,7 +190,8 @@ class Pursuer:
                 continue
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
             gain = self.gain_of(look.model, trial.model)
-            reason = self.objection(trial, gain, look, explained)
+            change = share_of_change(look.model, trial.model, self.bench.runs)
+            reason = self.objection(trial, gain, change, look, explained)
             if reason:
                 self.reject(trial.finding, reason, foreseen, gain)
                 trials = rest
@@ -219,8 +223,11 @@ class Pursuer:
         simpler = self.try_out(fewer, look)
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
-    def objection(self, trial: Trial, gain: Gain | None, look: Look, explained: float) -> str:
-        """Why a trial may not be accepted, or an empty text; ``explained`` is the fall of chi square so far."""
+    def objection(self, trial: Trial, gain: Gain | None, change: float, look: Look, explained: float) -> str:
+        """Why a trial may not be accepted, or an empty text.
+
+        ``change`` is what it makes of the plain error, ``explained`` the fall of chi square so far.
+        """
         if trial.failure:
             return trial.failure
         if trial.merit <= look.screen.threshold:
@@ -230,7 +237,7 @@ class Pursuer:
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
             return "explains no more than the accepted causes may be wrong by in their form"
-        if fall < self.relevance:
+        if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and fall < SMALLEST_LATER_GAIN:
             return TOO_LITTLE
@@ -331,6 +338,18 @@ def misfits_of(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
     objective = Objective(compile_network(model.fitted), [mended(run, model.mends) for run in runs])
     misfits = objective.misfits(model.values)[0]
     return [misfits[piece] for piece in objective.pieces]
+
+
+def share_of_change(before: Model, after: Model, runs: Sequence[ScoredRun]) -> float:
+    """The share by which the error falls if the difference of two models is no error of the second."""
+    first, second = misfits_of(before, runs), misfits_of(after, runs)
+    changed = pooled([one - other for one, other in zip(first, second, strict=True)])
+    return float(1.0 - np.sqrt(max(1.0 - (changed / max(pooled(first), 1e-300)) ** 2, 0.0)))
+
+
+def pooled(signals: Iterable[Array]) -> float:
+    """Root mean square over all samples of several signals."""
+    return float(np.sqrt(np.mean(np.concatenate(list(signals)) ** 2)))
 
 
 def plainly_strong(mend: Mend, model: Model, runs: Sequence[ScoredRun]) -> Mend:

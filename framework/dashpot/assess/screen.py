@@ -101,13 +101,20 @@ class Finding:
 class Limit:
     """The smallest effect of a cause that would have been found with 95 % power.
 
-    ``force`` is its RMS in N, ``strength`` its size at ``place`` of the suspect's grid.
+    ``force`` is its RMS in N, of which a refit leaves the share ``left``; ``strength`` its size at ``place`` of the
+    suspect's grid.
     """
 
     candidate: Candidate
     place: float
     strength: float
     force: float
+    left: float
+
+    def at_least(self, force: float) -> Limit:
+        """The limit for effects of which a refit leaves no less than a force in N."""
+        grown = max(1.0, force / max(self.left * self.force, 1e-300))
+        return replace(self, strength=grown * self.strength, force=grown * self.force)
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,7 +258,8 @@ def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[L
         forces = strength * sizes[where][usable]
         least = int(np.argmin(forces))
         place = suspect.grid[np.flatnonzero(usable)[least]]
-        limit = Limit(candidate, place, float(strength[least]), float(forces[least]))
+        left = float(np.sqrt(kept[where][usable][least] / projected.original[where][usable][least]))
+        limit = Limit(candidate, place, float(strength[least]), float(forces[least]), left)
         if candidate.name not in found or limit.force < found[candidate.name].force:
             found[candidate.name] = limit
     return tuple(found.values())

@@ -18,7 +18,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
-@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.05, show_default=True,
+@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.25, show_default=True,
               help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
 @switches("seed", "jobs", "json", "quiet", "force")
 def verb(

@@ -180,7 +180,7 @@ def diagnose(
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
     jobs: int = 1,
-    relevance: float = 5e-4,
+    relevance: float = 2.5e-3,
     registry: Registry | None = None,
 ) -> Diagnosis:
     """What a model gets wrong, the cause by name, the extended model, and what it gains on held-out runs.

@@ -4,11 +4,13 @@ Nothing here imports dashpot. Motions, integrators and functional forms are its 
 
 - `motion`      what the rig does to the specimen, with exact derivatives
 - `design`      which runs are driven
+- `branches`    what specimens are made of
 - `base`        the specimens before anything is hidden in them
 - `form`        what a functional form of an effect has to offer
 - `friction`, `relaxation`, `damping`, `stiffness`, `inertia`, `channel`   the forms
 - `effects`     all forms by the cause they stand for
 - `noise`       sensor noise of a given size and colour
+- `sensor`      a force channel that errs within its data sheet
 - `label`       the truth, given only in exchange for a verdict
 - `folder`      the dataset as files
 - `case`        `draw_case`: all of the above from one seed

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -17,10 +18,11 @@ from .form import Forces, Form, log_uniform
 from .label import Hidden, SealedLabel, Truth
 from .motion import Motion, at_samples
 from .noise import Noise
+from .sensor import DATA_SHEET, EXACT, Channel, draw_channels
 
 NULL = "null"
 NULL_SHARE = 0.2
-WEAKEST, STRONGEST = 0.3, 10.0
+WEAKEST, STRONGEST = 0.1, 10.0
 DISPLACEMENT_NOISE = 2e-6
 
 
@@ -41,13 +43,15 @@ def draw_case(
     *,
     design: str = "full",
     form: str | None = None,
+    sensors: bool = False,
     folder: Path | None = None,
 ) -> Case:
     """Draw a case and write its dataset.
 
     base: a key of KINDS_OF_BASE; kind: a cause word, several joined by "+", "null", or None (drawn, one in five null);
-    strength: effect over noise (root mean squares), or None (log-uniform from 0.3 to 10); design: a key of DESIGNS;
-    form: class name of one functional form of the kind, or None (drawn); folder: where to write, or None (temporary).
+    strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10); design: a key of DESIGNS;
+    form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
+    its data sheet, which the dataset then states; folder: where to write, or None (temporary).
     Everything random comes from `seed`. Raises ValueError where a word is unknown.
     """
     _check(base, kind, form, design)
@@ -58,8 +62,10 @@ def draw_case(
     strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in forms]
     bench = _Bench(plans, specimen)
     effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
-    measured, noise_rms = bench.measure(noise, np.random.default_rng([seed, 1]))
-    target = write_dataset(folder or Path(tempfile.mkdtemp(prefix="blind-")), f"blind case {seed}", measured)
+    channels = draw_channels(len(plans), np.random.default_rng([seed, 2])) if sensors else (EXACT,) * len(plans)
+    measured, noise_rms = bench.measure(noise, channels, np.random.default_rng([seed, 1]))
+    place, sheet = folder or Path(tempfile.mkdtemp(prefix="blind-")), DATA_SHEET if sensors else None
+    target = write_dataset(place, f"blind case {seed}", measured, sheet)
     truth = Truth(seed, design, asdict(specimen), asdict(noise), noise_rms, effects)
     return Case(seed, target.parent, SealedLabel(truth))
 
@@ -115,15 +121,18 @@ class _Bench:
             rms=self._per_run([_rms(at_samples(more)) for more in added]),
         )
 
-    def measure(self, noise: Noise, rng: np.random.Generator) -> tuple[dict, dict[str, float]]:
+    def measure(
+        self, noise: Noise, channels: Sequence[Channel], rng: np.random.Generator
+    ) -> tuple[dict, dict[str, float]]:
         """Displacement and force of every run with noise, and the realised noise per run."""
         measured, realised = {}, {}
-        for plan, fault in zip(self.plans, self.faults, strict=True):
+        for plan, fault, channel in zip(self.plans, self.faults, channels, strict=True):
             place = self.paths.index(plan.path)
             displacement = at_samples(self.motions[place].displacement)
             error = noise.sample(rng, displacement.size)
             jitter = DISPLACEMENT_NOISE * rng.standard_normal(displacement.size)
-            measured[plan] = displacement + jitter, at_samples(self.forces[place]) + fault + error
+            force = channel.shows(self.motions[place].time, self.forces[place])
+            measured[plan] = displacement + jitter, at_samples(force) + fault + error
             realised[plan.name] = _rms(error)
         return measured, realised
 
@@ -132,20 +141,13 @@ class _Bench:
 
 
 def _rms_left(specimen: Base, motions: list[Motion], added: Forces) -> float:
-    """What the spring curve and the sizes of the base's branches cannot follow of the effect, as root mean square."""
-    columns = np.concatenate([_tangents(specimen, motion) for motion in motions])
-    columns /= np.sqrt((columns**2).mean(axis=0))
+    """What the numbers of the base cannot follow of the effect, to first order, as root mean square."""
+    columns = np.concatenate([specimen.tangents(motion) for motion in motions])
+    sizes = np.sqrt((columns**2).mean(axis=0))
+    columns = columns[:, sizes > 0.0] / sizes[sizes > 0.0]
     effect = np.concatenate(added)
     coefficients, *_ = np.linalg.lstsq(columns[::4], effect[::4], rcond=None)
     return _rms(effect - columns @ coefficients)
-
-
-def _tangents(specimen: Base, motion: Motion) -> np.ndarray:
-    """Powers of the deflection in place of the curve, and the force of every other branch, shape (samples, columns)."""
-    deflection = at_samples(motion.displacement) / 20e-3
-    degree = len(specimen.spring) if specimen.name == "polynomial" else 6
-    others = [at_samples(force) for name, force in specimen.branches(motion).items() if name != "spring"]
-    return np.stack([deflection**power for power in range(1, degree + 1)] + others, axis=1)
 
 
 def _rms(values: np.ndarray) -> float:

@@ -42,27 +42,19 @@ FORMS: dict[str, tuple[type[Form], ...]] = {
 
 FAULTS = fault.FORMS
 
-_SPECIMEN = (
-    "friction",
-    "relaxation",
-    "quadratic_damping",
-    "asymmetric_damping",
-    "power_law_damping",
-    "clearance",
-    "resonance",
-    "amplitude_softening",
-    "softening",
-    "bedding_in",
-    "creep",
-    "load_dependent_friction",
-    "velocity_dependent_friction",
-)
-_EVERYWHERE = (*_SPECIMEN, "moving_mass", "delay", *FAULTS)
-
 # What the refit of a base would swallow cannot be hidden in it: a damper in a damper, a curve in a free table.
+_ANYWHERE = ("clearance", "resonance", "moving_mass", "delay", *FAULTS)
+_AGING = ("softening", "bedding_in", "creep")
+_LOSSES = ("friction", "relaxation", "velocity_dependent_friction")
+_VALVES = ("quadratic_damping", "asymmetric_damping", "power_law_damping")
+_TIRE = (*_ANYWHERE, *_AGING, *_VALVES)
+_SIMPLE_TIRE = (*_TIRE, *_LOSSES, "amplitude_softening", "load_dependent_friction", "preload_dependent_damping")
+
 KINDS_OF_BASE: dict[str, tuple[str, ...]] = {
     "spring": ("friction", "relaxation", "viscous_damping", "moving_mass"),
-    "kelvin_voigt": (*_EVERYWHERE, "preload_dependent_damping"),
-    "ftire": (*_EVERYWHERE, "preload_dependent_damping"),
-    "polynomial": (*_EVERYWHERE, "preload_dependent_damping", "stiffness_curve", "end_stop"),
+    "kelvin_voigt": _SIMPLE_TIRE,
+    "ftire": _SIMPLE_TIRE,
+    "tire_model_3": _TIRE,
+    "damper": (*_ANYWHERE, *_LOSSES),
+    "polynomial": (*_SIMPLE_TIRE, "stiffness_curve", "end_stop"),
 }

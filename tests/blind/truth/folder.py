@@ -12,7 +12,7 @@ from .motion import SAMPLING
 _HEAD = """\
 format: dashpot-dataset/1
 name: {name}
-defaults:
+{sensors}defaults:
   channels:
     time: {{column: t, unit: s}}
     displacement: {{column: x, unit: mm}}
@@ -21,14 +21,20 @@ runs:
 """
 
 
-def write_dataset(folder: Path, name: str, measured: dict[Plan, tuple[np.ndarray, np.ndarray]]) -> Path:
-    """Write displacement [m] and force [N] of every run; returns the path of dataset.yaml."""
+def write_dataset(
+    folder: Path, name: str, measured: dict[Plan, tuple[np.ndarray, np.ndarray]], sheet: str | None = None
+) -> Path:
+    """Write displacement [m] and force [N] of every run, and the data sheet of the force channel if it has one.
+
+    Returns the path of dataset.yaml.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     for plan, (displacement, force) in measured.items():
         time = np.arange(force.size) / SAMPLING
         np.savez(folder / f"{plan.name}.npz", t=time, x=displacement * 1e3, F=force)
     target = folder / "dataset.yaml"
-    target.write_text(_HEAD.format(name=name) + "".join(_entry(plan) for plan in measured), encoding="utf-8")
+    head = _HEAD.format(name=name, sensors=f"sensors: {{force: {{{sheet}}}}}\n" if sheet else "")
+    target.write_text(head + "".join(_entry(plan) for plan in measured), encoding="utf-8")
     return target
 
 

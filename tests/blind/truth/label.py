@@ -19,7 +19,7 @@ class Hidden:
 
     `strength` is the pooled root mean square of the effect over the dynamic runs, the mean of each run taken out,
     over that of the noise; `strength_left` the same over all runs after a least squares refit of the base's spring
-    curve and of the sizes of its branches; `rms` the raw root mean square per run [N], means included.
+    curve and of all its other numbers; `rms` the raw root mean square per run [N], means included.
     """
 
     kind: str

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer
+from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, share_of_change
+from dashpot.assess.screen import Limit
 
 BEFORE = 1e6
 
@@ -19,7 +21,7 @@ def refusal(fall: float, **relevance: float) -> str:
         failure="", merit=BEFORE - after, gain=BEFORE - after, model=SimpleNamespace(chi_square=after)
     )
     look = SimpleNamespace(screen=SimpleNamespace(threshold=10.0), model=SimpleNamespace(chi_square=BEFORE))
-    return pursuer.objection(trial, None, look, 0.0)
+    return pursuer.objection(trial, None, fall, look, 0.0)
 
 
 @pytest.mark.parametrize(("fall", "relevance", "refused"), [(0.04, 0.05, True), (0.06, 0.05, False)])
@@ -27,6 +29,23 @@ def test_a_smaller_gain_than_the_user_cares_for_is_refused(fall, relevance, refu
     assert ("of no practical relevance" in refusal(fall, relevance=relevance)) is refused
 
 
-def test_without_a_word_half_a_thousandth_is_enough():
-    assert "0.05%" in refusal(0.9 * SMALLEST_GAIN)
+def test_without_a_word_a_quarter_of_a_hundredth_is_enough():
+    assert "0.25%" in refusal(0.9 * SMALLEST_GAIN)
     assert refusal(1.1 * SMALLEST_GAIN) == ""
+
+
+def test_the_change_is_what_a_cause_makes_of_the_plain_error(monkeypatch):
+    """An effect of a fifth of the noise, and the noise: the root of 1 / 1.04 of the error is left."""
+    rng = np.random.default_rng()
+    noise, effect = rng.standard_normal((2, 100_000))
+    misfits = {"before": noise + 0.2 * effect, "after": noise}
+    monkeypatch.setattr("dashpot.assess.pursuit.misfits_of", lambda model, runs: [misfits[model]])
+    assert share_of_change("before", "after", ()) == pytest.approx(1.0 - 1.04**-0.5, rel=0.05)
+    assert share_of_change("before", "before", ()) == 0.0
+
+
+def test_a_limit_is_raised_to_what_is_of_interest():
+    limit = Limit(None, 0.1, 4.0, 10.0, 0.5)
+    assert limit.at_least(5.0) == limit
+    raised = limit.at_least(20.0)
+    assert (raised.strength, raised.force) == (16.0, 40.0)
