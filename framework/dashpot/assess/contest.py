@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 STEPS = 20
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
+SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
+AT_END = 1e-3  # of a range
 REACH = 10.0  # so many times as much as in its last step a refit may still gain
 
 
@@ -51,6 +53,20 @@ class Model:
     def numbers(self) -> int:
         """How many numbers were found from the data."""
         return self.point.size + sum(mend.strengths.size for mend in self.mends)
+
+    @property
+    def at_end(self) -> NDArray[np.bool_]:
+        """Which coordinates (p,) are at an end of their range."""
+        margin = AT_END * (self.coordinates.high - self.coordinates.low)
+        return (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
+
+    @property
+    def revived(self) -> NetworkSpec:
+        """The fitted network with the numbers of the file in place of those at an end of their range."""
+        file = {slot.path: slot.value.number for slot in self.declared.slots()}
+        slots = {slot.path: slot.value for slot in self.fitted.slots()}
+        ended = [path for path, ends in zip(self.coordinates.paths, self.at_end, strict=True) if ends and path in file]
+        return self.fitted.with_values({path: replace(slots[path], number=file[path]) for path in ended})
 
     @property
     def values(self) -> Array:
@@ -134,10 +150,35 @@ class Bench:
             {name: jacobian[:, piece] for name, piece in pieces.items()},
         )
 
-    def extend(self, model: Model, extend: Callable[[str], str], noise: NoiseModel, beat: float = np.inf) -> Model:
-        """The model with a patch of its text, refitted from its own numbers and those of the patch; see ``fit``."""
-        declared = parse_network(extend(model.declared.text), self.elements, model.declared.file)
-        return self.fit(declared, self.start_from(declared, model.fitted), noise, model.mends, beat)
+    def extend(self, model: Model, finding: Finding, noise: NoiseModel, beat: float = np.inf) -> Model:
+        """The model with the patch of a finding, refitted; see ``fit``.
+
+        It starts where chi square is smallest among the model's own numbers beside the patch and some places on the way
+        that the screen foresees, on which patch and numbers move together: to first order it leads downhill.
+        """
+        starts = [self._extended(model, finding, model.fitted)]
+        for share in SHARES:
+            part = finding.scaled(share)
+            point = model.coordinates.allowed(model.point + model.coordinates.unit * part.moves)[0]
+            starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
+        runs = [mended(run, model.mends) for run in self.runs]
+        networks = [compile_network(start) for _, start in starts]
+        objective = Objective(networks[0], runs, self.jobs, noise.whiten)
+        losses = objective.losses(np.array([network.start for network in networks]))
+        declared, start = starts[int(np.argmin(losses))]
+        return self.fit(declared, start, noise, model.mends, beat)
+
+    def revive(self, model: Model, noise: NoiseModel) -> Model:
+        """The model, or a better one: numbers that what was missing had driven to an end of their range start anew."""
+        if not np.any(model.at_end):
+            return model
+        other = self.fit(model.declared, model.revived, noise, model.mends)
+        return other if other.chi_square < model.chi_square else model
+
+    def _extended(self, model: Model, finding: Finding, numbers: NetworkSpec) -> tuple[NetworkSpec, NetworkSpec]:
+        text = finding.candidate.suspect.extend(model.declared.text, finding.atoms)
+        declared = parse_network(text, self.elements, model.declared.file)
+        return declared, self.start_from(declared, numbers)
 
     def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
         """A network ready to be fitted: shared numbers inherited, the others given a range."""
@@ -168,7 +209,7 @@ def try_finding(
             mend = make_mend(bench.view(base), finding)
             model = bench.fit(base.declared, base.fitted, noise, (*base.mends, mend))
         else:
-            model = bench.extend(base, lambda text: suspect.extend(text, finding.atoms), noise, beat)
+            model = bench.extend(base, finding, noise, beat)
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     gain = base.chi_square - model.chi_square

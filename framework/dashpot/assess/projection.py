@@ -28,13 +28,15 @@ class Normal:
 class Projected:
     """Scores (m,) of the free rows and their covariance ``spread`` (m, m) in pure noise.
 
-    ``original`` (m,) is what stood in the diagonal of the covariance before the projection.
+    ``original`` (m,) is what stood in the diagonal of the covariance before the projection. ``absorbed`` (fixed, m) are
+    the strengths at which the fixed rows come nearest to one of each free row.
     """
 
     scores: Array
     spread: Array
     original: Array
     samples: int
+    absorbed: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +110,8 @@ def project_out(normal: Normal, fixed: int, precision: Array | None = None) -> P
     spread = inside[fixed:, fixed:] - inside[fixed:, :fixed] @ solve[:, fixed:]
     scores = right[fixed:] - solve[:, fixed:].T @ right[:fixed]
     free = scale[fixed:]
-    return Projected(scores * free, spread * np.outer(free, free), np.diag(gram)[fixed:], normal.samples)
+    absorbed = solve[:, fixed:] * free / scale[:fixed, None]
+    return Projected(scores * free, spread * np.outer(free, free), np.diag(gram)[fixed:], normal.samples, absorbed)
 
 
 def stack(*parts: SparseRows) -> SparseRows:

@@ -127,10 +127,12 @@ class Pursuer:
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
 
-        They have to make these runs better for certain, and by as much as any cause after the first.
+        They have to make these runs better for certain, and by as much as any cause after the first; where there are
+        causes already, by more than the forms of these may be wrong.
         """
         if not self.held_out:
             return
+        least = FORM_ERROR if accepted else max(self.relevance, SMALLEST_LATER_GAIN)
         directions = known_directions(self.bench, look.model, look.noise)
         jury = Jury(replace(self.bench, runs=self.held_out, unseen=()), directions, self.causes, self.seed)
         for _ in self.held_out:
@@ -141,7 +143,7 @@ class Pursuer:
             mend = plainly_strong(mend, ladder[-1], self.held_out)
             model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
             gain = self.gain_of(ladder[-1], model)
-            if gain is None or gain.interval[0] <= 0.0 or gain.value < max(self.relevance, SMALLEST_LATER_GAIN):
+            if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
                 return
             trial = Trial(finding, model, finding.gain, finding.merit)
             accepted.append(Accepted(finding, trial, gain.value, gain, ()))
@@ -189,7 +191,7 @@ class Pursuer:
                 trials = [self.try_out(each.finding, look) for each in ranked]
                 continue
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
-            gain = self.gain_of(look.model, trial.model)
+            gain = self.gain_in_doubt(look.model, trial.model)
             change = share_of_change(look.model, trial.model, self.bench.runs)
             reason = self.objection(trial, gain, change, look, explained)
             if reason:
@@ -201,6 +203,7 @@ class Pursuer:
                 if other is not chosen and other.merit < trial.merit - tie_width(trial):
                     self.reject(other.finding, "explains less than the accepted cause", None, None)
             chosen = self.simplify(chosen, look)
+            chosen = replace(chosen, model=self.bench.revive(chosen.model, look.noise))
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = self.gain_of(look.model, chosen.model)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model)
@@ -261,6 +264,14 @@ class Pursuer:
             return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
         steps = [run.drive.dt for run in self.held_out]
         return measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
+
+    def gain_in_doubt(self, before: Model, after: Model) -> Gain | None:
+        """The gain; where there is none, that of models fitted to the plain error, as coloured noise may hide it."""
+        gain = self.gain_of(before, after)
+        if gain is None or gain.value > 0.0:
+            return gain
+        plain = [self.bench.fit(model.declared, model.fitted, None, model.mends) for model in (before, after)]
+        return self.gain_of(*plain)
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that a later one made superfluous."""

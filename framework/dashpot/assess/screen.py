@@ -80,7 +80,8 @@ class Columns:
 class Finding:
     """What the screen says of a candidate: ``gain`` is the fall of chi square, ``merit`` that less its penalty.
 
-    ``deviations`` are those of the strengths.
+    ``deviations`` are those of the strengths, ``absorbed`` (p, k) the changes of the model's numbers that come nearest
+    to one of each chosen place.
     """
 
     candidate: Candidate
@@ -90,11 +91,22 @@ class Finding:
     strengths: Array
     chosen: tuple[int, ...]
     deviations: Array
+    absorbed: Array
+
+    @property
+    def moves(self) -> Array:
+        """By how many natural steps (p,) the numbers of the model change when the finding joins it, to first order."""
+        return -self.absorbed @ self.strengths
+
+    def scaled(self, share: float) -> Finding:
+        """The finding with all strengths times ``share``."""
+        atoms = tuple((share * strength, place) for strength, place in self.atoms)
+        return replace(self, atoms=atoms, strengths=share * self.strengths)
 
     def without_last(self) -> Finding:
         """The finding without the place that was added last."""
         return replace(self, atoms=self.atoms[:-1], strengths=self.strengths[:-1], chosen=self.chosen[:-1],
-                       deviations=self.deviations[:-1])  # fmt: skip
+                       deviations=self.deviations[:-1], absorbed=self.absorbed[:, :-1])  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -175,23 +187,26 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     rows = (columns.tangents, columns.nuisance, columns.bank)
     precision = np.concatenate([np.zeros(columns.tangents.size), 1.0 / columns.priors**2])
     projected = project_out(normal_equations(columns.residual, rows, noise), precision.size, precision)
-    findings = [_judge(candidate, projected) for candidate in columns.candidates]
+    numbers = columns.tangents.size
+    findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
     return Screen(tuple(ordered), threshold, projected.samples, _limits(columns, projected, threshold))
 
 
-def _judge(candidate: Candidate, projected: Projected) -> Finding | None:
+def _judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding | None:
     where = candidate.columns
     s, matrix = projected.scores[where], projected.spread[where, where]
     usable = np.flatnonzero(np.diag(matrix) > KEPT * projected.original[where])
     if usable.size == 0:
         return None
     judge = _judge_joint if candidate.suspect.joint else _judge_greedy
-    return judge(candidate, s, matrix, usable, projected.samples)
+    return judge(candidate, s, matrix, usable, projected.samples, projected.absorbed[:numbers, where])
 
 
-def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int) -> Finding | None:
+def _judge_joint(
+    candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int, absorbed: Array
+) -> Finding | None:
     inverse, rank = _inverse(matrix[np.ix_(usable, usable)])
     strengths = np.zeros(s.size)
     strengths[usable] = inverse @ s[usable]
@@ -200,10 +215,12 @@ def _judge_joint(candidate: Candidate, s: Array, matrix: Array, usable: Places, 
     merit = gain - (rank + candidate.suspect.unknowns) * np.log(samples)
     deviations = np.zeros(s.size)
     deviations[usable] = np.sqrt(np.maximum(np.diag(inverse), 0.0))
-    return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)), deviations)
+    return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)), deviations, absorbed)
 
 
-def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int) -> Finding | None:
+def _judge_greedy(
+    candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int, absorbed: Array
+) -> Finding | None:
     """Add places of the grid one after the other, strengths of one sign, as long as the merit grows."""
     suspect = candidate.suspect
     best: Finding | None = None
@@ -219,7 +236,7 @@ def _judge_greedy(candidate: Candidate, s: Array, matrix: Array, usable: Places,
         atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True) if b != 0.0)
         part = matrix[np.ix_(chosen, chosen)]
         deviations = np.sqrt(np.maximum(np.diag(_inverse(part)[0]), 0.0))
-        best = Finding(candidate, atoms, gain, float(merit), strengths, chosen, deviations)
+        best = Finding(candidate, atoms, gain, float(merit), strengths, chosen, deviations, absorbed[:, chosen])
     return best
 
 

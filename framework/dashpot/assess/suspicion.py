@@ -80,9 +80,13 @@ def resolution(bench: Bench) -> dict[str, float]:
 
 
 def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array], dict[str, Array]]:
-    """The model as causes see it, its residual (n,) and its tangents (p, n) by run, warm-up cut off."""
+    """The model as causes see it, its residual (n,) and its tangents (p, n) by run, warm-up cut off.
+
+    A number at an end of its range can absorb nothing: its tangents are zero.
+    """
     residual, tangents = bench.linearise(model)
-    return view_of(model.fitted, bench.runs, bench.elements), residual, tangents
+    free = ~model.at_end[:, None]
+    return view_of(model.fitted, bench.runs, bench.elements), residual, {run: free * t for run, t in tangents.items()}
 
 
 def gather_candidates(

@@ -13,6 +13,7 @@ Nothing here imports dashpot. Motions, integrators and functional forms are its 
 - `sensor`      a force channel that errs within its data sheet
 - `label`       the truth, given only in exchange for a verdict
 - `folder`      the dataset as files
+- `axle`, `axle_case`   two wheels below a body, with equations of motion, and a blind case of them
 - `case`        `draw_case`: all of the above from one seed
 """
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .axle_case import draw_axle
 from .base import Base, draw_base
 from .design import DESIGNS, Plan, drive
 from .effects import FAULTS, FORMS, KINDS_OF_BASE
@@ -52,22 +53,24 @@ def draw_case(
     strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10); design: a key of DESIGNS;
     form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
     its data sheet, which the dataset then states; folder: where to write, or None (temporary).
-    Everything random comes from `seed`. Raises ValueError where a word is unknown.
+    An axle has one design and exact channels. Everything random comes from `seed`. Raises ValueError where a word is
+    unknown.
     """
     _check(base, kind, form, design)
-    rng = np.random.default_rng([seed, 0])
-    specimen, noise = draw_base(base, rng), Noise.draw(rng)
-    plans = DESIGNS[design]
-    forms = [_draw_form(word, form, rng, len(plans)) for word in _draw_kinds(base, kind, rng)]
-    strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in forms]
+    rng, place = np.random.default_rng([seed, 0]), folder or Path(tempfile.mkdtemp(prefix="blind-"))
+    kinds = _draw_kinds(base, kind, rng)
+    strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in kinds]
+    if base == "axle":
+        return Case(seed, place, SealedLabel(draw_axle(seed, kinds, strengths, rng, place)))
+    specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
+    forms = [_draw_form(word, form, rng, len(plans)) for word in kinds]
     bench = _Bench(plans, specimen)
     effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
     channels = draw_channels(len(plans), np.random.default_rng([seed, 2])) if sensors else (EXACT,) * len(plans)
     measured, noise_rms = bench.measure(noise, channels, np.random.default_rng([seed, 1]))
-    place, sheet = folder or Path(tempfile.mkdtemp(prefix="blind-")), DATA_SHEET if sensors else None
-    target = write_dataset(place, f"blind case {seed}", measured, sheet)
+    write_dataset(place, f"blind case {seed}", measured, DATA_SHEET if sensors else None)
     truth = Truth(seed, design, asdict(specimen), asdict(noise), noise_rms, effects)
-    return Case(seed, target.parent, SealedLabel(truth))
+    return Case(seed, place, SealedLabel(truth))
 
 
 class _Bench:

@@ -16,6 +16,7 @@ from . import (
     stiffness,
     valves,
 )
+from .axle_case import AXLE_KINDS
 from .form import Form
 
 FORMS: dict[str, tuple[type[Form], ...]] = {
@@ -57,4 +58,5 @@ KINDS_OF_BASE: dict[str, tuple[str, ...]] = {
     "tire_model_3": _TIRE,
     "damper": (*_ANYWHERE, *_LOSSES),
     "polynomial": (*_SIMPLE_TIRE, "stiffness_curve", "end_stop"),
+    "axle": AXLE_KINDS,
 }
