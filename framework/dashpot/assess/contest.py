@@ -26,7 +26,7 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
-STEPS = 20
+STEPS = 50
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees

@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 Rows = Mapping[str, Array]
 
+STEADY = 1e-5  # of the square of a row
+
 
 @dataclass(frozen=True, eq=False)
 class Normal:
@@ -29,7 +31,7 @@ class Projected:
     """Scores (m,) of the free rows and their covariance ``spread`` (m, m) in pure noise.
 
     ``original`` (m,) is what stood in the diagonal of the covariance before the projection. ``absorbed`` (fixed, m) are
-    the strengths at which the fixed rows come nearest to one of each free row.
+    the strengths at which the fixed rows come near to one of each free row, held where they can hardly be told apart.
     """
 
     scores: Array
@@ -110,7 +112,8 @@ def project_out(normal: Normal, fixed: int, precision: Array | None = None) -> P
     spread = inside[fixed:, fixed:] - inside[fixed:, :fixed] @ solve[:, fixed:]
     scores = right[fixed:] - solve[:, fixed:].T @ right[:fixed]
     free = scale[fixed:]
-    absorbed = solve[:, fixed:] * free / scale[:fixed, None]
+    steady = np.linalg.solve(inside[:fixed, :fixed] + STEADY * np.eye(fixed), inside[:fixed, fixed:])
+    absorbed = steady * free / scale[:fixed, None]
     return Projected(scores * free, spread * np.outer(free, free), np.diag(gram)[fixed:], normal.samples, absorbed)
 
 
