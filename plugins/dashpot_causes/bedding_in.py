@@ -9,7 +9,7 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"stiffness": "N/m", "depth": "m"}
+UNITS = {"stiffness": "N/m", "depth": "m", "exponent": "1"}
 PLACES = 6
 
 
@@ -31,4 +31,11 @@ class BeddingIn(Cause):
         low, high = view.reach
         far = max(abs(low), abs(high))
         grid = tuple(np.geomspace(0.05 * far, 5.0 * far, PLACES))
-        yield added_branch("bedding_in", "bedding_in", grid, lambda k, depth: {"stiffness": k, "depth": depth}, UNITS)
+        yield added_branch(
+            "bedding_in",
+            "bedding_in",
+            grid,
+            lambda k, depth: {"stiffness": k, "depth": depth, "exponent": 1.0},
+            UNITS,
+            unknowns=2,
+        )

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 UNITS = {"limit": "N", "stiffness": "N/m"}
 PLACES = 7
 FACTORS = (0.06, 0.4)
-BOUNDS = "[0.02, 0.8]"
+BOUNDS = "[0.02, 1.5]"
 
 
 class LoadDependentFriction(Cause):
@@ -39,7 +39,7 @@ class LoadDependentFriction(Cause):
             for least in FACTORS:
                 scaled = _Scaled(travels, view.reach, least, rising)
                 yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
-                              travels, scaled, scaled.extend, unknowns=2, quantity="limit", unit="N")  # fmt: skip
+                              travels, scaled, scaled.extend, unknowns=4, quantity="limit", unit="N")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -50,22 +50,28 @@ class _Scaled:
     rising: bool
 
     @property
-    def factors(self) -> tuple[float, float]:
-        return (self.least, 1.0) if self.rising else (1.0, self.least)
+    def places(self) -> tuple[float, float, float]:
+        low, high = self.reach
+        return low, 0.5 * (low + high), high
+
+    @property
+    def factors(self) -> tuple[float, float, float]:
+        middle = 0.5 * (1.0 + self.least)
+        return (self.least, middle, 1.0) if self.rising else (1.0, middle, self.least)
 
     def __call__(self, view: View, run: str) -> Array:
         plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])
-        return plain * np.interp(view.displacement(run), self.reach, self.factors)
+        return plain * np.interp(view.displacement(run), self.places, self.factors)
 
     def extend(self, text: str, atoms: Sequence[Atom]) -> str:
         limit, travel = atoms[0]
-        free = f"{{start: {self.least:g}, bounds: {BOUNDS}}}"
-        factors = f"[{free}, 1]" if self.rising else f"[1, {free}]"
+        factors = ["1" if factor == 1.0 else f"{{start: {factor:g}, bounds: {BOUNDS}}}" for factor in self.factors]
         values = {"limit": limit, "stiffness": limit / travel}
         lines = [
             branch_lines(free_name(text, "load_dependent_friction"), "dahl", values, UNITS),
+            "  exponent: {start: 1}",
             "  scale:",
-            f"    deflection: [{', '.join(pretty(place, 'm', 6) for place in self.reach)}]",
-            f"    factor: {factors}",
+            f"    deflection: [{', '.join(pretty(place, 'm', 6) for place in self.places)}]",
+            f"    factor: [{', '.join(factors)}]",
         ]
         return add_branch(text, "\n".join(lines))
