@@ -13,7 +13,6 @@ from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
 from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, Pursuit, residuals_of
-from dashpot.assess.suspicion import linear_view
 from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict
@@ -74,7 +73,7 @@ def diagnose(
     misfit = describe_misfit(dataset.runs, residuals_of(first, setting.scored))
     runs = [run for run in dataset.runs if run.name in setting.split.train]
     last = pursuit.last
-    leftover = look_for_leftover(*linear_view(bench, last.model), last.noise, runs)
+    leftover = look_for_leftover(last.view, last.columns, last.noise, runs)
     return Diagnosis(
         setting=setting,
         triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec))),

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
 from dashpot.assess.projection import SparseRows, normal_equations, project_out, stack
+from dashpot.assess.screen import Columns
 from dashpot.assess.view import ModelView
 from dashpot.data.run import Run
 
@@ -38,32 +39,36 @@ class Leftover:
         return self.score > SIGNIFICANT and self.size > SMALLEST_SIZE
 
 
-def look_for_leftover(
-    view: ModelView,
-    residual: Signals,
-    tangents: Signals,
-    noise: NoiseModel,
-    runs: Sequence[Run],
-) -> Leftover:
-    """The more telling one of the two tests."""
+def look_for_leftover(view: ModelView, columns: Columns, noise: NoiseModel, runs: Sequence[Run]) -> Leftover:
+    """The more telling one of the two tests, sensor errors within the data sheet left aside."""
     return max(
-        _correlation(view, residual, tangents, noise),
-        _agreement(residual, noise, runs),
+        _correlation(view, columns, noise),
+        _agreement(_without_sensor_errors(columns, noise), noise, runs),
         key=lambda leftover: (leftover.notable, leftover.size),
     )
 
 
-def _correlation(view: ModelView, residual: Signals, tangents: Signals, noise: NoiseModel) -> Leftover:
-    general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in residual}
-    fixed = next(iter(tangents.values())).shape[0]
-    rows = stack(SparseRows.of(tangents), SparseRows.of(general))
-    projected = project_out(normal_equations(residual, rows, noise), fixed)
+def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftover:
+    general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in columns.residual}
+    rows = (columns.tangents, columns.nuisance, SparseRows.of(general))
+    projected = project_out(normal_equations(columns.residual, rows, noise), columns.precision.size, columns.precision)
     scale = np.sqrt(np.maximum(projected.original, 1e-300))
     values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
     kept = values > 1e-8 * values[-1]
     excess = float(np.sum((vectors[:, kept].T @ (projected.scores / scale)) ** 2 / values[kept])) - float(kept.sum())
     score = excess / float(np.sqrt(2.0 * kept.sum()))
     return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)))
+
+
+def _without_sensor_errors(columns: Columns, noise: NoiseModel) -> Signals:
+    if columns.nuisance.size == 0:
+        return columns.residual
+    rows = stack(columns.tangents, columns.nuisance)
+    normal = normal_equations(columns.residual, rows, noise)
+    scale = np.sqrt(np.maximum(np.diag(normal.gram) + columns.precision, 1e-300))
+    gram = (normal.gram + np.diag(columns.precision)) / np.outer(scale, scale)
+    strengths = np.linalg.lstsq(gram, normal.right / scale, rcond=1e-11)[0] / scale
+    return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
 
 
 def general_functions(view: ModelView, run: str) -> Array:

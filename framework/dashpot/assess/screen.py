@@ -69,6 +69,11 @@ class Columns:
     priors: Array
     candidates: tuple[Candidate, ...]
 
+    @property
+    def precision(self) -> Array:
+        """What is known of the strengths of tangents and nuisance beforehand, 1/variance."""
+        return np.concatenate([np.zeros(self.tangents.size), 1.0 / self.priors**2])
+
     def samples_of(self, finding: Finding) -> int:
         """How many samples the runs have that a finding touches."""
         chosen = finding.candidate.columns.start + np.array(finding.chosen)
@@ -185,8 +190,7 @@ def _is_fine(suspect: Suspect) -> bool:
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
     rows = (columns.tangents, columns.nuisance, columns.bank)
-    precision = np.concatenate([np.zeros(columns.tangents.size), 1.0 / columns.priors**2])
-    projected = project_out(normal_equations(columns.residual, rows, noise), precision.size, precision)
+    projected = project_out(normal_equations(columns.residual, rows, noise), columns.precision.size, columns.precision)
     numbers = columns.tangents.size
     findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
