@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.assess.erring import beside_sensors
 from dashpot.assess.mend import Mend, corrected, make_mend, mended, reshaped, shape_rows
 from dashpot.assess.noise import NoiseModel, flat_noise
 from dashpot.assess.projection import SparseRows, normal_equations, stack
@@ -121,7 +122,9 @@ class Bench:
         beat: float = np.inf,
     ) -> Model:
         runs = [mended(run, mends) for run in self.runs]
-        objective = Objective(compile_network(start), runs, self.jobs, noise.whiten if noise else None)
+        objective = Objective(
+            compile_network(start), runs, self.jobs, self._beside_sensors(noise).whiten if noise else None
+        )
         coordinates = search_coordinates(start)
         aim = np.sqrt(beat / objective.total)
         found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE,
@@ -130,12 +133,15 @@ class Bench:
         chi_square = found.loss**2 * objective.total
         return Model(declared, fitted, coordinates, found.point, chi_square, found.outcome, mends)
 
+    def _beside_sensors(self, noise: NoiseModel) -> NoiseModel:
+        return beside_sensors(noise, self.runs, self.sensors)
+
     def _strengthened(self, model: Model, noise: NoiseModel | None) -> tuple[Mend, ...]:
         view = self.view(model)
         model = replace(model, mends=tuple(mend if mend.local else reshaped(mend, view) for mend in model.mends))
         residual, tangents = self.linearise(model)
         shapes = shape_rows(model.mends, self.runs)
-        white = noise or flat_noise(dict.fromkeys(residual, 1.0))
+        white = self._beside_sensors(noise) if noise else flat_noise(dict.fromkeys(residual, 1.0))
         normal = normal_equations(residual, stack(SparseRows.of(tangents), SparseRows.dense(shapes)), white)
         return corrected(model.mends, normal, noise is not None)
 
@@ -163,7 +169,7 @@ class Bench:
             starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
         runs = [mended(run, model.mends) for run in self.runs]
         networks = [compile_network(start) for _, start in starts]
-        objective = Objective(networks[0], runs, self.jobs, noise.whiten)
+        objective = Objective(networks[0], runs, self.jobs, self._beside_sensors(noise).whiten)
         losses = objective.losses(np.array([network.start for network in networks]))
         declared, start = starts[int(np.argmin(losses))]
         return self.fit(declared, start, noise, model.mends, beat)

@@ -103,6 +103,7 @@ class Pursuer:
     watch: Callable[[str, float], None]
     relevance: float = SMALLEST_GAIN
     rejected: list[Rejection] = field(default_factory=list)
+    pruned: set[tuple[str, str, str]] = field(default_factory=set)
     tried: int = 0
 
     def run(self, model: Model) -> Pursuit:
@@ -177,7 +178,7 @@ class Pursuer:
 
     def best_trial(self, look: Look, explained: float) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
-        finalists = choose_finalists(look)
+        finalists = choose_finalists([one for one in look.screen.findings if form_of(one) not in self.pruned], look)
         trials = []
         for finding in finalists:
             if explained and finding.gain < self.least_fall(look):
@@ -274,13 +275,14 @@ class Pursuer:
         return self.gain_of(*plain)
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
-        """Drop an earlier cause that a later one made superfluous."""
+        """Drop an earlier cause that a later one made superfluous; its form does not come back."""
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.rebuild(kept, look.model, first.model, look.noise)
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             if model.chi_square - look.model.chi_square < price + look.screen.threshold:
                 self.reject(accepted[number].finding, "superfluous once the later causes are there", None, None)
+                self.pruned.add(form_of(accepted[number].finding))
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
 
@@ -295,12 +297,17 @@ class Pursuer:
         return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise, mends)
 
 
-def choose_finalists(look: Look) -> list[Finding]:
+def form_of(finding: Finding) -> tuple[str, str, str]:
+    """The word of the cause, the words of its site, and its form."""
+    return (*finding.candidate.name, finding.candidate.suspect.form)
+
+
+def choose_finalists(findings: Iterable[Finding], look: Look) -> list[Finding]:
     """The best form of each significant cause, and further forms that come near it; best first.
 
     Beyond the third only those whose fall of chi square comes near that of the best.
     """
-    significant = [finding for finding in look.screen.findings if finding.merit > look.screen.threshold]
+    significant = [finding for finding in findings if finding.merit > look.screen.threshold]
     best: dict[tuple[str, str], float] = {}
     chosen = []
     for finding in significant:

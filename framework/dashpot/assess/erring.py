@@ -1,0 +1,54 @@
+"""Sensors that err within their data sheet: what such errors make of a force counts as noise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.assess.noise import NoiseModel
+from dashpot.data.sensor_errors import error_shapes
+from dashpot.fit.scored import ScoredRun
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class _Shapes:
+    """Orthonormal whitened rows (k, n), and the share (k,) of a signal along each that errors of a sensor explain."""
+
+    rows: Array
+    taken: Array
+
+    def without(self, white: Array) -> Array:
+        return white - ((white @ self.rows.T) * self.taken) @ self.rows
+
+
+@dataclass(frozen=True, eq=False)
+class ErringNoise(NoiseModel):
+    """A noise to which errors of gain, zero and delay add, normal and new in every run."""
+
+    shapes: Mapping[str, _Shapes]
+
+    def whiten(self, run: str, signals: Array) -> Array:
+        """Signals (..., n) of a run in units of noise and errors."""
+        white = super().whiten(run, signals)
+        return self.shapes[run].without(white) if run in self.shapes else white
+
+
+def beside_sensors(
+    noise: NoiseModel, runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
+) -> NoiseModel:
+    """The noise of runs with the errors that the data sheets of their force channels admit, standard deviations."""
+    shapes = {run.name: _shapes(noise, run, sheet) for run in runs if (sheet := sensors.get(run.name))}
+    return ErringNoise(noise.filters, shapes) if shapes else noise
+
+
+def _shapes(noise: NoiseModel, run: ScoredRun, sheet: Mapping[str, float]) -> _Shapes:
+    shapes = error_shapes(run.force, run.drive.dt)
+    rows = [sheet[key] * shape[run.first :] for key, shape in shapes.items() if sheet.get(key, 0.0) > 0.0]
+    white = noise.whiten(run.name, np.array(rows).reshape(len(rows), run.samples))
+    _, sizes, directions = np.linalg.svd(white, full_matrices=False)
+    return _Shapes(directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2))

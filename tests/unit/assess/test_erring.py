@@ -1,0 +1,42 @@
+"""Misfits beside sensors within their data sheet: the chi square is that of the whole covariance."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from dashpot.assess.erring import beside_sensors
+from dashpot.assess.noise import ORDER, flat_noise
+
+STEP, SAMPLES, WARM_UP, NOISE = 1e-3, 300, 50, 4.0
+SHEET = {"gain": 2e-3, "zero": 1.5, "delay": 3e-5}
+
+
+@pytest.fixture
+def run():
+    time = np.arange(SAMPLES) * STEP
+    force = 4000.0 + 900.0 * np.sin(60.0 * time)
+    return SimpleNamespace(name="a", force=force, drive=SimpleNamespace(dt=STEP), first=WARM_UP,
+                           samples=SAMPLES - WARM_UP)  # fmt: skip
+
+
+def test_chi_square_is_that_of_noise_and_errors_together(run):
+    misfits = np.random.default_rng().normal(0.0, 5.0, (3, run.samples))
+    white = beside_sensors(flat_noise({"a": NOISE}), [run], {"a": SHEET}).whiten("a", misfits)
+    kept = slice(ORDER, None)  # the first samples count nowhere
+    force = run.force[WARM_UP:]
+    shapes = np.array([2e-3 * force, np.full(force.size, 1.5), 3e-5 * np.gradient(run.force, STEP)[WARM_UP:]])[:, kept]
+    covariance = NOISE**2 * np.eye(force.size - ORDER) + shapes.T @ shapes
+    expected = [row @ np.linalg.solve(covariance, row) for row in misfits[:, kept]]
+    assert np.sum(white**2, axis=1) == pytest.approx(expected, rel=1e-9)
+
+
+def test_an_error_within_the_data_sheet_costs_little_and_one_beyond_it_much(run):
+    whiten = beside_sensors(flat_noise({"a": NOISE}), [run], {"a": SHEET}).whiten
+    costs = [np.sum(whiten("a", np.full((1, run.samples), zero)) ** 2) for zero in (1.5, 150.0)]
+    assert costs[0] < 1.0 and costs[1] > 100.0
+
+
+def test_without_a_data_sheet_only_the_noise_counts(run):
+    noise = flat_noise({"a": NOISE})
+    assert beside_sensors(noise, [run], {}) is noise
