@@ -10,7 +10,7 @@ from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 from dashpot_causes.levelling import levelling_force
 
-UNITS = {"limit": "N", "stiffness": "N/m"}
+UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1"}
 PLACES = 15
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
@@ -30,15 +30,22 @@ class Friction(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Smooth sliders and sliders behind a spring over yield travels; a rigid contact over creep velocities."""
-        grid = np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES)
-        for element in ("dahl", "prandtl"):
-            yield added_branch(
-                element,
-                "friction",
-                tuple(grid),
-                lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
-                UNITS,
-                most=MOST,
-            )
+        """A slider of any approach, some behind springs, over yield travels; a rigid contact over creep velocities."""
+        grid = tuple(np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES))
+        yield added_branch(
+            "dahl",
+            "friction",
+            grid,
+            lambda limit, travel: {"limit": limit, "stiffness": limit / travel, "exponent": 1.0},
+            UNITS,
+            unknowns=2,
+        )
+        yield added_branch(
+            "prandtl",
+            "friction",
+            grid,
+            lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
+            UNITS,
+            most=MOST,
+        )
         yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))

@@ -122,9 +122,8 @@ class Bench:
         beat: float = np.inf,
     ) -> Model:
         runs = [mended(run, mends) for run in self.runs]
-        objective = Objective(
-            compile_network(start), runs, self.jobs, self._beside_sensors(noise).whiten if noise else None
-        )
+        whiten = self._beside_sensors(noise).whiten if noise else None
+        objective = Objective(compile_network(start), runs, self.jobs, whiten)
         coordinates = search_coordinates(start)
         aim = np.sqrt(beat / objective.total)
         found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE,
