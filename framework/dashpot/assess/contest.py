@@ -27,7 +27,7 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
-STEPS = 50
+STEPS = 30
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
@@ -105,11 +105,10 @@ class Bench:
         """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
 
         The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter;
-        the best turn counts. A network without mends that will not come down to the chi square ``beat`` is left behind
-        half way.
+        the best turn counts. A network that will not come down to the chi square ``beat`` is left behind half way.
         """
-        turns = [self._fit(declared, start, noise, tuple(mends), np.inf if mends else beat)]
-        for _ in range(MEND_ROUNDS if mends else 0):
+        turns = [self._fit(declared, start, noise, tuple(mends), beat)]
+        for _ in range(MEND_ROUNDS if mends and turns[0].outcome is not Outcome.LEFT_BEHIND else 0):
             turns.append(self._fit(declared, turns[-1].fitted, noise, self._strengthened(turns[-1], noise)))
         return min(turns, key=lambda model: model.chi_square if np.isfinite(model.chi_square) else np.inf)
 
