@@ -27,7 +27,7 @@ class BeddingIn(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring that its largest deflection softens, over the deflection that halves it."""
+        """A spring that its largest deflection softens, for good or below that deflection, over its depth."""
         low, high = view.reach
         far = max(abs(low), abs(high))
         grid = tuple(np.geomspace(0.05 * far, 5.0 * far, PLACES))
@@ -39,3 +39,4 @@ class BeddingIn(Cause):
             UNITS,
             unknowns=2,
         )
+        yield added_branch("mullins", "bedding_in", grid, lambda k, depth: {"stiffness": k, "depth": depth}, UNITS)

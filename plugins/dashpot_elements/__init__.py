@@ -26,6 +26,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.iwan import Iwan
     from dashpot_elements.loose_friction import LooseFriction
     from dashpot_elements.maxwell import Maxwell
+    from dashpot_elements.mullins import Mullins
     from dashpot_elements.power_law_damper import PowerLawDamper
     from dashpot_elements.prandtl import Prandtl
     from dashpot_elements.quadratic_damper import QuadraticDamper
@@ -56,6 +57,7 @@ def dashpot_elements() -> list[type]:
         BoucWen,
         Iwan,
         BeddingIn,
+        Mullins,
         Softening,
         Inerter,
     ]

@@ -21,7 +21,7 @@ from dashpot.text.quantity import force_dimension
 SEEDS = st.integers(0, 2**32 - 1)
 KINDS = st.sampled_from(sorted(MOTIONS))
 ODD = ["backlash", "bedding_in", "bouc_wen", "clearance", "coulomb", "dahl", "damper", "inerter", "iwan",
-       "loose_friction", "maxwell", "power_law_damper", "prandtl", "quadratic_damper", "softening", "spring",
+       "loose_friction", "maxwell", "mullins", "power_law_damper", "prandtl", "quadratic_damper", "softening", "spring",
        "stribeck"]  # fmt: skip
 RATE_INDEPENDENT = {
     "dahl": {"stiffness": 6e4, "limit": 15.0},
@@ -29,6 +29,7 @@ RATE_INDEPENDENT = {
     "bouc_wen": {"stiffness": 6e4, "limit": 15.0, "shape": 0.8, "exponent": 2.0},
     "iwan": {"stiffness": 6e4, "shortest": 1e-4, "longest": 5e-3},
     "bedding_in": {"stiffness": 6e4, "depth": 2e-3},
+    "mullins": {"stiffness": 6e4, "depth": 2e-3},
     "backlash": {"stiffness": 6e4, "gap": 5e-4},
     "loose_friction": {"limit": 15.0, "stiffness": 6e4, "gap": 5e-4},
 }

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.gain import Gain, crossed, measure_gain
 from dashpot.assess.mend import Mend, mended, shape_rows
-from dashpot.assess.noise import NoiseModel
+from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding
-from dashpot.assess.suspicion import Look, expected_gain, look_at
+from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
 from dashpot.fit.objective import Objective
@@ -155,12 +155,13 @@ class Pursuer:
     ) -> tuple[list[Accepted], Look, list[Model]]:
         """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first.
 
-        A further cause has to gain there what is of interest at all.
+        The first cause has to hold there, a further one to gain what is of interest at all.
         """
         ladder = self.polish_ladder(first.model, accepted, look)
         gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
-        useless = [number for number, gain in enumerate(gains)
-                   if gain is not None and gain.value <= (self.relevance if number else 0.0)]  # fmt: skip
+        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= self.relevance]
+        if useless == [0] and self.holds(first.model, accepted[0].trial.model, gains[0]):
+            useless = []
         if not useless:
             return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
         entry = accepted[useless[-1]]
@@ -192,7 +193,7 @@ class Pursuer:
                 trials = [self.try_out(each.finding, look) for each in ranked]
                 continue
             foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
-            gain = self.gain_in_doubt(look.model, trial.model)
+            gain = self.gain_of(look.model, trial.model)
             change = share_of_change(look.model, trial.model, self.bench.runs)
             reason = self.objection(trial, gain, change, look, explained)
             if reason:
@@ -236,7 +237,7 @@ class Pursuer:
             return trial.failure
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
-        if gain is not None and gain.value <= 0.0:
+        if not self.holds(look.model, trial.model, gain):
             return NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
@@ -266,13 +267,15 @@ class Pursuer:
         steps = [run.drive.dt for run in self.held_out]
         return measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
 
-    def gain_in_doubt(self, before: Model, after: Model) -> Gain | None:
-        """The gain; where there is none, that of models fitted to the plain error, as coloured noise may hide it."""
-        gain = self.gain_of(before, after)
+    def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
+        """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""
         if gain is None or gain.value > 0.0:
-            return gain
-        plain = [self.bench.fit(model.declared, model.fitted, None, model.mends) for model in (before, after)]
-        return self.gain_of(*plain)
+            return True
+        first, second = misfits_of(before, self.held_out), misfits_of(after, self.held_out)
+        names = [run.name for run in self.held_out]
+        noise = learn_noise(dict(zip(names, first, strict=True)), resolution(replace(self.bench, runs=self.held_out)))
+        white = [pooled(map(noise.whiten, names, misfits)) for misfits in (first, second)]
+        return white[1] < white[0]
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that a later one made superfluous; its form does not come back."""

@@ -122,17 +122,19 @@ def sensor_nuisance(
 
 
 def expected_gain(columns: Columns, finding: Finding, runs: Sequence[ScoredRun]) -> float:
-    """The fall of the training error that the screen foresees, 1 - RMSE after / RMSE before, the rest readjusted."""
+    """The fall of the training error that the screen foresees, 1 - RMSE after / RMSE before, both after a refit."""
     where = np.arange(finding.candidate.columns.start, finding.candidate.columns.stop)[list(finding.chosen)]
     strengths = np.zeros(columns.bank.size)
     strengths[where] = finding.strengths
-    added = {run: columns.bank.combined(strengths, run) for run in columns.residual}
-    weight = {run: 1.0 / columns.residual[run].size for run in columns.residual}
-    left = {run: columns.residual[run] - added[run] for run in columns.residual}
-    tangents = columns.tangents.values
-    gram = sum(weight[run] * (t @ t.T) for run, t in tangents.items())
-    right = sum(weight[run] * (t @ left[run]) for run, t in tangents.items())
-    moves = np.linalg.lstsq(gram, right, rcond=1e-12)[0] if np.size(right) else np.zeros(0)
-    after = sum(weight[run] * float(np.sum((left[run] - moves @ tangents[run]) ** 2)) for run in left)
-    before = sum(weight[run] * float(np.sum(columns.residual[run] ** 2)) for run in left)
+    left = {run: values - columns.bank.combined(strengths, run) for run, values in columns.residual.items()}
+    before, after = (_refitted(columns.tangents, signals) for signals in (columns.residual, left))
     return float(1.0 - np.sqrt(after / before)) if before > 0.0 else 0.0
+
+
+def _refitted(tangents: SparseRows, signals: Mapping[str, Array]) -> float:
+    """The sum over runs of the mean squares of signals, less what the tangents can follow."""
+    weight = {run: 1.0 / values.size for run, values in signals.items()}
+    gram = sum(weight[run] * (rows @ rows.T) for run, rows in tangents.values.items())
+    right = sum(weight[run] * (rows @ signals[run]) for run, rows in tangents.values.items())
+    moves = np.linalg.lstsq(gram, right, rcond=1e-12)[0] if np.size(right) else np.zeros(0)
+    return sum(weight[run] * float(np.sum((signals[run] - moves @ tangents.values[run]) ** 2)) for run in signals)

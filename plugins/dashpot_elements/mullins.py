@@ -1,0 +1,38 @@
+"""Stiffness that comes back where the specimen is pressed as far as ever before."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Symbol
+
+
+class Mullins(Element):
+    """A spring that is soft below its largest deflection so far: F = stiffness x exp(-(reach^2 - x^2)/depth^2).
+
+    The Mullins effect as a pseudo-elastic law, reach = max |x|: on virgin ground nothing is lost, on the way there the
+    more, the further the largest energy so far is above the present one. Every record begins with a fresh specimen.
+    """
+
+    picture = Symbol.SPRING
+    source = "Ogden and Roxburgh, Proc. R. Soc. A 455 (1999) 2861, with an exponential in place of the error function"
+
+    stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
+    depth = Parameter("m", "root of the difference of squares that leaves 1/e", bounds=(1e-6, 10.0), symbol="x_m")
+    reach = State("m", "largest deflection to either side so far")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """The reach grows to the end of the step."""
+        reach = np.maximum(z.reach, np.abs(x.new))
+        return Response(p.stiffness * x.new * _left(x.new, reach, p), reach=reach)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy that the way back to zero gives."""
+        return 0.5 * p.stiffness * p.depth * p.depth * (_left(x.new, z.reach, p) - _left(0.0, z.reach, p))
+
+
+def _left(x: Any, reach: Any, p: Any) -> Any:
+    return np.exp((x * x - reach * reach) / (p.depth * p.depth))
