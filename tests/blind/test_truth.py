@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.special import gamma, wrightomega
 from truth import FORMS, KINDS_OF_BASE, SealBroken, draw_case
+from truth.axle import Inner, Numbers, platform_forces
 from truth.base import draw_base
 from truth.branches import integrate_dahl, integrate_prandtl
 from truth.case import _Bench
@@ -278,7 +279,7 @@ def test_dahl_branch_of_the_base_is_its_differential_equation():
     assert force[there.size - 1] == pytest.approx(limit * (1 - np.exp(-there[-1] * stiffness / limit)), rel=1e-9)
 
 
-@pytest.mark.parametrize("name", sorted(KINDS_OF_BASE.keys() - {"damper"}))
+@pytest.mark.parametrize("name", sorted(KINDS_OF_BASE.keys() - {"damper", "axle"}))
 def test_tires_carry_a_progressive_spring(name, seed):
     base = draw_base(name, np.random.default_rng(seed))
     path = np.linspace(0.0, LOOP_DEPTH, 200)
@@ -297,7 +298,7 @@ def test_a_shock_absorber_only_takes_energy_and_levels_out(seed):
     assert slope[200] > 1.5 * slope[-1] and slope[200] > 1.5 * slope[0]
 
 
-@pytest.mark.parametrize("name", KINDS_OF_BASE)
+@pytest.mark.parametrize("name", sorted(KINDS_OF_BASE.keys() - {"axle"}))
 def test_what_a_refit_can_follow_is_left_out_of_the_strength(name, seed):
     """Every number of every branch, changed by a little, leaves nearly nothing."""
     rng = np.random.default_rng(seed)
@@ -490,3 +491,40 @@ def test_drawing_a_case_loads_nothing_of_dashpot(tmp_path):
         [sys.executable, "-c", program, str(tmp_path)], capture_output=True, text=True, cwd=PACKAGE.parent, check=True
     )
     assert done.stdout.strip() == "[]"
+
+
+# --- axle --------------------------------------------------------------------------------------------------------
+
+
+def test_an_axle_is_the_transfer_function_of_its_parts():
+    """In phase the bar is idle: tire against wheel mass, spring and damper; K* of the platform in the last cycle."""
+    numbers = Numbers(wheel=45.0, tire=220e3, loss=150.0, spring=28e3, damping=1500.0, bar=12e3)
+    motion = harmonic(2e-3, 0.0, 9.0, 3.0)
+    for sides, bar in (((1.0, 1.0), 0.0), ((1.0, -1.0), 24e3)):
+        force = platform_forces(numbers, motion, sides, None)[0]
+        s = 2j * np.pi * 9.0
+        tire, hung = 220e3 + 150.0 * s, 28e3 + bar + 1500.0 * s
+        expected = tire * (1.0 - tire / (tire + hung + 45.0 * s**2))
+        assert complex_stiffness(motion, force - force.mean(), 9.0) == pytest.approx(expected, rel=1e-3)
+
+
+def test_what_is_hidden_in_an_axle_acts_between_its_two_ends():
+    """A law as stiff as a spring, one slider that never yields, is that spring more, wherever it is."""
+    numbers = Numbers(wheel=45.0, tire=220e3, loss=150.0, spring=28e3, damping=1500.0, bar=12e3)
+    motion = sweep(3e-3, 0.0, 1.0, 15.0, 1.0)
+    for place, name in (("tire", "tire"), ("suspension", "spring"), ("bar", "bar")):
+        law = Inner("", "", place, sliders=((5e3, 1e9),))
+        found = platform_forces(numbers, motion, (1.0, -0.5), law)
+        expected = platform_forces(replace(numbers, **{name: getattr(numbers, name) + 5e3}), motion, (1.0, -0.5), None)
+        # what is hidden is relaxed at the beginning, a spring carries the weight
+        moved = found - found[:, :1] - (expected - expected[:, :1])
+        assert np.sqrt(np.mean(moved**2)) < 0.02 * np.sqrt(np.mean((expected - expected[:, :1]) ** 2))
+
+
+def test_a_blind_axle_has_its_effect_at_its_strength(seed, tmp_path):
+    truth = draw_case(seed, "axle", "friction", 2.0, folder=tmp_path).label.open("something")
+    (effect,) = truth.effects
+    pooled = np.sqrt(np.mean(np.square(list(effect.rms.values()))))
+    assert pooled == pytest.approx(2.0 * truth.noise["rms"], rel=0.02)
+    assert len(truth.noise_rms) == 16 and 0.0 < effect.strength_left < 2.1
+    assert not re.search("friction|strength|null", (tmp_path / "dataset.yaml").read_text())

@@ -135,14 +135,14 @@ def _write(folder: Path, seed: int, forces: Forces, noise: Noise) -> dict[str, f
     folder.mkdir(parents=True, exist_ok=True)
     rng, realised = np.random.default_rng([seed, 1]), {}
     for drive, pair in zip(DRIVES, forces, strict=True):
-        columns, errors = {"t": np.arange(pair.shape[1]) * THINNED / SAMPLING}, []
-        for side, letter, force in zip(drive.sides, "lr", pair, strict=True):
+        columns = {"t": np.arange(pair.shape[1]) * THINNED / SAMPLING}
+        for side, end, letter, force in zip(drive.sides, ENDS, "lr", pair, strict=True):
             jitter = 2e-6 * rng.standard_normal(force.size)
+            error = noise.sample(rng, force.size)
             columns[f"x{letter}"] = (side * drive.motion.displacement[::EVERY] + jitter) * 1e3
-            errors.append(noise.sample(rng, force.size))
-            columns[f"F{letter}"] = force + errors[-1]
+            columns[f"F{letter}"] = force + error
+            realised[f"{drive.name}@{end}"] = _rms(error)
         np.savez(folder / f"{drive.name}.npz", **columns)
-        realised[drive.name] = _rms(np.array(errors))
     (folder / "dataset.yaml").write_text(_HEAD.format(seed=seed) + "".join(map(_entry, DRIVES)), encoding="utf-8")
     return realised
 

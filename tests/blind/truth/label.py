@@ -34,7 +34,8 @@ class Hidden:
 
 @dataclass(frozen=True)
 class Truth:
-    """All about one case; no effect at all is a null case. `noise_rms` is the realised one per run [N]."""
+    """All about one case; no effect at all is a null case. `noise_rms` is the realised one per run [N],
+    of an axle per `run@end`."""
 
     seed: int
     design: str

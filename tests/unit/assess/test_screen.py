@@ -138,3 +138,22 @@ def test_limits_are_strengths_that_are_indeed_found():
     size = limit.force / np.sqrt(1.25)  # the columns have this root mean square
     found = [screen(columns_of(rng, [0.0, 0.0, 1.1 * size, 0.0]), WHITE).best is not None for _ in range(20)]
     assert sum(found) >= 14
+
+
+def test_the_moves_of_a_finding_are_those_of_a_refit_with_its_strengths():
+    """The tangents make room for what joins them, as plain least squares of the rest would."""
+    columns = columns_of(np.random.default_rng(), [0.4, 0.0, 0.0, 0.3], joint=True, sign=0)
+    found = next(f for f in screen(columns, WHITE).findings if f.candidate.cause is Made)
+    added = np.concatenate([found.strengths @ columns.bank.values[run][:4, 8:] for run in "ab"])
+    design = np.concatenate([columns.tangents.values[run][:, 8:] for run in "ab"], axis=1).T
+    expected = -np.linalg.lstsq(design, added, rcond=None)[0]
+    assert found.moves == pytest.approx(expected, rel=1e-3, abs=1e-3)
+    assert found.scaled(0.3).moves == pytest.approx(0.3 * found.moves)
+
+
+def test_tangents_that_cannot_be_told_apart_do_not_run_away():
+    columns = columns_of(np.random.default_rng(), [0.4, 0.0, 0.0, 0.3], joint=True, sign=0)
+    for rows in columns.tangents.values.values():
+        rows[1] = rows[0] * (1.0 + 1e-9)
+    found = next(f for f in screen(columns, WHITE).findings if f.candidate.cause is Made)
+    assert np.max(np.abs(found.moves)) < 1.0

@@ -45,6 +45,15 @@ def test_a_repeated_amplitude_goes_before_one_of_its_own(seed):
 
 
 @pytest.mark.parametrize("seed", range(8))
+def test_one_of_the_liveliest_runs_is_held_out_where_another_covers_it(seed):
+    slow = [harmonic(f"slow {number}", 5e-3, 1.0, preload=number * 1e-3) for number in range(8)]
+    fast = [harmonic(f"fast {number}", 5e-3, 10.0, preload=number * 1e-3) for number in range(3)]
+    held_out = split_runs(Dataset("sweeps", (*slow, *fast)), seed).held_out
+    assert len(held_out) == 3
+    assert sum(name.startswith("fast") for name in held_out) >= 1
+
+
+@pytest.mark.parametrize("seed", range(8))
 def test_repeats_are_held_out_together(seed):
     runs = [run for each in LADDER for run in (each, harmonic(f"{each.name} again", 1e-3, 2.0, repeats=each.name))]
     split = split_runs(Dataset("ladder", tuple(runs)), seed)

@@ -1,0 +1,110 @@
+"""Refits of extended networks: where they begin, and what becomes of numbers at an end of their range."""
+
+import numpy as np
+import pytest
+
+from dashpot.assess.contest import Bench, try_finding
+from dashpot.assess.noise import flat_noise
+from dashpot.assess.pursuit import Pursuer
+from dashpot.assess.suspicion import linear_view, look_at
+from dashpot.contract.registry import load_registry
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.fit.api import prepare
+from dashpot.model.reading import parse_network
+
+REGISTRY = load_registry()
+STEP = 1e-3
+TIME = np.arange(3000) * STEP
+TABLE = """\
+format: dashpot-network/1
+name: table
+branches:
+  stiffness:
+    element: spring
+    stiffness:
+      deflection: [5 mm, 10 mm, 15 mm, 20 mm, 25 mm]
+      force: [{start: 1 kN}, {start: 2 kN}, {start: 3 kN}, {start: 4 kN}, {start: 5 kN}]
+  damping: {element: damper, damping: {start: 200 N*s/m, bounds: [20 N*s/m, 2 kN*s/m]}}
+"""
+
+
+def sweep(name, amplitude, preload, rng, force, held_out=False):
+    phase = 2.0 * np.pi * (TIME + 3.0 * TIME**2)
+    x = preload + amplitude * np.sin(phase)
+    v = amplitude * np.cos(phase) * 2.0 * np.pi * (1.0 + 6.0 * TIME)
+    noisy = force(x, v) + 4.0 * rng.standard_normal(TIME.size)
+    return Run(name, "sweep", TIME, {"displacement": x, "force": noisy}, group=name, held_out=held_out)
+
+
+def bench_of(force, rng):
+    runs = [sweep(f"r{k}", a, p, rng, force, k == 3)
+            for k, (a, p) in enumerate([(2e-3, 10e-3), (4e-3, 12e-3), (6e-3, 16e-3), (4e-3, 14e-3)])]  # fmt: skip
+    setting = prepare(Dataset("made", tuple(runs)))
+    return Bench(setting.train, REGISTRY.elements, {}), setting.held_out
+
+
+def fitted(bench, text):
+    declared = parse_network(text, REGISTRY.elements)
+    return bench.fit(declared, bench.start_from(declared, declared), None)
+
+
+@pytest.fixture
+def rng():
+    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    print(f"seed {seed}")
+    return np.random.default_rng(seed)
+
+
+def softening(x, v):
+    """A spring that loses a fifth of 200 N/mm while the mean square of its velocity warms it, by explicit steps."""
+    warmth = np.zeros(x.size)
+    for k in range(1, x.size):
+        warmth[k] = warmth[k - 1] + STEP / 0.8 * ((v[k - 1] / 0.3) ** 2 - warmth[k - 1])
+    return 160e3 * x + 40e3 * x / (1.0 + warmth) + 250.0 * v
+
+
+def test_a_spring_that_joins_a_table_takes_its_force_over_from_it(rng):
+    """Beside the numbers of the table its patch is kilonewtons off; the refit begins below the model before it."""
+    bench, _ = bench_of(softening, rng)
+    look = look_at(bench, fitted(bench, TABLE), [REGISTRY.causes["softening"]], None, 0)
+    finding = look.screen.best
+    trial = try_finding(bench, look.model, finding, look.noise, look.screen.samples)
+    assert trial.gain > 0.8 * finding.gain
+    (stiffness,) = [slot.value.number for slot in trial.model.fitted.slots() if slot.path == "softening.stiffness"]
+    assert stiffness == pytest.approx(40e3, rel=0.3)
+
+
+def test_a_number_at_its_end_absorbs_nothing_and_starts_anew_from_the_file(rng):
+    """Negative damping drives the damper to the end of its range."""
+    bench, _ = bench_of(lambda x, v: 200e3 * x - 40.0 * v, rng)
+    model = fitted(bench, TABLE)
+    place = model.coordinates.paths.index("damping.damping")
+    assert model.at_end[place]
+    _, _, tangents = linear_view(bench, model)
+    assert all(not rows[place].any() and rows[:place].any() for rows in tangents.values())
+    revived = {slot.path: slot.value.number for slot in model.revived.slots()}
+    assert revived["damping.damping"] == 200.0
+    noise = flat_noise({run.name: 4.0 for run in bench.runs})
+    white = bench.fit(model.declared, model.fitted, noise)
+    assert bench.revive(white, noise).chi_square <= white.chi_square
+
+
+def test_held_out_runs_judge_in_white_noise_where_coloured_noise_hides_a_gain(rng, monkeypatch):
+    """Slow noise of 50 N that happens to grow by 1 % hides that fast errors of 2 N are gone."""
+    bench, held_out = bench_of(lambda x, v: 200e3 * x, rng)
+    slow = 50.0 * np.sin(2.0 * np.pi * 0.2 * TIME[-held_out[0].samples :])
+    fast = 2.0 * rng.standard_normal(slow.size)
+    misfits = {"before": slow + fast, "better": 1.01 * slow + 0.5 * fast, "worse": 1.01 * slow + 1.2 * fast}
+    monkeypatch.setattr("dashpot.assess.pursuit.misfits_of", lambda model, runs: [misfits[model]])
+    pursuer = Pursuer(bench, held_out, (), 0, print)
+    for after, holds in (("better", True), ("worse", False)):
+        gain = pursuer.gain_of(*(SimpleModel(name) for name in ("before", after)))
+        assert gain.value < 0.0
+        assert pursuer.holds("before", after, gain) is holds
+
+
+class SimpleModel(str):
+    """A name that passes for a model without mends."""
+
+    mends = ()
