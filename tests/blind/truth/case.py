@@ -58,12 +58,13 @@ def draw_case(
     """
     _check(base, kind, form, design)
     rng, place = np.random.default_rng([seed, 0]), folder or Path(tempfile.mkdtemp(prefix="blind-"))
-    kinds = _draw_kinds(base, kind, rng)
-    strengths = [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in kinds]
     if base == "axle":
-        return Case(seed, place, SealedLabel(draw_axle(seed, kinds, strengths, rng, place)))
+        kinds = _draw_kinds(base, kind, rng)
+        truth = draw_axle(seed, kinds, _draw_strengths(kinds, strength, rng), rng, place)
+        return Case(seed, place, SealedLabel(truth))
     specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
-    forms = [_draw_form(word, form, rng, len(plans)) for word in kinds]
+    forms = [_draw_form(word, form, rng, len(plans)) for word in _draw_kinds(base, kind, rng)]
+    strengths = _draw_strengths(forms, strength, rng)
     bench = _Bench(plans, specimen)
     effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
     channels = draw_channels(len(plans), np.random.default_rng([seed, 2])) if sensors else (EXACT,) * len(plans)
@@ -162,6 +163,10 @@ def _draw_kinds(base: str, kind: str | None, rng: np.random.Generator) -> list[s
     drawn = NULL if rng.random() < NULL_SHARE else str(rng.choice(KINDS_OF_BASE[base]))
     asked = drawn if kind is None else kind
     return [] if asked == NULL else sorted(asked.split("+"), key=lambda word: word == "delay")
+
+
+def _draw_strengths(hidden: Sequence, strength: float | None, rng: np.random.Generator) -> list[float]:
+    return [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in hidden]
 
 
 def _draw_form(kind: str, form: str | None, rng: np.random.Generator, runs: int) -> Form | Fault:
