@@ -121,7 +121,7 @@ def test_a_block_on_a_table_flies_freely_after_it_lost_contact(rng, state):
     flown = np.abs(np.concatenate(flights))
     assert flown.size > 20 * LANDINGS and np.mean(flown < 2e-2) > 0.99
     # at which point of a step the table is met is chance: a single sample may miss it by more
-    assert np.median(pulls) < 1e-4 and max(pulls) < 0.1
+    assert np.median(pulls) < 3e-3 and max(pulls) < 0.1
     assert np.median(errors) < 1e-3 and max(errors) < 2e-2
 
 

@@ -36,11 +36,13 @@ TIE_SHARE = 5e-4
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
+SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
 REFIT_MAY_DOUBLE = 0.5
 FEWEST_FINALISTS = 3
+NEARLY = 0.95
 COMES_NEAR = 0.4  # of the best fall of chi square
 
 
@@ -48,7 +50,8 @@ COMES_NEAR = 0.4  # of the best fall of chi square
 class Accepted:
     """A cause with its proof: the model after it, the gain on held-out runs, what could not be told from it.
 
-    ``others`` are the trials of its rivals, ``base`` the model before it.
+    ``others`` are the trials of its rivals, ``base`` the model before it, ``simpler`` the trials of causes with fewer
+    numbers that came near.
     """
 
     finding: Finding
@@ -58,6 +61,7 @@ class Accepted:
     rivals: tuple[str, ...]
     others: tuple[Trial, ...] = ()
     base: Model | None = None
+    simpler: tuple[Trial, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -119,11 +123,13 @@ class Pursuer:
             accepted.append(winner)
             self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
-            accepted, look = self.prune(accepted, look, first)
+            accepted, look = self.prune(*self.reconsider(accepted, look, first), first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         self.judge_the_jury(accepted, look, ladder)
         least_force = float(np.sqrt(1.0 - (1.0 - self.relevance) ** 2) * pooled(look.columns.residual.values()))
-        return Pursuit(first, look, tuple(accepted), tuple(self.rejected), self.tried, tuple(ladder), least_force)
+        named = {entry.finding.candidate.name for entry in accepted}
+        rejected = tuple(one for one in self.rejected if (one.cause, one.place or "") not in named)
+        return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)
 
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
@@ -208,7 +214,7 @@ class Pursuer:
             chosen = replace(chosen, model=self.bench.revive(chosen.model, look.noise))
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = self.gain_of(look.model, chosen.model)
-            return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model)
+            return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
         return None
 
     def least_fall(self, look: Look) -> float:
@@ -289,6 +295,21 @@ class Pursuer:
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
 
+    def reconsider(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """Put a simpler cause in the place of an earlier one that owed its lead to what a later one explains."""
+        for number, entry in enumerate(accepted[:-1]):
+            for trial in entry.simpler:
+                instead = replace(entry, finding=trial.finding, trial=trial, rivals=(), others=(), simpler=())
+                changed = [*accepted[:number], instead, *accepted[number + 1 :]]
+                model = self.rebuild(changed, look.model, first.model, look.noise)
+                price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
+                if model.chi_square - look.model.chi_square < price + TIE:
+                    self.reject(
+                        entry.finding, "a simpler cause does as well once the later causes are there", None, None
+                    )
+                    return changed, look_at(self.bench, model, self.causes, look.noise, self.seed)
+        return accepted, look
+
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers."""
         text = first.declared.text
@@ -332,6 +353,15 @@ def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Tri
             best.setdefault(other.finding.candidate.name, other)
     best.pop(chosen.finding.candidate.name)
     return chosen, tuple(best.values())
+
+
+def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
+    """Trials of other causes with fewer numbers that explain nearly as much as the chosen one."""
+    return tuple(
+        other for other in ranked
+        if other.finding.candidate.name != chosen.finding.candidate.name
+        and other.model.numbers < chosen.model.numbers and other.gain > NEARLY * chosen.gain
+    )  # fmt: skip
 
 
 def to_beat(trials: Sequence[Trial], look: Look) -> float:
