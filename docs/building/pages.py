@@ -202,14 +202,11 @@ def _results(command: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
 
 def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     version, _, kind = name.partition("-")
-    hidden = " with nothing hidden" if kind == "null" else f" with {kind} hidden" if kind else ""
     last = found["seed"] + found["cases"] - 1
-    yield f"## {found['cases']} cases of dashpot {version}{hidden}"
+    yield f"## {found['cases']} cases of dashpot {version}{BLIND_KINDS[kind]}"
     yield (
-        f"Seeds {found['seed']} to {last}; `python tests/blind/run.py --cases {found['cases']} --seed {found['seed']}"
-        + (f" --kind {kind}" if kind else "")
-        + f"` repeats them. A diagnosis took {found['seconds']:.0f} s in the median, on two cores that did other work "
-        "at the same time."
+        f"Seeds {found['seed']} to {last}; `{found['command']}` repeats them. A diagnosis took {found['seconds']:.0f} s in "
+        "the median, on two cores that did other work at the same time."
     )
     yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))
     yield written.table(
@@ -222,6 +219,14 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     )  # fmt: skip
 
 
+BLIND_KINDS = {
+    "": "",
+    "null": " with nothing hidden",
+    "axle": " of an axle",
+    "sensors": " with sensors that err within their data sheet",
+    "sensors-null": " with such sensors and nothing hidden",
+    "without": " without the plugin of the cause",
+}
 RATES = {
     "first_right": "the first name is a hidden effect",
     "family_right": "the first name is a hidden effect or one of its family",
@@ -229,6 +234,8 @@ RATES = {
     "exact": "exactly the hidden effects are named",
     "confidently_wrong": "it says all is explained, by a cause outside the family",
     "false_alarms": "something is named where nothing is hidden",
+    "over_noise_to_1.05": "the held-out error after the extension is within 1.05 of the noise",
+    "lone_right": "a single name without a rival is a hidden effect",
 }
 
 
@@ -236,7 +243,7 @@ def _rates(found: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
     from scipy.stats import binomtest
 
     for key, words in RATES.items():
-        count, of = found[key]
+        count, of = found.get(key, (0, 0))
         if of:
             low, high = binomtest(count, of).proportion_ci(method="exact")
             yield words, f"{count} of {of}", f"{low:.0%} to {high:.0%}"

@@ -64,6 +64,14 @@ def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> d
     return diagnose(spec, dataset, jobs=jobs, registry=registry).as_dict()
 
 
+def command_of(options: argparse.Namespace, seed: int, cases: int) -> str:
+    """What repeats the cases of a run."""
+    words = ["python tests/blind/run.py", f"--cases {cases}", f"--seed {seed}", f"--base {' '.join(options.base)}"]
+    words += [f"--{key} {value}" for key in ("kind", "strength") if (value := getattr(options, key)) is not None]
+    words += [f"--design {options.design}"] if options.design != "full" else []
+    return " ".join(words + [f"--{flag}" for flag in ("sensors", "without") if getattr(options, flag)])
+
+
 def main() -> None:
     """Run the cases that were asked for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -89,7 +97,8 @@ def main() -> None:
         outcomes.append(bench.run(first + number, base, options.kind, options.strength))
         print(outcomes[-1].line(), flush=True)
         if options.output:  # what was done stays when the run is interrupted
-            options.output.write_text(json.dumps({"seed": first, **summary(outcomes)}, indent=1) + "\n")
+            kept = {"seed": first, "command": command_of(options, first, len(outcomes)), **summary(outcomes)}
+            options.output.write_text(json.dumps(kept, indent=1) + "\n")
     print_table(outcomes)
 
 
