@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +18,8 @@ UNITS = {"limit": "N", "stiffness": "N/m"}
 PLACES = 7
 FACTORS = (0.06, 0.4)
 BOUNDS = "[0.02, 1.5]"
+SLACK = 0.1
+CHANGES = 0.9  # friction that changes by less does not depend on the load
 
 
 class LoadDependentFriction(Cause):
@@ -39,7 +41,8 @@ class LoadDependentFriction(Cause):
             for least in FACTORS:
                 scaled = _Scaled(travels, view.reach, least, rising)
                 yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
-                              travels, scaled, scaled.extend, unknowns=4, quantity="limit", unit="N")  # fmt: skip
+                              travels, scaled, scaled.extend, unknowns=4, quantity="limit", unit="N",
+                              admits=scaled.admits)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,12 @@ class _Scaled:
     def factors(self) -> tuple[float, float, float]:
         middle = 0.5 * (1.0 + self.least)
         return (self.least, middle, 1.0) if self.rising else (1.0, middle, self.least)
+
+    def admits(self, found: Mapping[str, float]) -> bool:
+        """Whether the factor goes one way all along, and far enough."""
+        factors = [found.get(f"scale[{number}]", 1.0) for number in range(3)]
+        low, middle, high = factors if self.rising else factors[::-1]
+        return low < middle < (1.0 + SLACK) * high and low < CHANGES * high
 
     def __call__(self, view: View, run: str) -> Array:
         plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])

@@ -221,7 +221,16 @@ def try_finding(
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""
     if suspect.mends and suspect.sign and np.any(model.mends[-1].strengths <= 0.0):
         failure = "the refit turned its sign, which makes no sense for this cause"
+    if not suspect.admits(_new_numbers(base, model)):
+        failure = "the refit turned it into its opposite"
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
+
+
+def _new_numbers(base: Model, model: Model) -> dict[str, float]:
+    """The numbers in SI that a patch brought and a refit found, by the last word of their path."""
+    old = {slot.path for slot in base.fitted.slots()}
+    return {path.rpartition(".")[2]: slot.value.number for slot in model.fitted.slots()
+            if (path := slot.path) not in old}  # fmt: skip
 
 
 def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:

@@ -84,7 +84,8 @@ class Suspect:
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
     ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
     those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
-    a strength of one is.
+    a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths, is
+    still what the cause is about, and not its opposite.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -105,6 +106,7 @@ class Suspect:
     quantity: str = "strength"
     unit: str = ""
     tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
+    admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
 
 
 class Cause(ABC):
@@ -149,10 +151,12 @@ def added_branch(
     unknowns: int = 1,
     fixed: Sequence[str] = (),
     bounds: Mapping[str, Pair] = NOTHING,
+    admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
+    ``admits`` is that of the suspect.
 
     Examples:
         >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
@@ -174,7 +178,7 @@ def added_branch(
     quantity = next(iter(values(1.0, grid[0])))
     return Suspect(
         element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
-        quantity=quantity.replace("_", " "), unit=units[quantity],
+        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits,
     )  # fmt: skip
 
 

@@ -1,0 +1,36 @@
+"""A refit may turn a cause into its opposite: then it is not that cause."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from dashpot.contract.registry import load_registry
+
+CAUSES = load_registry().causes
+VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03))
+
+
+def suspect(word, form):
+    return next(one for one in CAUSES[word]().suspects(VIEW, None) if one.form == form)
+
+
+@pytest.mark.parametrize(("breakaway", "admitted"), [(30.0, True), (10.5, False), (4.0, False)])
+def test_friction_that_depends_on_velocity_falls_with_it(breakaway, admitted):
+    found = {"limit": 10.0, "breakaway": breakaway, "stiffness": 1e5}
+    assert suspect("velocity_dependent_friction", "stribeck").admits(found) is admitted
+
+
+@pytest.mark.parametrize(("factors", "rising", "falling"), [
+    ((0.2, 0.6, 1.0), True, False),
+    ((1.0, 0.7, 0.3), False, True),
+    ((1.0, 1.4, 0.8), False, False),
+    ((0.97, 0.99, 1.0), False, False),
+])  # fmt: skip
+def test_friction_that_depends_on_the_load_goes_one_way(factors, rising, falling):
+    found = {f"scale[{number}]": factor for number, factor in enumerate(factors)}
+    assert suspect("load_dependent_friction", "dahl growing with deflection").admits(found) is rising
+    assert suspect("load_dependent_friction", "dahl falling with deflection").admits(found) is falling
+
+
+def test_other_causes_admit_what_is_found():
+    assert suspect("friction", "dahl").admits({"limit": 10.0})
