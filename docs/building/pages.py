@@ -205,7 +205,7 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     last = found["seed"] + found["cases"] - 1
     yield f"## {found['cases']} cases of dashpot {version}{BLIND_KINDS[kind]}"
     yield (
-        f"Seeds {found['seed']} to {last}; `{found['command']}` repeats them. A diagnosis took "
+        f"Seeds {found['seed']} to {last}; `{found['command']}`{found.get('caveat', ' repeats them.')} A diagnosis took "
         f"{found['seconds']:.0f} s in the median, on two cores that did other work at the same time."
     )
     yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))

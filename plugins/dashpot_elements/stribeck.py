@@ -8,14 +8,11 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Symbol
-from dashpot_elements.dahl import approach
-
-TINY = 1e-12
 
 
 class Stribeck(Element):
-    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness |u|^exponent sgn(u), u = 1 - F/L sgn(v),
-    L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
+    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness (1 - F/L sgn(v)),
+    L = limit + (breakaway - limit) exp(-(v/stribeck_velocity)^2).
 
     The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
     the step.
@@ -29,10 +26,6 @@ class Stribeck(Element):
     limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
     breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
     stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
-    decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta",
-                      default=2.0)  # fmt: skip
-    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
-                         default=1.0)  # fmt: skip
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
@@ -50,11 +43,10 @@ class Stribeck(Element):
 
 
 def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
-    ratio = np.maximum(speed / p.stribeck_velocity, TINY)
-    limit = p.limit + (p.breakaway - p.limit) * np.exp(-np.exp(p.decay * np.log(ratio)))
-    side = np.where(travel < 0.0, -1.0, 1.0)
-    way = p.stiffness * np.abs(travel) / limit
-    return side * limit * (1.0 - approach(1.0 - side * force / limit, way, p.exponent))
+    ratio = speed / p.stribeck_velocity
+    limit = p.limit + (p.breakaway - p.limit) * np.exp(-ratio * ratio)
+    end = np.where(travel < 0.0, -limit, limit)
+    return end + (force - end) * np.exp(-p.stiffness * np.abs(travel) / limit)
 
 
 def _turning_place(x: Motion, dt: Any) -> Any:

@@ -12,7 +12,8 @@ from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
-from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, Pursuit, residuals_of
+from dashpot.assess.misfits import residuals_of
+from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, Pursuit
 from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict

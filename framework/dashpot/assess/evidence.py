@@ -8,7 +8,8 @@ from importlib.metadata import version
 from typing import Any
 
 import dashpot
-from dashpot.assess.pursuit import Pursuit, Rejection, residuals_of
+from dashpot.assess.misfits import residuals_of
+from dashpot.assess.pursuit import Pursuit, Rejection
 from dashpot.assess.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting

@@ -6,7 +6,7 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -14,25 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
-from dashpot.assess.gain import Gain, crossed, measure_gain
-from dashpot.assess.mend import Mend, mended, shape_rows
+from dashpot.assess.finalists import TIE, choose_finalists, form_of, settle_ties, simpler, tie_width, to_beat
+from dashpot.assess.gain import Gain, measure_gain
+from dashpot.assess.misfits import crossed_misfits, misfits_of, plainly_strong, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
-from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Outcome
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
 
 Array = NDArray[np.float64]
 
 MOST_CAUSES = 5
-FINALISTS = 5
-TIE = 10.0
-TIE_SHARE = 5e-4
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
@@ -41,9 +37,6 @@ SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never q
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
 REFIT_MAY_DOUBLE = 0.5
-FEWEST_FINALISTS = 3
-NEARLY = 0.95
-COMES_NEAR = 0.4  # of the best fall of chi square
 
 
 @dataclass(frozen=True, eq=False)
@@ -319,110 +312,3 @@ class Pursuer:
         known = [entry.finding for entry in kept]
         mends = [mend for mend in model.mends if any(mend.finding is finding for finding in known)]
         return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise, mends)
-
-
-def form_of(finding: Finding) -> tuple[str, str, str]:
-    """The word of the cause, the words of its site, and its form."""
-    return (*finding.candidate.name, finding.candidate.suspect.form)
-
-
-def choose_finalists(findings: Iterable[Finding], look: Look) -> list[Finding]:
-    """The best form of each significant cause, and further forms that come near it; best first.
-
-    Beyond the third only those whose fall of chi square comes near that of the best.
-    """
-    significant = [finding for finding in findings if finding.merit > look.screen.threshold]
-    best: dict[tuple[str, str], float] = {}
-    chosen = []
-    for finding in significant:
-        name = finding.candidate.name
-        if name not in best or finding.gain > 0.9 * best[name]:
-            best.setdefault(name, finding.gain)
-            chosen.append(finding)
-    near = [finding for finding in chosen[FEWEST_FINALISTS:] if finding.gain > COMES_NEAR * chosen[0].gain]
-    return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
-
-
-def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
-    """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
-    near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
-    chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
-    best: dict[tuple[str, str], Trial] = {}
-    for other in near:
-        if not idles(other, chosen):
-            best.setdefault(other.finding.candidate.name, other)
-    best.pop(chosen.finding.candidate.name)
-    return chosen, tuple(best.values())
-
-
-def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
-    """Trials of other causes with fewer numbers that explain nearly as much as the chosen one."""
-    return tuple(
-        other for other in ranked
-        if other.finding.candidate.name != chosen.finding.candidate.name
-        and other.model.numbers < chosen.model.numbers and other.gain > NEARLY * chosen.gain
-    )  # fmt: skip
-
-
-def to_beat(trials: Sequence[Trial], look: Look) -> float:
-    """The chi square from which on a trial comes near the best one so far."""
-    best = max(trials, key=lambda trial: trial.merit, default=None)
-    return look.model.chi_square - best.merit + tie_width(best) if best and not best.failure else np.inf
-
-
-def idles(other: Trial, chosen: Trial) -> bool:
-    """Whether a trial at the site of the chosen one has more numbers in vain: it is the same thing, elaborated."""
-    site = other.finding.candidate.site
-    same = site is not None and site == chosen.finding.candidate.site
-    return same and other.model.numbers > chosen.model.numbers and other.merit <= chosen.merit
-
-
-def tie_width(trial: Trial) -> float:
-    """How near two merits may be without saying which cause it is."""
-    return max(TIE, TIE_SHARE * trial.gain)
-
-
-def misfits_of(model: Model, runs: Sequence[ScoredRun]) -> list[Array]:
-    """Simulated minus measured force (samples,) of runs, their mends taken out."""
-    if not runs:
-        return []
-    objective = Objective(compile_network(model.fitted), [mended(run, model.mends) for run in runs])
-    misfits = objective.misfits(model.values)[0]
-    return [misfits[piece] for piece in objective.pieces]
-
-
-def share_of_change(before: Model, after: Model, runs: Sequence[ScoredRun]) -> float:
-    """The share by which the error falls if the difference of two models is no error of the second."""
-    first, second = misfits_of(before, runs), misfits_of(after, runs)
-    changed = pooled([one - other for one, other in zip(first, second, strict=True)])
-    return float(1.0 - np.sqrt(max(1.0 - (changed / max(pooled(first), 1e-300)) ** 2, 0.0)))
-
-
-def pooled(signals: Iterable[Array]) -> float:
-    """Root mean square over all samples of several signals."""
-    return float(np.sqrt(np.mean(np.concatenate(list(signals)) ** 2)))
-
-
-def plainly_strong(mend: Mend, model: Model, runs: Sequence[ScoredRun]) -> Mend:
-    """The mend with the strengths that make the plain error of a model smallest on runs, its numbers kept."""
-    rows, misfits = shape_rows([mend], runs), misfits_of(model, runs)
-    shapes, misfit = np.concatenate([rows[run.name] for run in runs], axis=1), np.concatenate(misfits)
-    return replace(mend, strengths=-np.linalg.lstsq(shapes.T, misfit, rcond=1e-10)[0])
-
-
-def crossed_misfits(model: Model, runs: Sequence[ScoredRun], mends: Sequence[Mend]) -> list[Array]:
-    """As ``misfits_of``, but the strengths of ``mends`` come from the other pieces of every run."""
-    shapes = shape_rows(mends, runs)
-    strengths = np.concatenate([mend.strengths for mend in mends])
-    found = []
-    for run, misfit in zip(runs, misfits_of(model, runs), strict=True):
-        rows = shapes[run.name]
-        found.append(crossed(misfit - strengths @ rows, rows, run.drive.dt) if rows.any() else misfit)
-    return found
-
-
-def residuals_of(model: Model, runs: Mapping[str, ScoredRun]) -> dict[str, Array]:
-    """Measured minus simulated force (n,) of every run, warm-up included, mends taken out."""
-    sound = [mended(run, model.mends) for run in runs.values()]
-    forces = Objective(compile_network(model.fitted), sound).forces(model.values)
-    return {run.name: run.force - force[0] for run, force in zip(sound, forces, strict=True)}

@@ -7,7 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, share_of_change
+from dashpot.assess.misfits import share_of_change
+from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer
 from dashpot.assess.screen import Limit
 
 BEFORE = 1e6
@@ -39,7 +40,7 @@ def test_the_change_is_what_a_cause_makes_of_the_plain_error(monkeypatch):
     rng = np.random.default_rng()
     noise, effect = rng.standard_normal((2, 100_000))
     misfits = {"before": noise + 0.2 * effect, "after": noise}
-    monkeypatch.setattr("dashpot.assess.pursuit.misfits_of", lambda model, runs: [misfits[model]])
+    monkeypatch.setattr("dashpot.assess.misfits.misfits_of", lambda model, runs: [misfits[model]])
     assert share_of_change("before", "after", ()) == pytest.approx(1.0 - 1.04**-0.5, rel=0.05)
     assert share_of_change("before", "before", ()) == 0.0
 

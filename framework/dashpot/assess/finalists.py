@@ -1,0 +1,79 @@
+"""Which findings become finalists, and which of their trials are alike."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from dashpot.assess.contest import Trial
+from dashpot.assess.screen import Finding
+from dashpot.assess.suspicion import Look
+
+FINALISTS = 5
+FEWEST_FINALISTS = 3
+COMES_NEAR = 0.4  # of the best fall of chi square
+TIE = 10.0
+TIE_SHARE = 5e-4
+NEARLY = 0.95
+
+
+def form_of(finding: Finding) -> tuple[str, str, str]:
+    """The word of the cause, the words of its site, and its form."""
+    return (*finding.candidate.name, finding.candidate.suspect.form)
+
+
+def choose_finalists(findings: Iterable[Finding], look: Look) -> list[Finding]:
+    """The best form of each significant cause, and further forms that come near it; best first.
+
+    Beyond the third only those whose fall of chi square comes near that of the best.
+    """
+    significant = [finding for finding in findings if finding.merit > look.screen.threshold]
+    best: dict[tuple[str, str], float] = {}
+    chosen = []
+    for finding in significant:
+        name = finding.candidate.name
+        if name not in best or finding.gain > 0.9 * best[name]:
+            best.setdefault(name, finding.gain)
+            chosen.append(finding)
+    near = [finding for finding in chosen[FEWEST_FINALISTS:] if finding.gain > COMES_NEAR * chosen[0].gain]
+    return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
+
+
+def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
+    """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
+    near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
+    chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
+    best: dict[tuple[str, str], Trial] = {}
+    for other in near:
+        if not idles(other, chosen):
+            best.setdefault(other.finding.candidate.name, other)
+    best.pop(chosen.finding.candidate.name)
+    return chosen, tuple(best.values())
+
+
+def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
+    """Trials of other causes with fewer numbers that explain nearly as much as the chosen one."""
+    return tuple(
+        other for other in ranked
+        if other.finding.candidate.name != chosen.finding.candidate.name
+        and other.model.numbers < chosen.model.numbers and other.gain > NEARLY * chosen.gain
+    )  # fmt: skip
+
+
+def to_beat(trials: Sequence[Trial], look: Look) -> float:
+    """The chi square from which on a trial comes near the best one so far."""
+    best = max(trials, key=lambda trial: trial.merit, default=None)
+    return look.model.chi_square - best.merit + tie_width(best) if best and not best.failure else np.inf
+
+
+def idles(other: Trial, chosen: Trial) -> bool:
+    """Whether a trial at the site of the chosen one has more numbers in vain: it is the same thing, elaborated."""
+    site = other.finding.candidate.site
+    same = site is not None and site == chosen.finding.candidate.site
+    return same and other.model.numbers > chosen.model.numbers and other.merit <= chosen.merit
+
+
+def tie_width(trial: Trial) -> float:
+    """How near two merits may be without saying which cause it is."""
+    return max(TIE, TIE_SHARE * trial.gain)
