@@ -204,9 +204,10 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     version, _, kind = name.partition("-")
     last = found["seed"] + found["cases"] - 1
     yield f"## {found['cases']} cases of dashpot {version}{BLIND_KINDS[kind]}"
+    repeats = found.get("caveat", " repeats them.")
     yield (
-        f"Seeds {found['seed']} to {last}; `{found['command']}`{found.get('caveat', ' repeats them.')} A diagnosis took "
-        f"{found['seconds']:.0f} s in the median, on two cores that did other work at the same time."
+        f"Seeds {found['seed']} to {last}; `{found['command']}`{repeats} A diagnosis took {found['seconds']:.0f} s in "
+        "the median, on two cores that did other work at the same time."
     )
     yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))
     yield written.table(
