@@ -81,13 +81,21 @@ def numbers(cause):
     return {key: entry["value"] for key, entry in cause["parameters"].items()}
 
 
+def assert_dahl(found, limit, stiffness):
+    """Stiffness and shape of the approach are known less well than the limit, as each can stand in for the other."""
+    assert set(found) == {"limit", "stiffness", "exponent"}
+    assert found["limit"] == pytest.approx(limit, rel=0.05)
+    assert found["stiffness"] == pytest.approx(stiffness, rel=0.15)
+    assert found["exponent"] == pytest.approx(1.0, abs=0.3)
+
+
 def test_friction_of_a_suspension_is_named_with_place_and_size(rng):
     stages = []
     diagnosis = diagnosed(QUARTER_CAR, car(rng, 30.0), lambda what, *_: stages.append(what))
     found = diagnosis.as_dict()
     (cause,) = found["causes"]
     assert (cause["cause"], cause["place"]) == ("friction", "between wheel and body")
-    assert numbers(cause) == pytest.approx({"limit": 30.0, "stiffness": 100e3, "exponent": 1.0}, rel=0.05)
+    assert_dahl(numbers(cause), 30.0, 100e3)
     assert cause["gain"] > 0.8
     assert found["rmse"]["after"]["held_out"] == pytest.approx(2.0, rel=0.1)
     assert diagnosis.extended_text.count("between: [wheel, body]") == 3
@@ -113,7 +121,7 @@ def test_friction_of_an_anti_roll_bar_and_the_gain_of_one_of_its_forces(rng):
     causes = {cause["cause"]: cause for cause in diagnosis.as_dict()["causes"]}
     assert set(causes) == {"friction", "gain"}
     assert causes["friction"]["place"] == "between wheel_left and wheel_right"
-    assert numbers(causes["friction"]) == pytest.approx({"limit": 40.0, "stiffness": 40e3, "exponent": 1.0}, rel=0.05)
+    assert_dahl(numbers(causes["friction"]), 40.0, 40e3)
     assert causes["gain"]["place"] is None
     assert numbers(causes["gain"]) == pytest.approx({"gain error of second@platform_right": 0.05}, rel=0.05)
 
@@ -123,7 +131,7 @@ def test_friction_of_the_piston_of_a_mount(rng):
     data = machines.measured(rng, [machines.mount(25.0, moves)], NAMES, moves, noise=1.0, held_out=["second"])
     (cause,) = diagnosed(MOUNT, data).as_dict()["causes"]
     assert (cause["cause"], cause["place"]) == ("friction", "between piston and wall")
-    assert numbers(cause) == pytest.approx({"limit": 25.0, "stiffness": 150e3, "exponent": 1.0}, rel=0.05)
+    assert_dahl(numbers(cause), 25.0, 150e3)
 
 
 @pytest.fixture(scope="module")

@@ -93,7 +93,9 @@ def test_what_is_foretold_is_what_noise_of_that_colour_does(bench):
     bread = np.linalg.inv(jacobian @ jacobian.T)
     exact = np.sqrt(np.diag(bread @ scores @ bread))
     as_if_white = np.sqrt(np.diag(bread)) * NOISE
-    assert np.mean(foretold, axis=0) == pytest.approx(exact, rel=0.15)
+    # few slow waves fit into a run: what is foretold scatters from one measurement to the next
+    scatter = np.std(foretold, axis=0, ddof=1) / np.sqrt(MEASUREMENTS)
+    assert (np.abs(np.mean(foretold, axis=0) - exact) < 0.15 * exact + 3.0 * scatter).all()
     assert np.abs(as_if_white / exact - 1.0).max() > 0.4
 
 
