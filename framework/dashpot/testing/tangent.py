@@ -25,7 +25,7 @@ from dashpot.testing.verdict import Examination
 Array = NDArray[np.float64]
 
 STEP, SHORT_STEP = 1e-5, 3e-7  # of the amplitude
-TOLERANCE = 2e-4
+TOLERANCE = 5e-4
 ROUNDING = 1e-10
 SAMPLES = 60
 ADVICE = "The force must not jump with the position at the end of the step, and its derivative must be finite."
