@@ -182,7 +182,7 @@ class Pursuer:
         trials = []
         for finding in finalists:
             if explained and finding.gain < self.least_fall(look):
-                self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding, self.bench.runs), None)
+                self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(self.try_out(finding, look, to_beat(trials, look)))
@@ -191,7 +191,7 @@ class Pursuer:
             if trial.model.outcome is Outcome.LEFT_BEHIND:
                 trials = [self.try_out(each.finding, look) for each in ranked]
                 continue
-            foreseen = expected_gain(look.columns, trial.finding, self.bench.runs)
+            foreseen = expected_gain(look.columns, trial.finding)
             gain = self.gain_of(look.model, trial.model)
             change = share_of_change(look.model, trial.model, self.bench.runs)
             reason = self.objection(trial, gain, change, look, explained)
@@ -297,9 +297,7 @@ class Pursuer:
                 model = self.rebuild(changed, look.model, first.model, look.noise)
                 price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
                 if model.chi_square - look.model.chi_square < price + TIE:
-                    self.reject(
-                        entry.finding, "a simpler cause does as well once the later causes are there", None, None
-                    )
+                    self.reject(entry.finding, SIMPLER_WILL_DO, None, None)
                     return changed, look_at(self.bench, model, self.causes, look.noise, self.seed)
         return accepted, look
 

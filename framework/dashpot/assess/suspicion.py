@@ -86,7 +86,8 @@ def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array]
     """
     residual, tangents = bench.linearise(model)
     free = ~model.at_end[:, None]
-    return view_of(model.fitted, bench.runs, bench.elements), residual, {run: free * t for run, t in tangents.items()}
+    followed = {run: np.where(free, rows, 0.0) for run, rows in tangents.items()}
+    return view_of(model.fitted, bench.runs, bench.elements), residual, followed
 
 
 def gather_candidates(
@@ -121,7 +122,7 @@ def sensor_nuisance(
     return SparseRows(values, places, len(priors)), np.array(priors)
 
 
-def expected_gain(columns: Columns, finding: Finding, runs: Sequence[ScoredRun]) -> float:
+def expected_gain(columns: Columns, finding: Finding) -> float:
     """The fall of the training error that the screen foresees, 1 - RMSE after / RMSE before, both after a refit."""
     where = np.arange(finding.candidate.columns.start, finding.candidate.columns.stop)[list(finding.chosen)]
     strengths = np.zeros(columns.bank.size)
