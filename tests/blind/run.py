@@ -13,13 +13,20 @@ import random
 import sys
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 from score import Outcome, print_table, summary
 from truth import KINDS_OF_BASE, draw_case
+from truth.design import further
 
+if TYPE_CHECKING:
+    from dashpot.assess.diagnosis import Diagnosis
+
+FLAGS = ("sensors", "without", "follow")
 NETWORKS = Path(__file__).parent / "networks"
 
 
@@ -28,29 +35,38 @@ class Bench:
     """How cases are made and diagnosed.
 
     ``design``: which runs are driven; ``sensors``: the force channel errs within its data sheet; ``without``: the
-    engine is robbed of the cause plugins that would name what is hidden.
+    engine is robbed of the cause plugins that would name what is hidden; ``follow``: the run that the engine asks for
+    is driven on the same specimen, and what it says then counts.
     """
 
     design: str = "full"
     sensors: bool = False
     without: bool = False
+    follow: bool = False
     jobs: int = 2
 
     def run(self, seed: int, base: str, kind: str | None = None, strength: float | None = None) -> Outcome:
         """Draw, diagnose, record the verdict, open the label."""
         if self.without and kind is None:
             kind = random.Random(seed).choice(KINDS_OF_BASE[base])
-        case = draw_case(seed, base, kind, strength, design=self.design, sensors=self.sensors)
+        draw = partial(draw_case, seed, base, kind, strength, design=self.design, sensors=self.sensors)
+        robbed = kind.split("+") if self.without and kind else []
+        case = draw()
         began = time.perf_counter()
-        verdict = diagnose_folder(case.folder, base, self.jobs, kind.split("+") if self.without else [])
-        seconds = time.perf_counter() - began
+        found = diagnose_folder(case.folder, base, self.jobs, robbed)
+        seconds, before = time.perf_counter() - began, None
+        if self.follow and found.next_runs:
+            asked = next(iter(found.next_runs.values())).proposal
+            more = draw(further=further(asked.displacement, asked.dt))
+            before, found = found.as_dict(), diagnose_folder(more.folder, base, self.jobs, robbed)
+        verdict = found.as_dict()
         named = [cause["cause"] for cause in verdict["causes"]]
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
-        return Outcome(seed, base, truth, verdict, seconds, self.without)
+        return Outcome(seed, base, truth, verdict, seconds, self.without, before)
 
 
-def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> dict:
-    """The verdict of the engine on a dataset, from the network of a base, without the plugins of some causes."""
+def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> Diagnosis:
+    """What the engine says of a dataset, from the network of a base, without the plugins of some causes."""
     from dashpot.assess.diagnose import diagnose
     from dashpot.contract.registry import load_registry
     from dashpot.data.dataset import read_dataset
@@ -61,7 +77,7 @@ def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> d
     dataset = read_dataset(folder, {word: reader() for word, reader in registry.formats.items()})
     own = NETWORKS / f"{base}.yaml"
     spec = read_network(own if own.exists() else base, registry.elements)
-    return diagnose(spec, dataset, jobs=jobs, registry=registry).as_dict()
+    return diagnose(spec, dataset, jobs=jobs, registry=registry)
 
 
 def command_of(options: argparse.Namespace, seed: int, cases: int) -> str:
@@ -69,7 +85,7 @@ def command_of(options: argparse.Namespace, seed: int, cases: int) -> str:
     words = ["python tests/blind/run.py", f"--cases {cases}", f"--seed {seed}", f"--base {' '.join(options.base)}"]
     words += [f"--{key} {value}" for key in ("kind", "strength") if (value := getattr(options, key)) is not None]
     words += [f"--design {options.design}"] if options.design != "full" else []
-    return " ".join(words + [f"--{flag}" for flag in ("sensors", "without") if getattr(options, flag)])
+    return " ".join(words + [f"--{flag}" for flag in FLAGS if getattr(options, flag)])
 
 
 def main() -> None:
@@ -85,12 +101,13 @@ def main() -> None:
     parser.add_argument("--design", default="full")
     parser.add_argument("--sensors", action="store_true", help="the force channel errs within its data sheet")
     parser.add_argument("--without", action="store_true", help="the engine lacks the plugin of what is hidden")
+    parser.add_argument("--follow", action="store_true", help="drive the run that the engine asks for, and ask again")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")
     options = parser.parse_args()
     first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
     print(f"seed {first}: --seed {first} repeats this run")
-    bench = Bench(options.design, options.sensors, options.without, options.jobs)
+    bench = Bench(options.design, options.sensors, options.without, options.follow, options.jobs)
     outcomes = []
     for number in range(options.cases):
         base = options.base[number % len(options.base)]

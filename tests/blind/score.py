@@ -24,7 +24,10 @@ NOTHING = "nothing_missing"
 
 @dataclass(frozen=True)
 class Outcome:
-    """One case after its label was opened; ``without``: the engine had no plugin for what is hidden."""
+    """One case after its label was opened.
+
+    ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the run that it asked for.
+    """
 
     seed: int
     base: str
@@ -32,6 +35,7 @@ class Outcome:
     verdict: dict
     seconds: float
     without: bool = False
+    before: dict | None = None
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -114,7 +118,10 @@ class Outcome:
             mark = "BAD" if self.confidently_wrong else "ok "
         else:
             mark = "ok " if self.right and (self.exact or not self.kinds) else "~  " if self.right else "BAD"
-        return (f"{mark} {self.seed} {self.base}: {hidden or NULL} -> {self.verdict['verdict']}: {names or '-'} "
+        asked = (
+            f"asked for a run ({self.before['verdict']}: {', '.join(_names(self.before))}) -> " if self.before else ""
+        )
+        return (f"{mark} {self.seed} {self.base}: {hidden or NULL} -> {asked}{self.verdict['verdict']}: {names or '-'} "
                 f"[{self.seconds:.1f} s]")  # fmt: skip
 
 
@@ -137,6 +144,7 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "named_or_rival": [sum(o.open_set for o in found), len(found)],
         "confusion": _confusion(outcomes),
         "over_noise_to_1.05": _share([o.over_noise <= 1.05 for o in found if o.over_noise is not None]),
+        "right_after_asking": _share([o.right for o in found if o.before]),
         "lone_right": _share([o.right for o in found if o.lone]),
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
@@ -170,6 +178,8 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
           f"expected and realised gain: {rates['gain_calibration']}")  # fmt: skip
     print(f"held-out error within 1.05 of that noise: {_of(rates['over_noise_to_1.05'])}; a single name without a "
           f"rival is right: {_of(rates['lone_right'])}")  # fmt: skip
+    if rates["right_after_asking"][1]:
+        print(f"first name right once the run that was asked for is there: {_of(rates['right_after_asking'])}")
     print(f"median time of a diagnosis: {rates['seconds']:.1f} s")
 
 
@@ -204,6 +214,10 @@ def _rank_correlation(pairs: Sequence[tuple[float, float]]) -> float | None:
     from scipy.stats import spearmanr
 
     return round(float(spearmanr(*zip(*pairs, strict=True)).statistic), 3) if len(pairs) > 2 else None
+
+
+def _names(verdict: dict) -> list[str]:
+    return ["/".join([cause["cause"], *cause["indistinguishable_from"]]) for cause in verdict["causes"]]
 
 
 def _of(pair: Sequence[int]) -> str:

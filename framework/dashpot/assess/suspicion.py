@@ -13,15 +13,14 @@ from dashpot.assess.contest import Bench, Model
 from dashpot.assess.inside import Inside
 from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
-from dashpot.assess.projection import SparseRows, side_by_side
+from dashpot.assess.nuisance import sensor_nuisance, table_nuisance
+from dashpot.assess.projection import SparseRows, side_by_side, stack
 from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
 from dashpot.assess.seat import Seat, seats_of
 from dashpot.assess.selected import selected_residual
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
-from dashpot.data.sensor_errors import error_shapes
 from dashpot.fit.objective import Objective
-from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.text.problem import InputError
 
@@ -51,7 +50,9 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     view, residual, tangents = linear_view(bench, model)
     inside = Inside(model.fitted, bench.runs, bench.elements) if model.fitted.joints else None
     candidates, unavailable = gather_candidates(causes, seats_of(view, model.fitted, inside))
-    nuisance, priors = sensor_nuisance(bench.runs, view, bench.sensors)
+    sheet, sizes = sensor_nuisance(bench.runs, view, bench.sensors)
+    bends, free = table_nuisance(bench.runs, view, model.fitted)
+    nuisance, priors = stack(sheet, bends), np.concatenate([sizes, free])
     bank = collect_bank(view, candidates)
     if inside:
         bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
@@ -106,20 +107,6 @@ def gather_candidates(
             found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid)), seat.site))
             first += len(suspect.grid)
     return found, tuple(dict.fromkeys(unavailable))
-
-
-def sensor_nuisance(
-    runs: Sequence[ScoredRun], view: ModelView, sensors: Mapping[str, Mapping[str, float]]
-) -> tuple[SparseRows, Array]:
-    """The force channel's errors within its specification, one of each kind per run, and how large they may be."""
-    values, places, priors = {}, {}, []
-    for run in runs:
-        shapes = error_shapes(view.force(run.name), run.drive.dt)
-        known = {key: size for key, size in sensors.get(run.name, {}).items() if key in shapes and size > 0.0}
-        values[run.name] = np.array([shapes[key][run.first :] for key in known]).reshape(len(known), run.samples)
-        places[run.name] = len(priors) + np.arange(len(known))
-        priors += known.values()
-    return SparseRows(values, places, len(priors)), np.array(priors)
 
 
 def expected_gain(columns: Columns, finding: Finding) -> float:

@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.mend import Mend, make_mend
 from dashpot.assess.noise import NoiseModel, learn_noise
+from dashpot.assess.nuisance import sensor_nuisance
 from dashpot.assess.projection import SparseRows, normal_equations, stack
 from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen
-from dashpot.assess.suspicion import first_noise, resolution, sensor_nuisance
+from dashpot.assess.suspicion import first_noise, resolution
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
 

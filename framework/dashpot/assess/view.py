@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.drive import drive_from_samples
+from dashpot.data.drive import moved_drive
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork, compile_network
@@ -82,7 +82,7 @@ class ModelView:
         if self.network is None:
             raise ValueError("expected a view that knows its network, got one made of forces alone")
         scored = self.scored[run]
-        moved = replace(scored, drive=drive_from_samples(scored.drive.dt, scored.drive.displacement + change))
+        moved = replace(scored, drive=moved_drive(scored.drive, change))
         objective = Objective(compile_network(self.network), [moved])
         return objective.forces(objective.network.start)[0][0]
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.smoothing import smooth_path
 from dashpot.data.white_noise import white_noise
 
 Array = NDArray[np.float64]
 
-# local polynomials of this half width and degree pass 1-25 Hz at 1 kHz with errors below 1e-5
-HALF_WIDTH, DEGREE = 12, 8
+FEWEST = 25  # samples that are smoothed
 NOISE_OF_SPAN = 1e-6
 
 
@@ -74,15 +74,21 @@ def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = Non
     replace the displacement, where the sensor is noisy; ``smooth`` decides it by hand.
     """
     x = np.ascontiguousarray(displacement, dtype=float)
-    if smooth is None:
-        smooth = white_noise(x) > NOISE_OF_SPAN * np.ptp(x)
-    if smooth and x.size > 2 * HALF_WIDTH + 1:
-        return drive_from_path(dt, *_local_polynomials(dt, x))
+    noise = 0.0 if smooth is False else white_noise(x)
+    if x.size > FEWEST and (smooth or noise > NOISE_OF_SPAN * np.ptp(x)):
+        return drive_from_path(dt, *smooth_path(dt, x, noise))
     from scipy.interpolate import make_interp_spline
 
     time = dt * np.arange(x.size)
     spline = make_interp_spline(time, x, k=5 if x.size > 5 else 1)
     return drive_from_path(dt, x, spline(time, 1), spline(time, 2))
+
+
+def moved_drive(drive: Drive, change: Array) -> Drive:
+    """The drive with a change (n,) of its displacement in m; the drive itself is not smoothed once more."""
+    by = drive_from_samples(drive.dt, change)
+    return drive_from_path(drive.dt, drive.displacement + by.displacement, drive.velocity + by.velocity,
+                           drive.acceleration + by.acceleration)  # fmt: skip
 
 
 def find_turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
@@ -109,10 +115,3 @@ def _roots(c: Array, b: Array, a: Array) -> Array:
     double = pair[:, 0] == pair[:, 1]
     pair[double] = np.nan
     return np.sort(pair, axis=1)
-
-
-def _local_polynomials(dt: float, x: Array) -> tuple[Array, Array, Array]:
-    from scipy.signal import savgol_filter
-
-    window = 2 * HALF_WIDTH + 1
-    return tuple(savgol_filter(x, window, DEGREE, deriv=order, delta=dt, mode="interp") for order in range(3))

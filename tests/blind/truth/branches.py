@@ -33,13 +33,14 @@ class Branch(ABC):
 
 @dataclass(frozen=True)
 class Spring(Branch):
-    """Sum of coefficient * x^power, fitted by powers up to ``degree``."""
+    """Sum of coefficient * x^power, the same in tension, fitted by powers up to ``degree``."""
 
     terms: tuple[tuple[float, float], ...]
     degree: int = 6
 
     def force(self, motion: Motion) -> np.ndarray:
-        return sum(coefficient * motion.displacement**power for coefficient, power in self.terms)
+        x = motion.displacement
+        return sum(coefficient * x * np.abs(x) ** (power - 1.0) for coefficient, power in self.terms)
 
     def tangents(self, motion: Motion) -> list[np.ndarray]:
         deflection = at_samples(motion.displacement) / 20e-3

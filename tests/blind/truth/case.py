@@ -11,7 +11,7 @@ import numpy as np
 
 from .axle_case import draw_axle
 from .base import Base, draw_base
-from .design import DESIGNS, Plan, drive
+from .design import DESIGNS, Plan
 from .effects import FAULTS, FORMS, KINDS_OF_BASE
 from .fault import Fault
 from .folder import write_dataset
@@ -45,6 +45,7 @@ def draw_case(
     design: str = "full",
     form: str | None = None,
     sensors: bool = False,
+    further: Plan | None = None,
     folder: Path | None = None,
 ) -> Case:
     """Draw a case and write its dataset.
@@ -52,7 +53,8 @@ def draw_case(
     base: a key of KINDS_OF_BASE; kind: a cause word, several joined by "+", "null", or None (drawn, one in five null);
     strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10); design: a key of DESIGNS;
     form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
-    its data sheet, which the dataset then states; folder: where to write, or None (temporary).
+    its data sheet, which the dataset then states; further: a run behind those of the design, the same specimen on it;
+    folder: where to write, or None (temporary).
     An axle has one design and exact channels. Everything random comes from `seed`. Raises ValueError where a word is
     unknown.
     """
@@ -65,6 +67,7 @@ def draw_case(
     specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
     forms = [_draw_form(word, form, rng, len(plans)) for word in _draw_kinds(base, kind, rng)]
     strengths = _draw_strengths(forms, strength, rng)
+    plans = (*plans, further) if further else plans
     bench = _Bench(plans, specimen)
     effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
     channels = draw_channels(len(plans), np.random.default_rng([seed, 2])) if sensors else (EXACT,) * len(plans)
@@ -80,9 +83,10 @@ class _Bench:
     def __init__(self, plans: tuple[Plan, ...], specimen: Base) -> None:
         self.plans = plans
         self.specimen = specimen
-        self.paths = list(dict.fromkeys(plan.path for plan in plans))
-        self.motions = [drive(path) for path in self.paths]
-        self.dynamic = [amplitude > 0.0 for amplitude, _ in self.paths]
+        driven = {plan.path: plan for plan in plans}
+        self.paths = list(driven)
+        self.motions = [plan.motion for plan in driven.values()]
+        self.dynamic = [plan.dynamic for plan in driven.values()]
         self.forces: Forces = [specimen.force(motion) for motion in self.motions]
         self.faults: Forces = [np.zeros(at_samples(motion.time).size) for motion in map(self._motion, plans)]
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
-from .motion import Motion, sweep, triangle
+import numpy as np
+
+from .motion import Motion, along, sweep, triangle
 
 START, STOP = 1.0, 25.0
 SWEEP_DURATION, LOOP_DURATION = 5.0, 12.0
@@ -14,12 +16,13 @@ LOOP_DEPTH = 36e-3
 
 @dataclass(frozen=True)
 class Plan:
-    """One run to be driven; `repeats` names the run whose path it repeats. Lengths in m."""
+    """One run to be driven; `repeats` names the run whose path it repeats; `asked` is a motion of its own. SI units."""
 
     name: str
     amplitude: float = 0.0
     preload: float = 0.0
     repeats: str | None = None
+    asked: Motion | None = field(default=None, compare=False, repr=False)
 
     @property
     def dynamic(self) -> bool:
@@ -27,9 +30,14 @@ class Plan:
         return self.amplitude > 0.0
 
     @property
-    def path(self) -> tuple[float, float]:
+    def path(self) -> tuple[float, float] | tuple[str]:
         """What identifies the driven path."""
-        return self.amplitude, self.preload
+        return (self.name,) if self.asked else (self.amplitude, self.preload)
+
+    @property
+    def motion(self) -> Motion:
+        """The driven path itself."""
+        return self.asked or drive(self.path)
 
 
 @lru_cache(maxsize=32)
@@ -39,6 +47,11 @@ def drive(path: tuple[float, float]) -> Motion:
     if amplitude == 0.0:
         return triangle(LOOP_DEPTH, LOOP_DURATION)
     return sweep(amplitude, preload, START, STOP, SWEEP_DURATION)
+
+
+def further(displacement: np.ndarray, dt: float) -> Plan:
+    """A run that somebody asked for, along a displacement (n,) given every `dt`; it counts in no strength."""
+    return Plan("asked", asked=along(displacement, dt))
 
 
 def _sweeps(amplitudes: tuple[float, ...], preloads: tuple[float, ...]) -> tuple[Plan, ...]:

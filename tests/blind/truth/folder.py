@@ -39,7 +39,8 @@ def write_dataset(
 
 
 def _entry(plan: Plan) -> str:
-    head = f"  - {{name: {plan.name}, file: {plan.name}.npz, kind: {'sweep' if plan.dynamic else 'quasi_static'}"
+    kind = "transient" if plan.asked else "sweep" if plan.dynamic else "quasi_static"
+    head = f"  - {{name: {plan.name}, file: {plan.name}.npz, kind: {kind}"
     again = f", repeats: {plan.repeats}" if plan.repeats else ""
     return f"{head}{_settings(plan)}{again}}}\n"
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 SAMPLING = 1000
 STEPS_PER_SAMPLE = 8
@@ -60,6 +61,13 @@ def triangle(depth: float, duration: float, corner: float = 0.1) -> Motion:
     parts = [[change * part for part in _ramp(time - begin, corner)] for begin, change in turns]
     displacement, velocity, acceleration = (sum(column) for column in zip(*parts, strict=True))
     return Motion(time, displacement, velocity, acceleration)
+
+
+def along(displacement: np.ndarray, dt: float) -> Motion:
+    """A displacement (n,) given every `dt` [s]; the rig rounds its corners."""
+    time = _grid((displacement.size - 1) * dt)
+    path = CubicSpline(np.arange(displacement.size) * dt, displacement, bc_type="clamped")
+    return Motion(time, path(time), path(time, 1), path(time, 2))
 
 
 def _grid(duration: float) -> np.ndarray:
