@@ -10,7 +10,8 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"limit": "N", "breakaway": "N", "stribeck_velocity": "m/s", "stiffness": "N/m"}
+UNITS = {"limit": "N", "breakaway": "N", "stribeck_velocity": "m/s", "stiffness": "N/m",
+         "decay": "1", "exponent": "1"}  # fmt: skip
 TRAVELS = (1e-3, 8e-3, 6e-2, 0.3)  # of the stroke
 SPEEDS = (8e-3, 4e-2, 0.2)  # of the largest speed
 RATIO = 3.0
@@ -41,8 +42,10 @@ class VelocityDependentFriction(Cause):
                 "breakaway": RATIO * limit,
                 "stribeck_velocity": places[int(place)][1],
                 "stiffness": RATIO * limit / places[int(place)][0],
+                "decay": 2.0,
+                "exponent": 1.0,
             },
             UNITS,
-            unknowns=3,
+            unknowns=5,
             admits=lambda found: found["breakaway"] > FALLS * found["limit"],
         )

@@ -9,7 +9,7 @@ import numpy as np
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Symbol
 
-TINY = 1e-300
+TINY = 1e-12
 
 
 class Dahl(Element):
@@ -33,7 +33,7 @@ class Dahl(Element):
         side = np.where(x.travel < 0.0, -1.0, 1.0)
         distance = 1.0 - side * z.force / p.limit
         way = p.stiffness * np.abs(x.travel) / p.limit
-        force = side * p.limit * (1.0 - _approach(distance, way, p.exponent))
+        force = side * p.limit * (1.0 - approach(distance, way, p.exponent))
         return Response(force, force=force)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
@@ -41,8 +41,8 @@ class Dahl(Element):
         return 0.5 * z.force * z.force / p.stiffness
 
 
-def _approach(distance: Any, way: Any, exponent: Any) -> Any:
-    """u after a dimensionless way: du/dway = -|u|^exponent sgn(u)."""
+def approach(distance: Any, way: Any, exponent: Any) -> Any:
+    """The distance to sliding u after a dimensionless way: du/dway = -|u|^exponent sgn(u)."""
     smooth = distance * np.exp(-way)
     excess = np.where(exponent == 1.0, 1.0, exponent - 1.0)
     growth = excess * way * np.maximum(np.abs(distance), TINY) ** excess

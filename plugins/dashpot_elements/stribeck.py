@@ -8,11 +8,14 @@ import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Symbol
+from dashpot_elements.dahl import approach
+
+TINY = 1e-12
 
 
 class Stribeck(Element):
-    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness (1 - F/L sgn(v)),
-    L = limit + (breakaway - limit) exp(-(v/stribeck_velocity)^2).
+    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness u^exponent with u = 1 - F/L sgn(v), stiffness u
+    where the force is above a limit that fell; L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
 
     The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
     the step.
@@ -26,6 +29,10 @@ class Stribeck(Element):
     limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
     breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
     stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
+    decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta",
+                      default=2.0)  # fmt: skip
+    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
+                         default=1.0)  # fmt: skip
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
@@ -43,10 +50,13 @@ class Stribeck(Element):
 
 
 def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
-    ratio = speed / p.stribeck_velocity
-    limit = p.limit + (p.breakaway - p.limit) * np.exp(-ratio * ratio)
-    end = np.where(travel < 0.0, -limit, limit)
-    return end + (force - end) * np.exp(-p.stiffness * np.abs(travel) / limit)
+    ratio = np.maximum(speed / p.stribeck_velocity, TINY)
+    limit = p.limit + (p.breakaway - p.limit) * np.exp(-np.exp(p.decay * np.log(ratio)))
+    side = np.where(travel < 0.0, -1.0, 1.0)
+    way = p.stiffness * np.abs(travel) / limit
+    distance = 1.0 - side * force / limit
+    left = np.where(distance < 0.0, distance * np.exp(-way), approach(distance, way, p.exponent))
+    return side * limit * (1.0 - left)
 
 
 def _turning_place(x: Motion, dt: Any) -> Any:

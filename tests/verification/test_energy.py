@@ -137,7 +137,8 @@ def test_a_passive_element_never_gives_dissipated_work_back(word, rng):
         lost, slack = np.array([b.dissipated for b in course]), 10.0 * max(b.error for b in course)
         work = np.max(np.abs([b.put_in for b in course]))
         assert np.min(np.diff(lost)) >= -slack - 1e-9 * work
-        assert slack <= 0.02 * work  # nothing at all where the motion stays within a play
+        # a motion that stays within a play, or hardly leaves it, does next to no work
+        assert slack <= max(0.02 * work, 1e-5 * sizes.of("N*m"))
 
 
 @pytest.mark.parametrize("name", NETWORKS)

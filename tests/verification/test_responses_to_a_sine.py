@@ -168,3 +168,14 @@ def test_a_bedded_specimen_loses_stiffness_by_the_power_of_its_exponent():
     amplitude, depth, stiffness = 3e-3, 2e-3, 5e4
     _, x, later = last_cycle("bedding_in", amplitude, 3.0, 2, 400, stiffness=stiffness, depth=depth, exponent=2.5)
     assert later == pytest.approx(stiffness * x * (1.0 + amplitude / depth) ** -2.5, rel=1e-12, abs=1e-9)
+
+
+def test_friction_that_fades_slides_at_the_limit_of_its_speed():
+    """At the speed of the peak, long after the reversal, the force is the limit there, whatever the approach."""
+    amplitude, frequency = 5e-3, 2.0
+    for decay, exponent in ((1.0, 1.0), (2.0, 0.0), (0.7, 1.5)):
+        _, x, force = last_cycle("stribeck", amplitude, frequency, 2, 4000, stiffness=1e6, limit=10.0, breakaway=30.0,
+                                 stribeck_velocity=0.05, decay=decay, exponent=exponent)  # fmt: skip
+        middle = int(np.argmin(np.where(np.gradient(x) > 0.0, np.abs(x), np.inf)))
+        expected = 10.0 + 20.0 * np.exp(-((2.0 * np.pi * frequency * amplitude / 0.05) ** decay))
+        assert force[middle] == pytest.approx(expected, rel=2e-3)
