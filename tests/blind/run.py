@@ -26,7 +26,7 @@ from truth.design import further
 if TYPE_CHECKING:
     from dashpot.assess.diagnosis import Diagnosis
 
-FLAGS = ("sensors", "without", "follow")
+FLAGS = ("sensors", "without", "follow", "double")
 NETWORKS = Path(__file__).parent / "networks"
 
 
@@ -36,19 +36,20 @@ class Bench:
 
     ``design``: which runs are driven; ``sensors``: the force channel errs within its data sheet; ``without``: the
     engine is robbed of the cause plugins that would name what is hidden; ``follow``: the run that the engine asks for
-    is driven on the same specimen, and what it says then counts.
+    is driven on the same specimen, and what it says then counts; ``double``: two effects are hidden.
     """
 
     design: str = "full"
     sensors: bool = False
     without: bool = False
     follow: bool = False
+    double: bool = False
     jobs: int = 2
 
     def run(self, seed: int, base: str, kind: str | None = None, strength: float | None = None) -> Outcome:
         """Draw, diagnose, record the verdict, open the label."""
-        if self.without and kind is None:
-            kind = random.Random(seed).choice(KINDS_OF_BASE[base])
+        if kind is None and (self.without or self.double):
+            kind = "+".join(random.Random(seed).sample(KINDS_OF_BASE[base], 2 if self.double else 1))
         draw = partial(draw_case, seed, base, kind, strength, design=self.design, sensors=self.sensors)
         robbed = kind.split("+") if self.without and kind else []
         case = draw()
@@ -102,12 +103,13 @@ def main() -> None:
     parser.add_argument("--sensors", action="store_true", help="the force channel errs within its data sheet")
     parser.add_argument("--without", action="store_true", help="the engine lacks the plugin of what is hidden")
     parser.add_argument("--follow", action="store_true", help="drive the run that the engine asks for, and ask again")
+    parser.add_argument("--double", action="store_true", help="two effects are hidden, one up to ten times the other")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")
     options = parser.parse_args()
     first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
     print(f"seed {first}: --seed {first} repeats this run")
-    bench = Bench(options.design, options.sensors, options.without, options.follow, options.jobs)
+    bench = Bench(options.design, **{flag: getattr(options, flag) for flag in FLAGS}, jobs=options.jobs)
     outcomes = []
     for number in range(options.cases):
         base = options.base[number % len(options.base)]

@@ -67,7 +67,8 @@ def diagnose(
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
                   partial(watch, "screen of all places"))  # fmt: skip
-    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, watch, relevance)
+    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, watch, relevance,
+                      {run.name: run.cluster for run in dataset.runs})  # fmt: skip
     pursuit = pursuer.run(model_of(fit))
     final = known_to(bench, pursuit)
     first = pursuit.ladder[0]

@@ -205,6 +205,6 @@ def _pair(errors: Errors) -> dict[str, float | None]:
 
 def _gain_words(gain: Gain | None) -> str:
     if gain is None:
-        return "gain not measured, no run could be held out"
+        return "gain not measured, no run that shows it could be held out"
     low, high = gain.interval
     return f"gain on held-out runs {gain.value:.1%} [{low:.1%}, {high:.1%}]"

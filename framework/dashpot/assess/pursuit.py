@@ -6,7 +6,7 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -20,6 +20,7 @@ from dashpot.assess.misfits import crossed_misfits, misfits_of, plainly_strong, 
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
+from dashpot.assess.turns import gain_in_turns, runs_that_show
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.contract.cause import Cause
 from dashpot.fit.refine import Outcome
@@ -90,7 +91,8 @@ class Pursuit:
 class Pursuer:
     """Runs a pursuit; holds what all rounds share.
 
-    ``relevance`` is the share by which a cause has to make the training error smaller to be of interest.
+    ``relevance`` is the share by which a cause has to make the training error smaller to be of interest; ``groups``
+    says by run which runs repeat one another.
     """
 
     bench: Bench
@@ -99,6 +101,7 @@ class Pursuer:
     seed: int
     watch: Callable[[str, float], None]
     relevance: float = SMALLEST_GAIN
+    groups: Mapping[str, str] = field(default_factory=dict)
     rejected: list[Rejection] = field(default_factory=list)
     pruned: set[tuple[str, str, str]] = field(default_factory=set)
     tried: int = 0
@@ -142,7 +145,7 @@ class Pursuer:
             finding, mend = found
             mend = plainly_strong(mend, ladder[-1], self.held_out)
             model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
-            gain = self.gain_of(ladder[-1], model)
+            gain = self.gain_of(ladder[-1], model, finding)
             if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
                 return
             trial = Trial(finding, model, finding.gain, finding.merit)
@@ -157,7 +160,8 @@ class Pursuer:
         The first cause has to hold there, a further one to gain what is of interest at all.
         """
         ladder = self.polish_ladder(first.model, accepted, look)
-        gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
+        gains = [self.gain_of(before, after, entry.finding)
+                 for entry, (before, after) in zip(accepted, pairwise(ladder), strict=True)]  # fmt: skip
         useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= self.relevance]
         if useless == [0] and self.holds(first.model, accepted[0].trial.model, gains[0]):
             useless = []
@@ -192,7 +196,7 @@ class Pursuer:
                 trials = [self.try_out(each.finding, look) for each in ranked]
                 continue
             foreseen = expected_gain(look.columns, trial.finding)
-            gain = self.gain_of(look.model, trial.model)
+            gain = self.gain_of(look.model, trial.model, trial.finding)
             change = share_of_change(look.model, trial.model, self.bench.runs)
             reason = self.objection(trial, gain, change, look, explained)
             if reason:
@@ -206,7 +210,7 @@ class Pursuer:
             chosen = self.simplify(chosen, look)
             chosen = replace(chosen, model=self.bench.revive(chosen.model, look.noise))
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-            gain = self.gain_of(look.model, chosen.model)
+            gain = self.gain_of(look.model, chosen.model, chosen.finding)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
         return None
 
@@ -253,8 +257,11 @@ class Pursuer:
         value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
         self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
 
-    def gain_of(self, before: Model, after: Model) -> Gain | None:
-        """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it."""
+    def gain_of(self, before: Model, after: Model, finding: Finding) -> Gain | None:
+        """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it.
+
+        Where no held-out run shows the cause, runs that do take turns in being held out.
+        """
         local = [
             mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
         ]
@@ -264,7 +271,13 @@ class Pursuer:
             crossed = crossed_misfits(after, runs, local)
             return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
         steps = [run.drive.dt for run in self.held_out]
-        return measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
+        gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
+        if gain is None or gain.value > 0.0:
+            return gain
+        shown = runs_that_show(finding, self.bench, before)
+        if any(run.name in shown for run in self.held_out):
+            return gain
+        return gain_in_turns(self.bench, before, after, shown, self.groups, self.seed)
 
     def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""

@@ -23,7 +23,7 @@ from .sensor import DATA_SHEET, EXACT, Channel, draw_channels
 
 NULL = "null"
 NULL_SHARE = 0.2
-WEAKEST, STRONGEST = 0.1, 10.0
+WEAKEST, STRONGEST, RATIO = 0.1, 10.0, 10.0
 DISPLACEMENT_NOISE = 2e-6
 
 
@@ -51,7 +51,8 @@ def draw_case(
     """Draw a case and write its dataset.
 
     base: a key of KINDS_OF_BASE; kind: a cause word, several joined by "+", "null", or None (drawn, one in five null);
-    strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10); design: a key of DESIGNS;
+    strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10; of two, one up to ten times
+    the other); design: a key of DESIGNS;
     form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
     its data sheet, which the dataset then states; further: a run behind those of the design, the same specimen on it;
     folder: where to write, or None (temporary).
@@ -170,7 +171,11 @@ def _draw_kinds(base: str, kind: str | None, rng: np.random.Generator) -> list[s
 
 
 def _draw_strengths(hidden: Sequence, strength: float | None, rng: np.random.Generator) -> list[float]:
-    return [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in hidden]
+    if strength is not None or len(hidden) != 2:
+        return [log_uniform(rng, WEAKEST, STRONGEST) if strength is None else strength for _ in hidden]
+    weaker = log_uniform(rng, WEAKEST, STRONGEST / RATIO)
+    both = [weaker, weaker * log_uniform(rng, 1.0, RATIO)]
+    return both if rng.random() < 0.5 else both[::-1]
 
 
 def _draw_form(kind: str, form: str | None, rng: np.random.Generator, runs: int) -> Form | Fault:

@@ -2,20 +2,15 @@
 
 import numpy as np
 import pytest
+from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 
 from dashpot.assess.contest import Bench, try_finding
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.pursuit import Pursuer
 from dashpot.assess.suspicion import linear_view, look_at
-from dashpot.contract.registry import load_registry
 from dashpot.data.dataset import Dataset
-from dashpot.data.run import Run
 from dashpot.fit.api import prepare
-from dashpot.model.reading import parse_network
 
-REGISTRY = load_registry()
-STEP = 1e-3
-TIME = np.arange(3000) * STEP
 TABLE = """\
 format: dashpot-network/1
 name: table
@@ -29,24 +24,11 @@ branches:
 """
 
 
-def sweep(name, amplitude, preload, rng, force, held_out=False):
-    phase = 2.0 * np.pi * (TIME + 3.0 * TIME**2)
-    x = preload + amplitude * np.sin(phase)
-    v = amplitude * np.cos(phase) * 2.0 * np.pi * (1.0 + 6.0 * TIME)
-    noisy = force(x, v) + 4.0 * rng.standard_normal(TIME.size)
-    return Run(name, "sweep", TIME, {"displacement": x, "force": noisy}, group=name, held_out=held_out)
-
-
 def bench_of(force, rng):
     runs = [sweep(f"r{k}", a, p, rng, force, k == 3)
             for k, (a, p) in enumerate([(2e-3, 10e-3), (4e-3, 12e-3), (6e-3, 16e-3), (4e-3, 14e-3)])]  # fmt: skip
     setting = prepare(Dataset("made", tuple(runs)))
     return Bench(setting.train, REGISTRY.elements, {}), setting.held_out
-
-
-def fitted(bench, text):
-    declared = parse_network(text, REGISTRY.elements)
-    return bench.fit(declared, bench.start_from(declared, declared), None)
 
 
 @pytest.fixture
@@ -97,9 +79,10 @@ def test_held_out_runs_judge_in_white_noise_where_coloured_noise_hides_a_gain(rn
     fast = 2.0 * rng.standard_normal(slow.size)
     misfits = {"before": slow + fast, "better": 1.01 * slow + 0.5 * fast, "worse": 1.01 * slow + 1.2 * fast}
     monkeypatch.setattr("dashpot.assess.pursuit.misfits_of", lambda model, runs: [misfits[model]])
+    monkeypatch.setattr("dashpot.assess.pursuit.runs_that_show", lambda *asked: {held_out[0].name})
     pursuer = Pursuer(bench, held_out, (), 0, print)
     for after, holds in (("better", True), ("worse", False)):
-        gain = pursuer.gain_of(*(SimpleModel(name) for name in ("before", after)))
+        gain = pursuer.gain_of(*(SimpleModel(name) for name in ("before", after)), finding=None)
         assert gain.value < 0.0
         assert pursuer.holds("before", after, gain) is holds
 
