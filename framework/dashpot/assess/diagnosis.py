@@ -207,4 +207,4 @@ def _gain_words(gain: Gain | None) -> str:
     if gain is None:
         return "gain not measured, no run that shows it could be held out"
     low, high = gain.interval
-    return f"gain on held-out runs {gain.value:.1%} [{low:.1%}, {high:.1%}]"
+    return f"gain on {gain.runs} {gain.value:.1%} [{low:.1%}, {high:.1%}]"

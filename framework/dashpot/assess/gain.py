@@ -12,14 +12,16 @@ Array = NDArray[np.float64]
 
 BLOCK_SECONDS = 0.25
 DRAWS = 1000
+HELD_OUT = "held-out runs"
 
 
 @dataclass(frozen=True)
 class Gain:
-    """``value`` = 1 - RMSE after / RMSE before, with its 95 % interval."""
+    """``value`` = 1 - RMSE after / RMSE before, with its 95 % interval; ``runs`` says on which runs."""
 
     value: float
     interval: tuple[float, float]
+    runs: str = HELD_OUT
 
 
 def measure_gain(before: Sequence[Array], after: Sequence[Array], steps: Sequence[float], seed: int = 0) -> Gain | None:

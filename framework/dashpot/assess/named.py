@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any
 
-from dashpot.assess.gain import Gain
+from dashpot.assess.gain import HELD_OUT, Gain
 from dashpot.assess.mend import Mend
 from dashpot.assess.pursuit import Accepted, Pursuit
 from dashpot.assess.screen import Candidate
@@ -58,7 +58,8 @@ class NamedCause:
         forms = ", then ".join(step.finding.candidate.suspect.form for step in self.steps)
         fall = sum(step.trial.gain for step in self.steps)
         price = fall - sum(step.trial.merit for step in self.steps)
-        return f"{self.cause.shows}. As {forms} it lowers chi square by {fall:.4g} at a price of {price:.3g}"
+        judged = f"; its gain is that on {self.gain.runs}" if self.gain and self.gain.runs != HELD_OUT else ""
+        return f"{self.cause.shows}. As {forms} it lowers chi square by {fall:.4g} at a price of {price:.3g}{judged}"
 
     def parameters(self) -> dict[str, Any]:
         """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
@@ -107,4 +108,5 @@ def _together(entries: Sequence[Accepted]) -> Gain | None:
         return None
     left = prod(1.0 - gain.value for gain in gains)
     low, high = (prod(1.0 - gain.interval[side] for gain in gains) for side in (0, 1))
-    return Gain(1.0 - left, (1.0 - low, 1.0 - high))
+    runs = dict.fromkeys(gain.runs for gain in gains)
+    return Gain(1.0 - left, (1.0 - low, 1.0 - high), " and ".join(runs))

@@ -145,7 +145,7 @@ class Pursuer:
             finding, mend = found
             mend = plainly_strong(mend, ladder[-1], self.held_out)
             model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
-            gain = self.gain_of(ladder[-1], model, finding)
+            gain = self.gain_of(ladder[-1], model)
             if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
                 return
             trial = Trial(finding, model, finding.gain, finding.merit)
@@ -160,8 +160,7 @@ class Pursuer:
         The first cause has to hold there, a further one to gain what is of interest at all.
         """
         ladder = self.polish_ladder(first.model, accepted, look)
-        gains = [self.gain_of(before, after, entry.finding)
-                 for entry, (before, after) in zip(accepted, pairwise(ladder), strict=True)]  # fmt: skip
+        gains = [self.gain_of(before, after) for before, after in pairwise(ladder)]
         useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= self.relevance]
         if useless == [0] and self.holds(first.model, accepted[0].trial.model, gains[0]):
             useless = []
@@ -196,7 +195,7 @@ class Pursuer:
                 trials = [self.try_out(each.finding, look) for each in ranked]
                 continue
             foreseen = expected_gain(look.columns, trial.finding)
-            gain = self.gain_of(look.model, trial.model, trial.finding)
+            gain = self.gain_of(look.model, trial.model)
             change = share_of_change(look.model, trial.model, self.bench.runs)
             reason = self.objection(trial, gain, change, look, explained)
             if reason:
@@ -210,7 +209,7 @@ class Pursuer:
             chosen = self.simplify(chosen, look)
             chosen = replace(chosen, model=self.bench.revive(chosen.model, look.noise))
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-            gain = self.gain_of(look.model, chosen.model, chosen.finding)
+            gain = self.gain_of(look.model, chosen.model)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
         return None
 
@@ -257,10 +256,10 @@ class Pursuer:
         value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
         self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
 
-    def gain_of(self, before: Model, after: Model, finding: Finding) -> Gain | None:
+    def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it.
 
-        Where no held-out run shows the cause, runs that do take turns in being held out.
+        Where these show the cause but weakly, runs that show it take turns in being held out.
         """
         local = [
             mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
@@ -272,12 +271,10 @@ class Pursuer:
             return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
         steps = [run.drive.dt for run in self.held_out]
         gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
-        if gain is None or gain.value > 0.0:
+        if gain is None or gain.value > self.relevance:
             return gain
-        shown = runs_that_show(finding, self.bench, before)
-        if any(run.name in shown for run in self.held_out):
-            return gain
-        return gain_in_turns(self.bench, before, after, shown, self.groups, self.seed)
+        shown = runs_that_show(before, after, self.bench)
+        return gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else gain
 
     def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""
