@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View
+from dashpot.contract.cause import Atom, Cause, Suspect, View, unchanged
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_measurement
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 LONGEST = 0.05
+LAGS = tuple(float(lag) for lag in np.geomspace(5e-5, 2e-2, 20))  # s
 
 
 class Delay(Cause):
-    """The force channel shows the force of an earlier time (a later one if negative)."""
+    """The force channel shows the force of an earlier time (a later one if negative), or lags behind a filter."""
 
     word = "delay"
     kind = "measurement"
@@ -30,13 +31,31 @@ class Delay(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A shift of the model's force by a small time, unless the network has one already."""
+        """A shift of the model's force by a small time, or a low-pass, unless the network has a delay already."""
         if "force.delay" not in network.measurement:
             yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, quantity="delay", unit="s")
+            yield Suspect("low-pass of first order", LAGS, _lagging, unchanged, most=2, mends=True,
+                          quantity="share", unit="1", tell=_tell)  # fmt: skip
 
 
 def _slope(view: View, run: str) -> Array:
     return -np.gradient(view.force(run), view.step(run), edge_order=2)[None]
+
+
+def _lagging(view: View, run: str) -> Array:
+    """What a low-pass of first order by each of the lags takes away; before the run the force did not change."""
+    from scipy.signal import lfilter
+
+    force, step = view.force(run), view.step(run)
+    rise, rows = force - force[0], []
+    for lag in LAGS:
+        half = 0.5 * step / lag
+        rows.append(lfilter([half / (1.0 + half)] * 2, [1.0, (half - 1.0) / (1.0 + half)], rise) - rise)
+    return np.array(rows)
+
+
+def _tell(strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
+    return {"delay": (float(np.dot(strengths, LAGS)), "s")}
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:

@@ -36,7 +36,8 @@ NOT_SUPPORTED = "does not make the held-out runs better: not supported by the da
 SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
-TOO_LITTLE = f"makes the training runs better by less than {SMALLEST_LATER_GAIN:.0%}: too little to name it"
+BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
+TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
 REFIT_MAY_DOUBLE = 0.5
 
 
@@ -184,8 +185,9 @@ class Pursuer:
         finalists = choose_finalists([one for one in look.screen.findings if form_of(one) not in self.pruned], look)
         trials = []
         for finding in finalists:
-            if explained and finding.gain < self.least_fall(look):
-                self.reject(finding, TOO_LITTLE, expected_gain(look.columns, finding), None)
+            if explained and finding.gain < self.least_fall(look, explained):
+                reason = TOO_LITTLE.format(least=self.least_later_gain(look, explained))
+                self.reject(finding, reason, expected_gain(look.columns, finding), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(self.try_out(finding, look, to_beat(trials, look)))
@@ -213,9 +215,18 @@ class Pursuer:
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
         return None
 
-    def least_fall(self, look: Look) -> float:
+    def least_later_gain(self, look: Look, explained: float) -> float:
+        """The share by which a later cause has to make the error smaller to be worth a name.
+
+        Where much is ``explained`` (fall of chi square) its form may be wrong by as much; where little is, it can not.
+        """
+        of_form = 1.0 - np.sqrt(max(1.0 - BEYOND_FORM * explained / look.model.chi_square, 0.0))
+        return max(self.relevance, min(SMALLEST_LATER_GAIN, float(of_form)))
+
+    def least_fall(self, look: Look, explained: float) -> float:
         """The fall of chi square below which not even a refit would make a later cause worth a name."""
-        return REFIT_MAY_DOUBLE * (1.0 - (1.0 - SMALLEST_LATER_GAIN) ** 2) * look.model.chi_square
+        least = self.least_later_gain(look, explained)
+        return REFIT_MAY_DOUBLE * (1.0 - (1.0 - least) ** 2) * look.model.chi_square
 
     def try_out(self, finding: Finding, look: Look, beat: float = np.inf) -> Trial:
         """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
@@ -246,8 +257,8 @@ class Pursuer:
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
-        if explained and fall < SMALLEST_LATER_GAIN:
-            return TOO_LITTLE
+        if explained and max(fall, change) < (least := self.least_later_gain(look, explained)):
+            return TOO_LITTLE.format(least=least)
         return ""
 
     def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
