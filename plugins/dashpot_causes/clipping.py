@@ -13,7 +13,8 @@ from dashpot.contract.cause import Cause, Suspect, View, unchanged
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
-SHARES = (0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.27, 0.35)  # of the span of the forces, below its end
+SHARES = tuple(float(share) for share in 0.002 + 0.36 * np.linspace(0.0, 1.0, 31) ** 1.5)  # of the span, below its end
+KNEE = 3  # levels that together bend the force over smoothly
 
 
 class Clipping(Cause):
@@ -32,14 +33,20 @@ class Clipping(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A level near the largest or the smallest force, above or below which part of the force is missing."""
+        """Levels near the largest or the smallest force, above or below which part of the force is missing."""
         forces = [view.force(run) for run in view.runs]
         low, high = min(force.min() for force in forces), max(force.max() for force in forces)
         for side, end in ((1, high), (-1, low)):
-            levels = tuple(float(end - side * (share + 0.01) * (high - low)) for share in SHARES)
+            levels = tuple(float(end - side * share * (high - low)) for share in SHARES)
             cut = _Cut(side, levels)
             yield Suspect(
-                "upper level" if side > 0 else "lower level", levels, cut, unchanged, mends=True, tell=cut.tell
+                "upper level" if side > 0 else "lower level",
+                levels,
+                cut,
+                unchanged,
+                most=KNEE,
+                mends=True,
+                tell=cut.tell,
             )
 
 
@@ -53,5 +60,5 @@ class _Cut:
         return -self.side * beyond
 
     def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-        chosen = int(np.argmax(np.abs(strengths)))
-        return {"level": (self.levels[chosen], "N"), "share that is missing": (strengths[chosen], "1")}
+        level = float(np.average(self.levels, weights=np.abs(strengths)))
+        return {"level": (level, "N"), "share that is missing": (float(np.sum(strengths)), "1")}

@@ -18,7 +18,7 @@ from truth.branches import integrate_dahl, integrate_prandtl
 from truth.case import _Bench
 from truth.channel import FirstOrderLag, PureDelay
 from truth.damping import Exponential, NearlyQuadratic, Quadratic, Rational, Tanh, Viscous
-from truth.design import DESIGNS, LOOP_DEPTH, Plan, drive
+from truth.design import DESIGNS, LOOP_DEPTH, Plan, drive, further
 from truth.form import alternating_rms
 from truth.friction import BoucWen, Coulomb, Iwan, LuGre, Masing, slide
 from truth.inertia import MountedMass, RigidMass
@@ -528,3 +528,17 @@ def test_a_blind_axle_has_its_effect_at_its_strength(seed, tmp_path):
     assert pooled == pytest.approx(2.0 * truth.noise["rms"], rel=0.02)
     assert len(truth.noise_rms) == 16 and 0.0 < effect.strength_left < 2.1
     assert not re.search("friction|strength|null", (tmp_path / "dataset.yaml").read_text())
+
+
+def test_a_run_that_was_asked_for_comes_on_top_of_the_others(tmp_path, seed):
+    """The specimen, its effect and the noise of the other runs stay as they are."""
+    time = np.arange(0.0, 2.0, 2e-3)
+    asked = 20e-3 + 1e-3 * np.sin(2.0 * np.pi * 3.0 * time) * np.minimum(time, 1.0)
+    before = draw_case(seed, "ftire", "friction", folder=tmp_path / "before")
+    after = draw_case(seed, "ftire", "friction", further=further(asked, 2e-3), folder=tmp_path / "after")
+    for path in before.folder.glob("*.npz"):
+        one, other = np.load(path), np.load(after.folder / path.name)
+        assert all(np.array_equal(one[key], other[key]) for key in "txF")
+    run = np.load(after.folder / "asked.npz")
+    assert run["x"] == pytest.approx(1e3 * np.interp(run["t"], time, asked), abs=0.02)
+    assert np.corrcoef(run["x"], run["F"])[0, 1] > 0.9

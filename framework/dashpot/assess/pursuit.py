@@ -33,12 +33,14 @@ MOST_CAUSES = 5
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
+BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"
 SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
 TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
 REFIT_MAY_DOUBLE = 0.5
+MOST_OTHERS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +123,7 @@ class Pursuer:
             self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
             look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
             accepted, look = self.prune(*self.reconsider(accepted, look, first), first)
+            accepted, look = self.exchange(accepted, look, first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         self.judge_the_jury(accepted, look, ladder)
         least_force = float(np.sqrt(1.0 - (1.0 - self.relevance) ** 2) * pooled(look.columns.residual.values()))
@@ -321,6 +324,31 @@ class Pursuer:
                     self.reject(entry.finding, SIMPLER_WILL_DO, None, None)
                     return changed, look_at(self.bench, model, self.causes, look.noise, self.seed)
         return accepted, look
+
+    def exchange(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """Put another cause in the place of an earlier one that won only because a later one was still missing."""
+        for number, entry in enumerate(accepted[:-1]):
+            kept = [*accepted[:number], *accepted[number + 1 :]]
+            model = self.rebuild(kept, look.model, first.model, look.noise)
+            without = look_at(self.bench, model, self.causes, look.noise, self.seed)
+            fall = model.chi_square - look.model.chi_square
+            for finding in self.others_than(entry, without, fall):
+                trial = try_finding(self.bench, model, finding, look.noise, look.screen.samples)
+                price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
+                if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
+                    continue
+                self.reject(entry.finding, BETTER_BESIDE_THE_LATER, None, None)
+                self.pruned.add(form_of(entry.finding))
+                instead = replace(entry, finding=finding, trial=trial, rivals=(), others=(), simpler=())
+                changed = [*accepted[:number], instead, *accepted[number + 1 :]]
+                return changed, look_at(self.bench, trial.model, self.causes, look.noise, self.seed)
+        return accepted, look
+
+    def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
+        """The few findings of other causes that promise most of a fall of chi square."""
+        name = entry.finding.candidate.name
+        found = [one for one in choose_finalists(look.screen.findings, look) if form_of(one) not in self.pruned]
+        return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers."""
