@@ -212,6 +212,9 @@ def try_finding(
         if suspect.mends:
             mend = make_mend(bench.view(base), finding)
             model = bench.fit(base.declared, base.fitted, noise, (*base.mends, mend))
+            positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
+            if suspect.sign and 0 < positive.size < len(finding.atoms):
+                return try_finding(bench, base, finding.keeping(positive), noise, samples, beat)
         else:
             model = bench.extend(base, finding, noise, beat)
     except InputError as error:

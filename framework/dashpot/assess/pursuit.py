@@ -273,7 +273,8 @@ class Pursuer:
     def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it.
 
-        Where these show the cause but weakly, runs that show it take turns in being held out.
+        Where these show the cause but weakly, runs that show it take turns in being held out; they may only speak for
+        it, as what is left without them may not be enough to find it.
         """
         local = [
             mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
@@ -288,7 +289,8 @@ class Pursuer:
         if gain is None or gain.value > self.relevance:
             return gain
         shown = runs_that_show(before, after, self.bench)
-        return gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else gain
+        turned = gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else None
+        return turned if turned and turned.value > self.relevance else gain
 
     def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""

@@ -7,7 +7,7 @@ out (Neyman's C(alpha) test), so a suspect may claim only what the model cannot 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -110,8 +110,14 @@ class Finding:
 
     def without_last(self) -> Finding:
         """The finding without the place that was added last."""
-        return replace(self, atoms=self.atoms[:-1], strengths=self.strengths[:-1], chosen=self.chosen[:-1],
-                       deviations=self.deviations[:-1], absorbed=self.absorbed[:, :-1])  # fmt: skip
+        return self.keeping(range(len(self.atoms) - 1))
+
+    def keeping(self, kept: Iterable[int]) -> Finding:
+        """The finding with some of its places, by their number."""
+        at = list(kept)
+        return replace(self, atoms=tuple(self.atoms[k] for k in at), strengths=self.strengths[at],
+                       chosen=tuple(self.chosen[k] for k in at), deviations=self.deviations[at],
+                       absorbed=self.absorbed[:, at])  # fmt: skip
 
 
 @dataclass(frozen=True)
