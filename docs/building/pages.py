@@ -227,6 +227,8 @@ BLIND_KINDS = {
     "sensors": " with sensors that err within their data sheet",
     "sensors-null": " with such sensors and nothing hidden",
     "without": " without the plugin of the cause",
+    "double": " with two effects, one up to ten times the other",
+    "follow": " on three runs, the run that the diagnosis asks for driven as well",
 }
 RATES = {
     "first_right": "the first name is a hidden effect",
@@ -236,6 +238,7 @@ RATES = {
     "confidently_wrong": "it says all is explained, by a cause outside the family",
     "false_alarms": "something is named where nothing is hidden",
     "over_noise_to_1.05": "the held-out error after the extension is within 1.05 of the noise",
+    "right_after_asking": "the first name is right once the run that was asked for is there",
     "lone_right": "a single name without a rival is a hidden effect",
 }
 

@@ -14,8 +14,10 @@ TINY = 1e-12
 
 
 class Stribeck(Element):
-    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness u^exponent with u = 1 - F/L sgn(v), stiffness u
-    where the force is above a limit that fell; L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
+    """A Dahl slider whose limit L falls with speed: dF/dx = stiffness |u|^exponent sgn(u), u = 1 - F/L sgn(v),
+    L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
+
+    A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent.
 
     The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
     the step.
