@@ -32,6 +32,7 @@ MEND_ROUNDS = 2
 TOLERANCE = 1e-5
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
 AT_END = 1e-3  # of a range
+DWINDLED = 0.03  # of the number in the file, where what is searched is a logarithm: zero is infinitely far
 REACH = 10.0  # so many times as much as in its last step a refit may still gain
 
 
@@ -57,9 +58,13 @@ class Model:
 
     @property
     def at_end(self) -> NDArray[np.bool_]:
-        """Which coordinates (p,) are at an end of their range."""
+        """Which coordinates (p,) are at an end of their range, or dwindled on the way to zero."""
         margin = AT_END * (self.coordinates.high - self.coordinates.low)
-        return (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
+        file = {slot.path: slot.value.number for slot in self.declared.slots()}
+        numbers = zip(self.coordinates.paths, self.coordinates.log, self.coordinates.numbers(self.point), strict=True)
+        dwindled = [log and number < DWINDLED * file.get(path, 0.0) for path, log, number in numbers]
+        ended = (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
+        return ended | np.array(dwindled, dtype=bool)
 
     @property
     def revived(self) -> NetworkSpec:
@@ -219,21 +224,31 @@ def try_finding(
             model = bench.extend(base, finding, noise, beat)
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
+    if model.outcome is not Outcome.LEFT_BEHIND:
+        model = bench.revive(model, noise)
     gain = base.chi_square - model.chi_square
     price = (model.numbers - base.numbers) * np.log(samples)
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""
     if suspect.mends and suspect.sign and np.any(model.mends[-1].strengths <= 0.0):
         failure = "the refit turned its sign, which makes no sense for this cause"
-    if not suspect.admits(_new_numbers(base, model)):
+    if not suspect.admits(_new_numbers(base, model, model)):
         failure = "the refit turned it into its opposite"
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 
 
-def _new_numbers(base: Model, model: Model) -> dict[str, float]:
-    """The numbers in SI that a patch brought and a refit found, by the last word of their path."""
+def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
+    """Whether a later model still has numbers by which a trial, an extension of ``base``, is what its cause says."""
+    if base is None:
+        return True
+    found, now = (_new_numbers(base, trial.model, seen) for seen in (trial.model, model))
+    return found.keys() != now.keys() or trial.finding.candidate.suspect.admits(now)
+
+
+def _new_numbers(base: Model, extended: Model, model: Model) -> dict[str, float]:
+    """The numbers in SI that an extension brought, as they stand in a model, by the last word of their path."""
     old = {slot.path for slot in base.fitted.slots()}
-    return {path.rpartition(".")[2]: slot.value.number for slot in model.fitted.slots()
-            if (path := slot.path) not in old}  # fmt: skip
+    new = {slot.path for slot in extended.fitted.slots()} - old
+    return {slot.path.rpartition(".")[2]: slot.value.number for slot in model.fitted.slots() if slot.path in new}
 
 
 def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:

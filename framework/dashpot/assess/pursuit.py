@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.assess.contest import Bench, Model, Trial, try_finding
+from dashpot.assess.contest import Bench, Model, Trial, admitted, try_finding
 from dashpot.assess.finalists import TIE, choose_finalists, form_of, settle_ties, simpler, tie_width, to_beat
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import crossed_misfits, misfits_of, plainly_strong, pooled, share_of_change
@@ -33,6 +33,8 @@ MOST_CAUSES = 5
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
+SUPERFLUOUS = "superfluous once the later causes are there"
+OPPOSITE = "turned into its opposite once the later causes are there"
 BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"
 SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
@@ -40,6 +42,7 @@ SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its o
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
 TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
 REFIT_MAY_DOUBLE = 0.5
+HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 MOST_OTHERS = 2
 
 
@@ -113,23 +116,34 @@ class Pursuer:
         """Accept causes until nothing significant is left."""
         self.watch("first look", 0.0)
         first = look = look_at(self.bench, model, self.causes, None, self.seed)
-        accepted: list[Accepted] = []
-        while len(accepted) < MOST_CAUSES:
-            self.tried += len(look.screen.findings)
-            winner = self.best_trial(look, sum(entry.trial.gain for entry in accepted))
-            if winner is None:
-                break
-            accepted.append(winner)
-            self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
-            look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
-            accepted, look = self.prune(*self.reconsider(accepted, look, first), first)
-            accepted, look = self.exchange(accepted, look, first)
+        accepted, look = self.pursue([], look, first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
+        while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
+            self.reject(opposite[-1].finding, OPPOSITE, None, None)
+            self.pruned.add(form_of(opposite[-1].finding))
+            kept = [entry for entry in accepted if entry is not opposite[-1]]
+            model = self.rebuild(kept, look.model, first.model, look.noise)
+            look = look_at(self.bench, model, self.causes, look.noise, self.seed)
+            accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)
         self.judge_the_jury(accepted, look, ladder)
         least_force = float(np.sqrt(1.0 - (1.0 - self.relevance) ** 2) * pooled(look.columns.residual.values()))
         named = {entry.finding.candidate.name for entry in accepted}
         rejected = tuple(one for one in self.rejected if (one.cause, one.place or "") not in named)
         return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)
+
+    def pursue(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """Add causes to those that are accepted, as long as there are any that hold."""
+        while len(accepted) < MOST_CAUSES:
+            self.tried += len(look.screen.findings)
+            winner = self.best_trial(look, sum(entry.trial.gain for entry in accepted))
+            if winner is None:
+                break
+            accepted = [*accepted, winner]
+            self.watch(f"accepted {winner.finding.candidate.cause.word}", len(accepted) / MOST_CAUSES)
+            look = look_at(self.bench, winner.trial.model, self.causes, look.noise, self.seed)
+            accepted, look = self.prune(*self.reconsider(accepted, look, first), first)
+            accepted, look = self.exchange(accepted, look, first)
+        return accepted, look
 
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
@@ -212,7 +226,6 @@ class Pursuer:
                 if other is not chosen and other.merit < trial.merit - tie_width(trial):
                     self.reject(other.finding, "explains less than the accepted cause", None, None)
             chosen = self.simplify(chosen, look)
-            chosen = replace(chosen, model=self.bench.revive(chosen.model, look.noise))
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = self.gain_of(look.model, chosen.model)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
@@ -286,7 +299,7 @@ class Pursuer:
             return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
         steps = [run.drive.dt for run in self.held_out]
         gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
-        if gain is None or gain.value > self.relevance:
+        if gain is None or not -HARMLESS < gain.value <= self.relevance:
             return gain
         shown = runs_that_show(before, after, self.bench)
         turned = gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else None
@@ -296,6 +309,8 @@ class Pursuer:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""
         if gain is None or gain.value > 0.0:
             return True
+        if gain.value < -HARMLESS:
+            return False
         first, second = misfits_of(before, self.held_out), misfits_of(after, self.held_out)
         names = [run.name for run in self.held_out]
         noise = learn_noise(dict(zip(names, first, strict=True)), resolution(replace(self.bench, runs=self.held_out)))
@@ -303,13 +318,14 @@ class Pursuer:
         return white[1] < white[0]
 
     def prune(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
-        """Drop an earlier cause that a later one made superfluous; its form does not come back."""
+        """Drop an earlier cause that a later one made superfluous, or its opposite; its form does not come back."""
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.rebuild(kept, look.model, first.model, look.noise)
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
-            if model.chi_square - look.model.chi_square < price + look.screen.threshold:
-                self.reject(accepted[number].finding, "superfluous once the later causes are there", None, None)
+            superfluous = model.chi_square - look.model.chi_square < price + look.screen.threshold
+            if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
+                self.reject(accepted[number].finding, SUPERFLUOUS if superfluous else OPPOSITE, None, None)
                 self.pruned.add(form_of(accepted[number].finding))
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
@@ -338,6 +354,8 @@ class Pursuer:
                 trial = try_finding(self.bench, model, finding, look.noise, look.screen.samples)
                 price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
                 if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
+                    continue
+                if (gain := self.gain_of(look.model, trial.model)) and gain.value < 0.0:
                     continue
                 self.reject(entry.finding, BETTER_BESIDE_THE_LATER, None, None)
                 self.pruned.add(form_of(entry.finding))
