@@ -21,7 +21,7 @@ from dashpot.fit.refine import Outcome, linearise, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
-from dashpot.model.network import NetworkSpec
+from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
 
@@ -67,12 +67,12 @@ class Model:
         return ended | np.array(dwindled, dtype=bool)
 
     @property
-    def revived(self) -> NetworkSpec:
-        """The fitted network with the numbers of the file in place of those at an end of their range."""
+    def revived(self) -> dict[str, Value]:
+        """The numbers that are at an end of their range by path, as they stand in the file."""
         file = {slot.path: slot.value.number for slot in self.declared.slots()}
         slots = {slot.path: slot.value for slot in self.fitted.slots()}
         ended = [path for path, ends in zip(self.coordinates.paths, self.at_end, strict=True) if ends and path in file]
-        return self.fitted.with_values({path: replace(slots[path], number=file[path]) for path in ended})
+        return {path: replace(slots[path], number=file[path]) for path in ended}
 
     @property
     def values(self) -> Array:
@@ -178,10 +178,16 @@ class Bench:
         return self.fit(declared, start, noise, model.mends, beat)
 
     def revive(self, model: Model, noise: NoiseModel) -> Model:
-        """The model, or a better one: numbers that what was missing had driven to an end of their range start anew."""
-        if not np.any(model.at_end):
+        """The model, or a better one: numbers that what was missing had driven to an end of their range start anew.
+
+        The others come to them first: they would else be driven away again.
+        """
+        numbers = model.revived
+        if not numbers:
             return model
-        other = self.fit(model.declared, model.revived, noise, model.mends)
+        held = model.fitted.with_values({path: value.as_role("fixed") for path, value in numbers.items()})
+        around = self.fit(model.declared, held, noise, model.mends)
+        other = self.fit(model.declared, around.fitted.with_values(numbers), noise, around.mends)
         return other if other.chi_square < model.chi_square else model
 
     def _extended(self, model: Model, finding: Finding, numbers: NetworkSpec) -> tuple[NetworkSpec, NetworkSpec]:

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 
 from dashpot.assess.contest import Bench, try_finding
@@ -65,11 +66,28 @@ def test_a_number_at_its_end_absorbs_nothing_and_starts_anew_from_the_file(rng):
     assert model.at_end[place]
     _, _, tangents = linear_view(bench, model)
     assert all(not rows[place].any() and rows[:place].any() for rows in tangents.values())
-    revived = {slot.path: slot.value.number for slot in model.revived.slots()}
-    assert revived["damping.damping"] == 200.0
+    assert model.revived["damping.damping"].number == 200.0
     noise = flat_noise({run.name: 4.0 for run in bench.runs})
     white = bench.fit(model.declared, model.fitted, noise)
     assert bench.revive(white, noise).chi_square <= white.chi_square
+
+
+def late(x, v):
+    """A spring of 200 N/mm and a damper of 250 N s/m, shown 1.5 ms late, which is more than the damper's share."""
+    return CubicSpline(TIME, 200e3 * x + 250.0 * v)(np.maximum(TIME - 1.5e-3, 0.0))
+
+
+def test_a_damper_that_a_delay_has_eaten_comes_back_with_it(rng):
+    bench, _ = bench_of(late, rng)
+    free = TABLE.replace(", bounds: [20 N*s/m, 2 kN*s/m]", "")
+    look = look_at(bench, fitted(bench, free), [REGISTRY.causes["delay"]], None, 0)
+    place = look.model.coordinates.paths.index("damping.damping")
+    assert look.model.at_end[place]
+    finding = next(one for one in look.screen.findings if one.candidate.suspect.form == "delay")
+    trial = try_finding(bench, look.model, finding, look.noise, look.screen.samples)
+    found = {slot.path: slot.value.number for slot in trial.model.fitted.slots()}
+    assert found["measurement.force.delay"] == pytest.approx(1.5e-3, rel=0.1)
+    assert found["damping.damping"] == pytest.approx(250.0, rel=0.15)
 
 
 def test_held_out_runs_judge_in_white_noise_where_coloured_noise_hides_a_gain(rng, monkeypatch):
