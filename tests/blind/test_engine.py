@@ -35,6 +35,14 @@ def test_nothing_is_named_where_nothing_is_hidden(seed):
     assert any(outcome.verdict["verdict"] == NOTHING for outcome in outcomes)
 
 
+def test_an_earlier_cause_gives_way_to_one_that_explains_more_beside_a_later_one():
+    """A tire that warms up beside a gain error of one run: drifts of several runs win first, as they take up both."""
+    outcome = Bench().run(76000011, "ftire", "gain+softening")
+    told([outcome])
+    assert set(outcome.named) == {"gain", "softening"}
+    assert any(one["cause"] == "drift" and "beside the later" in one["reason"] for one in outcome.verdict["rejected"])
+
+
 def test_a_diagnosis_goes_through_on_a_single_run(seed):
     """With one sweep there is nothing to hold out: the gain is null and the reason is said, not invented."""
     outcome = Bench("one_sweep").run(seed, "kelvin_voigt", "friction", STRENGTH)
