@@ -13,7 +13,7 @@ from verification.truth.motion import smooth_motion
 from dashpot.kernel.system import Status
 
 GRAVITY = 9.81
-LANES, MOTIONS, LANDINGS, IMPACTS = 24, 5, 8, 15
+LANES, MOTIONS, LANDINGS, IMPACTS = 24, 5, 24, 15
 
 
 @pytest.fixture
