@@ -359,7 +359,8 @@ class Pursuer:
                     continue
                 self.reject(entry.finding, BETTER_BESIDE_THE_LATER, None, None)
                 self.pruned.add(form_of(entry.finding))
-                instead = replace(entry, finding=finding, trial=trial, rivals=(), others=(), simpler=())
+                foreseen = expected_gain(without.columns, finding)
+                instead = Accepted(finding, trial, foreseen, gain, (), base=model)
                 changed = [*accepted[:number], instead, *accepted[number + 1 :]]
                 return changed, look_at(self.bench, trial.model, self.causes, look.noise, self.seed)
         return accepted, look
