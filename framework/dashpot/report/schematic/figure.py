@@ -97,8 +97,7 @@ class Style:
         held = self.node.mark in ("driven", "ground")
         yield Rail(self.node.name, Box.around(*ends), self.body, held)
         if self.side:
-            middle = (left + right) // 2 if self.sizes.whole else (left + right) / 2
-            yield from self._outer(frame, along, middle, (right - left) / 2)
+            yield from self._outer(frame, along, self._halved(left + right), self._halved(right - left))
         else:
             yield from self._inner(frame, along, left, right)
 
@@ -110,7 +109,7 @@ class Style:
                       self.node.measured)  # fmt: skip
         near = end + self.side * self.sizes.space
         far = near + self.side * self.label[0]
-        first = across - self.label[1] // 2 if self.sizes.whole else across - self.label[1] / 2
+        first = across - self._halved(self.label[1])
         yield self._words(Box.around(frame.at(near, first), frame.at(far, first + self.label[1])))
 
     def _inner(self, frame: Frame, along: float, left: float, right: float) -> Iterator[Shape]:
@@ -122,10 +121,13 @@ class Style:
             first = (left + right - self.label[1]) / 2
         else:
             first = left - self.sizes.space - self.label[1]
-        start = along - (self.label[0] // 2 if self.sizes.whole else self.label[0] / 2)
+        start = along - self._halved(self.label[0])
         if self.lifted:
             start = along + self.sizes.space / 2
         yield self._words(Box.around(frame.at(start, first), frame.at(start + self.label[0], first + self.label[1])))
+
+    def _halved(self, length: float) -> float:
+        return length // 2 if self.sizes.whole else length / 2
 
     def _words(self, box: Box) -> Words:
         return Words(self.name, self.lines, box, (self.node.name,), centred=True)

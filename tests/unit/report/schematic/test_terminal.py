@@ -9,8 +9,9 @@ from unit.report.schematic.networks import TEXTS, jointed, two_ended
 from dashpot import load_registry
 from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
-from dashpot.report.schematic.sizes import columns
-from dashpot.report.schematic.terminal import text_drawing
+from dashpot.report.schematic.drawing import drawing_of
+from dashpot.report.schematic.sizes import TERMINAL, columns
+from dashpot.report.schematic.terminal import COLUMNS, text_drawing
 
 RANDOM = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 VOIGT = """
@@ -93,3 +94,20 @@ def assert_labels_are_whole(spec):
     assert all(joint in text for joint in spec.joints)
     boxes = sum(branch.element.word == "box" for branch in spec.leaves())
     assert text.count("[box]") == boxes
+
+
+# the wall of an even number of lines is what decides where the drawing begins
+WALL = """
+format: dashpot-network/1
+name: wall
+nodes: {table: driven, bracket: ground}
+branches:
+  spring: {between: [table, bracket], element: spring, stiffness: 220 N/mm}
+  damper: {between: [table, bracket], element: damper, damping: {start: 100 N*s/m}}
+"""
+
+
+def test_a_wall_of_an_even_height_leaves_the_rows_whole(elements):
+    drawing = drawing_of(parse_network(WALL, elements), [TERMINAL], COLUMNS)
+    edges = [edge for shape in drawing.shapes for edge in (shape.box.top, shape.box.bottom)]
+    assert edges == [round(edge) for edge in edges]
