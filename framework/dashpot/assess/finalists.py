@@ -40,9 +40,13 @@ def choose_finalists(findings: Iterable[Finding], look: Look) -> list[Finding]:
     return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
 
 
-def settle_ties(trial: Trial, ranked: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
+def alike(trial: Trial, ranked: Sequence[Trial]) -> list[Trial]:
+    """The trials, best first, that fit the training runs as well as the best of them."""
+    return [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
+
+
+def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
     """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
-    near = [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
     best: dict[tuple[str, str], Trial] = {}
     for other in near:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model, Trial, admitted, try_finding
-from dashpot.assess.finalists import TIE, choose_finalists, form_of, settle_ties, simpler, tie_width, to_beat
+from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, settle_ties, simpler, to_beat
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import crossed_misfits, misfits_of, plainly_strong, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
@@ -202,7 +202,7 @@ class Pursuer:
         finalists = choose_finalists([one for one in look.screen.findings if form_of(one) not in self.pruned], look)
         trials = []
         for finding in finalists:
-            if explained and finding.gain < self.least_fall(look, explained):
+            if explained and not self.worth_a_refit(finding, look, explained):
                 reason = TOO_LITTLE.format(least=self.least_later_gain(look, explained))
                 self.reject(finding, reason, expected_gain(look.columns, finding), None)
                 continue
@@ -221,9 +221,10 @@ class Pursuer:
                 self.reject(trial.finding, reason, foreseen, gain)
                 trials = rest
                 continue
-            chosen, others = settle_ties(trial, ranked)
+            near = [other for other in alike(trial, ranked) if self.holds_as_well(other, trial, gain, look)]
+            chosen, others = settle_ties(near)
             for other in ranked:
-                if other is not chosen and other.merit < trial.merit - tie_width(trial):
+                if other not in near:
                     self.reject(other.finding, "explains less than the accepted cause", None, None)
             chosen = self.simplify(chosen, look)
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
@@ -239,10 +240,26 @@ class Pursuer:
         of_form = 1.0 - np.sqrt(max(1.0 - BEYOND_FORM * explained / look.model.chi_square, 0.0))
         return max(self.relevance, min(SMALLEST_LATER_GAIN, float(of_form)))
 
-    def least_fall(self, look: Look, explained: float) -> float:
-        """The fall of chi square below which not even a refit would make a later cause worth a name."""
+    def worth_a_refit(self, finding: Finding, look: Look, explained: float) -> bool:
+        """Whether a refit may make a later cause worth a name: by its fall of chi square or by that of the error."""
         least = self.least_later_gain(look, explained)
-        return REFIT_MAY_DOUBLE * (1.0 - (1.0 - least) ** 2) * look.model.chi_square
+        least_fall = REFIT_MAY_DOUBLE * (1.0 - (1.0 - least) ** 2) * look.model.chi_square
+        return finding.gain > least_fall or expected_gain(look.columns, finding) > REFIT_MAY_DOUBLE * least
+
+    def holds_as_well(self, other: Trial, trial: Trial, gain: Gain | None, look: Look) -> bool:
+        """Whether a trial that fits like the best one is no worse than this on held-out runs, either.
+
+        Faults of single runs are judged on other pieces than the rest: they do not compare.
+        """
+        if gain is None or any(one.finding.candidate.suspect.local for one in (other, trial)) or other is trial:
+            return True
+        own = self.gain_of(look.model, other.model)
+        if own and own.value <= self.relevance < gain.value:
+            return False
+        steps = [run.drive.dt for run in self.held_out]
+        pair = (misfits_of(one.model, self.held_out) for one in (trial, other))
+        loss = measure_gain(*pair, steps, self.seed)
+        return loss is None or loss.interval[1] > -self.relevance
 
     def try_out(self, finding: Finding, look: Look, beat: float = np.inf) -> Trial:
         """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
