@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -15,10 +15,12 @@ PLACES = 15
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
 MOST = 3
+ONE_CONTACT = 15.0  # longest over shortest yield travel: sliders spread wider are a filler network that softens
+HARDLY_STIFF = 0.03  # of all sliders together: the slow rise of the force of a contact that has slipped
 
 
 class Friction(Cause):
-    """Sliders of one or several yield travels: a single dry contact, or the spread of them in a filled rubber."""
+    """One dry contact: sliders whose yield travels lie within a good decade; a wider spread is softening with amplitude."""
 
     word = "friction"
     kind = "specimen"
@@ -47,5 +49,15 @@ class Friction(Cause):
             lambda limit, travel: {"limit": limit, "stiffness": limit / travel},
             UNITS,
             most=MOST,
+            admits=is_one_contact,
         )
         yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))
+
+
+def is_one_contact(numbers: Mapping[str, float]) -> bool:
+    """Whether the yield travels of all sliders that carry much of the stiffness lie within a good decade."""
+    limits = {key: limit for key, limit in numbers.items() if key.startswith("limit")}
+    stiffness = {key: numbers.get(key.replace("limit", "stiffness"), 0.0) for key in limits}
+    least = HARDLY_STIFF * sum(stiffness.values())
+    travels = [limit / stiffness[key] for key, limit in limits.items() if stiffness[key] > least]
+    return len(travels) < 2 or max(travels) < ONE_CONTACT * min(travels)

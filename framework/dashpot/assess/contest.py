@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -238,7 +239,7 @@ def try_finding(
     if suspect.mends and suspect.sign and np.any(model.mends[-1].strengths <= 0.0):
         failure = "the refit turned its sign, which makes no sense for this cause"
     if not suspect.admits(_new_numbers(base, model, model)):
-        failure = "the refit turned it into its opposite"
+        failure = "what the refit found is not what the cause says, or its opposite"
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 
 
@@ -251,10 +252,19 @@ def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
 
 
 def _new_numbers(base: Model, extended: Model, model: Model) -> dict[str, float]:
-    """The numbers in SI that an extension brought, as they stand in a model, by the last word of their path."""
+    """The numbers in SI that an extension brought, as they stand in a model, by the last word of their path.
+
+    Those of a second branch end in ``_2``, and so on.
+    """
     old = {slot.path for slot in base.fitted.slots()}
     new = {slot.path for slot in extended.fitted.slots()} - old
-    return {slot.path.rpartition(".")[2]: slot.value.number for slot in model.fitted.slots() if slot.path in new}
+    found: dict[str, float] = {}
+    times: Counter[str] = Counter()
+    for slot in (slot for slot in model.fitted.slots() if slot.path in new):
+        word = slot.path.rpartition(".")[2]
+        times[word] += 1
+        found[word if times[word] == 1 else f"{word}_{times[word]}"] = slot.value.number
+    return found
 
 
 def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:

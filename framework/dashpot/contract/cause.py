@@ -84,8 +84,8 @@ class Suspect:
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
     ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
     those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
-    a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths, is
-    still what the cause is about, and not its opposite.
+    a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths
+    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)

@@ -32,5 +32,16 @@ def test_friction_that_depends_on_the_load_goes_one_way(factors, rising, falling
     assert suspect("load_dependent_friction", "dahl falling with deflection").admits(found) is falling
 
 
+@pytest.mark.parametrize(("longest", "admitted"), [(0.2e-3, True), (1.0e-3, True), (5.0e-3, False)])
+def test_sliders_spread_over_decades_are_no_dry_contact(longest, admitted):
+    found = {"limit": 20.0, "stiffness": 20.0 / 0.1e-3, "limit_2": 100.0, "stiffness_2": 100.0 / longest}
+    assert suspect("friction", "prandtl").admits(found) is admitted
+
+
+def test_the_slow_rise_of_a_contact_that_has_slipped_is_still_that_contact():
+    found = {"limit": 70.0, "stiffness": 6e5, "limit_2": 45.0, "stiffness_2": 7e3}
+    assert suspect("friction", "prandtl").admits(found)
+
+
 def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
