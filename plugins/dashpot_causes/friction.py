@@ -20,7 +20,7 @@ HARDLY_STIFF = 0.03  # of all sliders together: the slow rise of the force of a 
 
 
 class Friction(Cause):
-    """One dry contact: sliders whose yield travels lie within a good decade; a wider spread is softening with amplitude."""
+    """One dry contact: sliders whose yield travels lie within a good decade. Wider, they soften with amplitude."""
 
     word = "friction"
     kind = "specimen"
