@@ -15,12 +15,12 @@ PLACES = 15
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
 MOST = 3
-ONE_CONTACT = 15.0  # longest over shortest yield travel: sliders spread wider are a filler network that softens
+ONE_CONTACT = 25.0  # longest over shortest yield travel: sliders spread wider are a filler network that softens
 HARDLY_STIFF = 0.03  # of all sliders together: the slow rise of the force of a contact that has slipped
 
 
 class Friction(Cause):
-    """One dry contact: sliders whose yield travels lie within a good decade. Wider, they soften with amplitude."""
+    """One dry contact: sliders of yield travels within a decade and a half. Wider, they soften with amplitude."""
 
     word = "friction"
     kind = "specimen"
@@ -55,7 +55,7 @@ class Friction(Cause):
 
 
 def is_one_contact(numbers: Mapping[str, float]) -> bool:
-    """Whether the yield travels of all sliders that carry much of the stiffness lie within a good decade."""
+    """Whether the yield travels of all sliders that carry much of the stiffness lie within a decade and a half."""
     limits = {key: limit for key, limit in numbers.items() if key.startswith("limit")}
     stiffness = {key: numbers.get(key.replace("limit", "stiffness"), 0.0) for key in limits}
     least = HARDLY_STIFF * sum(stiffness.values())
