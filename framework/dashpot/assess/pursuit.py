@@ -13,6 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.assess import reasons
 from dashpot.assess.contest import Bench, Model, Trial, admitted, try_finding
 from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, settle_ties, simpler, to_beat
 from dashpot.assess.gain import Gain, measure_gain
@@ -32,15 +33,9 @@ Array = NDArray[np.float64]
 MOST_CAUSES = 5
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
-NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
-SUPERFLUOUS = "superfluous once the later causes are there"
-OPPOSITE = "turned into its opposite once the later causes are there"
-BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"
-SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
-TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
 REFIT_MAY_DOUBLE = 0.5
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 MOST_OTHERS = 2
@@ -119,7 +114,7 @@ class Pursuer:
         accepted, look = self.pursue([], look, first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
-            self.reject(opposite[-1].finding, OPPOSITE, None, None)
+            self.reject(opposite[-1].finding, reasons.OPPOSITE, None, None)
             self.pruned.add(form_of(opposite[-1].finding))
             kept = [entry for entry in accepted if entry is not opposite[-1]]
             model = self.rebuild(kept, look.model, first.model, look.noise)
@@ -185,7 +180,7 @@ class Pursuer:
         if not useless:
             return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
         entry = accepted[useless[-1]]
-        self.reject(entry.finding, NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
+        self.reject(entry.finding, reasons.NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
         kept = [other for other in accepted if other is not entry]
         model = self.rebuild(kept, look.model, first.model, look.noise)
         return self.settle_gains(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
@@ -203,7 +198,7 @@ class Pursuer:
         trials = []
         for finding in finalists:
             if explained and not self.worth_a_refit(finding, look, explained):
-                reason = TOO_LITTLE.format(least=self.least_later_gain(look, explained))
+                reason = reasons.TOO_LITTLE.format(least=self.least_later_gain(look, explained))
                 self.reject(finding, reason, expected_gain(look.columns, finding), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
@@ -221,11 +216,12 @@ class Pursuer:
                 self.reject(trial.finding, reason, foreseen, gain)
                 trials = rest
                 continue
-            near = [other for other in alike(trial, ranked) if self.holds_as_well(other, trial, gain, look)]
+            level = alike(trial, ranked)
+            near = [other for other in level if self.holds_as_well(other, trial, gain, look)]
             chosen, others = settle_ties(near)
-            for other in ranked:
-                if other not in near:
-                    self.reject(other.finding, "explains less than the accepted cause", None, None)
+            for other in (other for other in ranked if other not in near):
+                why = reasons.LOSES_ON_HELD_OUT if other in level else reasons.EXPLAINS_LESS
+                self.reject(other.finding, why, None, None)
             chosen = self.simplify(chosen, look)
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = self.gain_of(look.model, chosen.model)
@@ -284,14 +280,14 @@ class Pursuer:
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
         if not self.holds(look.model, trial.model, gain):
-            return NOT_SUPPORTED
+            return reasons.NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and max(fall, change) < (least := self.least_later_gain(look, explained)):
-            return TOO_LITTLE.format(least=least)
+            return reasons.TOO_LITTLE.format(least=least)
         return ""
 
     def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
@@ -342,7 +338,8 @@ class Pursuer:
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             superfluous = model.chi_square - look.model.chi_square < price + look.screen.threshold
             if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
-                self.reject(accepted[number].finding, SUPERFLUOUS if superfluous else OPPOSITE, None, None)
+                why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
+                self.reject(accepted[number].finding, why, None, None)
                 self.pruned.add(form_of(accepted[number].finding))
                 return self.prune(kept, look_at(self.bench, model, self.causes, look.noise, self.seed), first)
         return accepted, look
@@ -356,7 +353,7 @@ class Pursuer:
                 model = self.rebuild(changed, look.model, first.model, look.noise)
                 price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
                 if model.chi_square - look.model.chi_square < price + TIE:
-                    self.reject(entry.finding, SIMPLER_WILL_DO, None, None)
+                    self.reject(entry.finding, reasons.SIMPLER_WILL_DO, None, None)
                     return changed, look_at(self.bench, model, self.causes, look.noise, self.seed)
         return accepted, look
 
@@ -374,7 +371,7 @@ class Pursuer:
                     continue
                 if (gain := self.gain_of(look.model, trial.model)) and gain.value < 0.0:
                     continue
-                self.reject(entry.finding, BETTER_BESIDE_THE_LATER, None, None)
+                self.reject(entry.finding, reasons.BETTER_BESIDE_THE_LATER, None, None)
                 self.pruned.add(form_of(entry.finding))
                 foreseen = expected_gain(without.columns, finding)
                 instead = Accepted(finding, trial, foreseen, gain, (), base=model)

@@ -1,0 +1,10 @@
+"""Why a candidate was not accepted, in the words of the report."""
+
+EXPLAINS_LESS = "explains less than the accepted cause"
+LOSES_ON_HELD_OUT = "fits as well as the accepted cause, but held-out runs speak for that one"
+NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
+SUPERFLUOUS = "superfluous once the later causes are there"
+OPPOSITE = "turned into its opposite once the later causes are there"
+BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"
+SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
+TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
