@@ -10,9 +10,12 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"stiffness": "N/m", "shortest": "m", "longest": "m"}
+UNITS = {"stiffness": "N/m", "shortest": "m", "longest": "m", "travel": "m", "exponent": "1"}
 SHORTEST = (1e-3, 4e-3, 1.5e-2)  # of the stroke
 LONGEST = (0.3, 1.0, 3.0)
+MIDDLE = (0.01, 0.04, 0.15, 0.6)  # of the stroke
+EXPONENTS = (0.5, 0.8)
+WIDE = (0.35, 1.3)  # a larger exponent is that of one contact
 
 
 class AmplitudeSoftening(Cause):
@@ -30,7 +33,7 @@ class AmplitudeSoftening(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spread of sliders between a shortest and a longest yield travel."""
+        """Sliders spread between a shortest and a longest yield travel; sliders spread around a middle one."""
         spans = [(short * view.stroke, long * view.stroke) for short, long in product(SHORTEST, LONGEST)]
         yield added_branch(
             "iwan",
@@ -43,4 +46,18 @@ class AmplitudeSoftening(Cause):
             },
             UNITS,
             unknowns=2,
+        )
+        bells = [(share * view.stroke, exponent) for share, exponent in product(MIDDLE, EXPONENTS)]
+        yield added_branch(
+            "kraus",
+            "amplitude_softening",
+            tuple(float(number) for number in np.arange(len(bells))),
+            lambda stiffness, place: {
+                "stiffness": stiffness,
+                "travel": bells[int(place)][0],
+                "exponent": bells[int(place)][1],
+            },
+            UNITS,
+            unknowns=2,
+            bounds={"exponent": WIDE},
         )

@@ -50,6 +50,7 @@ class Friction(Cause):
             UNITS,
             most=MOST,
             admits=is_one_contact,
+            imitates=("amplitude_softening",),
         )
         yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))
 

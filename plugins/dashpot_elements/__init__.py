@@ -24,6 +24,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.hydro import Hydro
     from dashpot_elements.inerter import Inerter
     from dashpot_elements.iwan import Iwan
+    from dashpot_elements.kraus import Kraus
     from dashpot_elements.loose_friction import LooseFriction
     from dashpot_elements.maxwell import Maxwell
     from dashpot_elements.mullins import Mullins
@@ -56,6 +57,7 @@ def dashpot_elements() -> list[type]:
         LooseFriction,
         BoucWen,
         Iwan,
+        Kraus,
         BeddingIn,
         Mullins,
         Softening,

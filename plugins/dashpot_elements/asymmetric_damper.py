@@ -9,12 +9,18 @@ import numpy as np
 from dashpot.model.element import Element, Motion, Parameter, Response
 from dashpot.model.picture import Symbol
 
+REST = 1e-3
+
 
 class AsymmetricDamper(Element):
-    """A dashpot with its own damping in compression (v > 0) and rebound: F = damping v/(1 + digression |v|).
+    """A dashpot with its own damping in compression (v > 0) and rebound.
 
-    With a digression of 0 both branches are straight lines. Otherwise 1/digression is the knee velocity, at which the
-    force is half of that of the straight line, and damping/digression the force that it approaches.
+    Each branch is F = damping v r^(exponent - 1)/(1 + digression |v|) with r = |v|/reference.
+
+    With a digression of 0 and an exponent of 1 both branches are straight lines. With an exponent of 1, 1/digression is
+    the knee velocity, at which the force is half of that of the straight line, and damping/digression the force that it
+    approaches. With another exponent the damping is that at the reference velocity; below a thousandth of it the branch
+    goes over into a straight line through zero, so that its slope is finite at rest.
     """
 
     picture = Symbol.DASHPOT
@@ -25,9 +31,19 @@ class AsymmetricDamper(Element):
                                        scale="linear", symbol="g_c", default=0.0)  # fmt: skip
     rebound_digression = Parameter("s/m", "one over the knee velocity in rebound", bounds=(0.0, 1e3), scale="linear",
                                    symbol="g_r", default=0.0)  # fmt: skip
+    compression_exponent = Parameter("1", "power of the velocity in compression", bounds=(0.05, 4.0), scale="linear",
+                                     symbol="n_c", default=1.0)  # fmt: skip
+    rebound_exponent = Parameter("1", "power of the velocity in rebound", bounds=(0.05, 4.0), scale="linear",
+                                 symbol="n_r", default=1.0)  # fmt: skip
+    reference = Parameter("m/s", "velocity at which the dampings are told", bounds=(1e-4, 1e2), symbol="v_r",
+                          default=0.1)  # fmt: skip
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The branch of the velocity at the end of the step."""
         inward, outward = np.maximum(x.velocity_new, 0.0), np.minimum(x.velocity_new, 0.0)
-        compression = p.compression * inward / (1.0 + p.compression_digression * inward)
-        return Response(compression + p.rebound * outward / (1.0 - p.rebound_digression * outward))
+        square = (x.velocity_new / p.reference) ** 2 + REST * REST
+        compression = p.compression * inward * square ** (0.5 * (p.compression_exponent - 1.0))
+        rebound = p.rebound * outward * square ** (0.5 * (p.rebound_exponent - 1.0))
+        return Response(
+            compression / (1.0 + p.compression_digression * inward) + rebound / (1.0 - p.rebound_digression * outward)
+        )

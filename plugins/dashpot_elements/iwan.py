@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.element import Element, Motion, Parameter, Response
 from dashpot.model.picture import Parallel, Series, Symbol
+from dashpot_elements.sliders import energy, slide, stretches
 
 COUNT = 8
 
@@ -29,29 +30,20 @@ class Iwan(Element):
     longest = Parameter("m", "yield travel of the last slider", bounds=(1e-7, 10.0), symbol="t_8")
     slope = Parameter("1", "how the stiffness falls with the travel", bounds=(-2.0, 2.0), scale="linear", symbol="s",
                       default=0.0)  # fmt: skip
-    stretch_1, stretch_2, stretch_3, stretch_4, stretch_5, stretch_6, stretch_7, stretch_8 = (
-        State("m", f"stretch of spring {number}") for number in range(1, COUNT + 1)
-    )
+    stretch_1, stretch_2, stretch_3, stretch_4, stretch_5, stretch_6, stretch_7, stretch_8 = stretches(COUNT)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Every spring takes the travel up to its yield travel."""
         distance = np.log(p.longest / p.shortest) / (COUNT - 1)
-        force, stretches = 0.0, {}
-        for number, weight in enumerate(_weights(p)):
-            travel = p.shortest * np.exp(number * distance)
-            stretch = np.minimum(np.maximum(getattr(z, f"stretch_{number + 1}") + x.travel, -travel), travel)
-            force, stretches[f"stretch_{number + 1}"] = force + weight * stretch, stretch
-        return Response(p.stiffness * force, **stretches)
+        travels = [p.shortest * np.exp(number * distance) for number in range(COUNT)]
+        return slide(x, z, _stiffnesses(p), travels)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of all springs."""
-        stretches = [getattr(z, f"stretch_{number}") for number in range(1, COUNT + 1)]
-        pairs = zip(_weights(p), stretches, strict=True)
-        return 0.5 * p.stiffness * sum(weight * stretch * stretch for weight, stretch in pairs)
+        return energy(z, _stiffnesses(p))
 
 
-def _weights(p: Any) -> list[Any]:
-    """The share of every spring in the stiffness."""
+def _stiffnesses(p: Any) -> list[Any]:
     distance = np.log(p.longest / p.shortest) / (COUNT - 1)
     weights = [np.exp(-p.slope * number * distance) for number in range(COUNT)]
-    return [weight / sum(weights) for weight in weights]
+    return [p.stiffness * weight / sum(weights) for weight in weights]

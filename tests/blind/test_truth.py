@@ -534,8 +534,8 @@ def test_a_run_that_was_asked_for_comes_on_top_of_the_others(tmp_path, seed):
     """The specimen, its effect and the noise of the other runs stay as they are."""
     time = np.arange(0.0, 2.0, 2e-3)
     asked = 20e-3 + 1e-3 * np.sin(2.0 * np.pi * 3.0 * time) * np.minimum(time, 1.0)
-    before = draw_case(seed, "ftire", "friction", folder=tmp_path / "before")
-    after = draw_case(seed, "ftire", "friction", further=further(asked, 2e-3), folder=tmp_path / "after")
+    before = draw_case(seed, "ftire", "friction", 1.0, folder=tmp_path / "before")
+    after = draw_case(seed, "ftire", "friction", 1.0, further=further(asked, 2e-3), folder=tmp_path / "after")
     for path in before.folder.glob("*.npz"):
         one, other = np.load(path), np.load(after.folder / path.name)
         assert all(np.array_equal(one[key], other[key]) for key in "txF")

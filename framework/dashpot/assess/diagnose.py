@@ -8,12 +8,13 @@ from functools import partial
 from typing import Any
 
 from dashpot.assess.contest import Bench, Model
+from dashpot.assess.court import SMALLEST_GAIN, Court
 from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.mend import mended
 from dashpot.assess.misfit import describe_misfit
 from dashpot.assess.misfits import residuals_of
-from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer, Pursuit
+from dashpot.assess.pursuit import Pursuer, Pursuit
 from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.verdict import give_verdict
@@ -67,9 +68,9 @@ def diagnose(
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
                   partial(watch, "screen of all places"))  # fmt: skip
-    pursuer = Pursuer(bench, setting.held_out, list(causes.values()), seed, watch, relevance,
-                      {run.name: run.cluster for run in dataset.runs})  # fmt: skip
-    pursuit = pursuer.run(model_of(fit))
+    court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
+                  {run.name: run.cluster for run in dataset.runs})  # fmt: skip
+    pursuit = Pursuer(court, watch).run(model_of(fit))
     final = known_to(bench, pursuit)
     first = pursuit.ladder[0]
     misfit = describe_misfit(dataset.runs, residuals_of(first, setting.scored))

@@ -8,8 +8,9 @@ from importlib.metadata import version
 from typing import Any
 
 import dashpot
+from dashpot.assess.accepted import Rejection
 from dashpot.assess.misfits import residuals_of
-from dashpot.assess.pursuit import Pursuit, Rejection
+from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting

@@ -16,6 +16,7 @@ COMES_NEAR = 0.4  # of the best fall of chi square
 TIE = 10.0
 TIE_SHARE = 5e-4
 NEARLY = 0.95
+IMITATED = 0.02  # of a fall of chi square: what the form of a single law may be wrong by
 
 
 def form_of(finding: Finding) -> tuple[str, str, str]:
@@ -45,6 +46,16 @@ def alike(trial: Trial, ranked: Sequence[Trial]) -> list[Trial]:
     return [other for other in ranked if other.merit > trial.merit - tie_width(trial) and not other.failure]
 
 
+def imitated(trial: Trial, others: Iterable[Trial]) -> list[Trial]:
+    """The trials whose law another one makes up by several places, though they come as near with fewer numbers."""
+    words = trial.finding.candidate.suspect.imitates if len(trial.finding.atoms) > 1 else ()
+    return [
+        other for other in others
+        if other.finding.candidate.cause.word in words and not other.failure
+        and other.model.numbers < trial.model.numbers and other.gain > (1.0 - IMITATED) * trial.gain
+    ]  # fmt: skip
+
+
 def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
     """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
@@ -65,10 +76,14 @@ def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
     )  # fmt: skip
 
 
-def to_beat(trials: Sequence[Trial], look: Look) -> float:
-    """The chi square from which on a trial comes near the best one so far."""
+def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
+    """The chi square from which on the refit of a finding comes near the best trial so far."""
     best = max(trials, key=lambda trial: trial.merit, default=None)
-    return look.model.chi_square - best.merit + tie_width(best) if best and not best.failure else np.inf
+    if best is None or best.failure:
+        return np.inf
+    may_be_imitated = finding.candidate.cause.word in best.finding.candidate.suspect.imitates
+    width = max(tie_width(best), IMITATED * best.gain if may_be_imitated else 0.0)
+    return look.model.chi_square - best.merit + width
 
 
 def idles(other: Trial, chosen: Trial) -> bool:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any
 
+from dashpot.assess.accepted import Accepted
 from dashpot.assess.gain import HELD_OUT, Gain
 from dashpot.assess.mend import Mend
-from dashpot.assess.pursuit import Accepted, Pursuit
+from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.screen import Candidate
 from dashpot.contract.cause import Cause
 from dashpot.model.network import NetworkSpec, Value

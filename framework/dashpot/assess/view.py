@@ -87,14 +87,17 @@ class ModelView:
         return objective.forces(objective.network.start)[0][0]
 
     def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
-        """The forces (m, n) of an element with each of m sets of values.
+        """The forces (m, n) of an element with each of m sets of values; what a set leaves out has its default.
 
-        Raises InputError for an element that no plugin provides.
+        Raises InputError for an element that no plugin provides and for a value that is missing and has no default.
         """
         if element not in self.elements:
             raise InputError.at(Place(), f"there is no element '{element}'", nearest(element, self.elements))
-        probe = _probe(self.elements[element], tuple(values[0]))
-        lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in values])
+        law = self.elements[element]
+        keys = tuple(dict.fromkeys(key for entry in values for key in entry))
+        complete = [_with_defaults(law, keys, entry) for entry in values]
+        probe = _probe(law, keys)
+        lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in complete])
         return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
 
 
@@ -104,6 +107,14 @@ def view_of(network: NetworkSpec, runs: Sequence[ScoredRun], elements: Mapping[s
     forces = objective.forces(objective.network.start)
     seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
     return ModelView({run.name: run for run in runs}, seen, elements, network)
+
+
+def _with_defaults(law: type[Element], keys: Sequence[str], entry: Mapping[str, float]) -> dict[str, float]:
+    parameters = law.declares.parameters
+    given = {key: entry.get(key, parameters[key].default if key in parameters else None) for key in keys}
+    if missing := [key for key, value in given.items() if value is None]:
+        raise InputError.at(Place(), f"'{missing[0]}' is missing in a set of values, and it has no default")
+    return {key: float(value) for key, value in given.items() if value is not None}
 
 
 @lru_cache(maxsize=64)

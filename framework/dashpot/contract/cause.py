@@ -85,7 +85,9 @@ class Suspect:
     ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
     those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
     a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths
-    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite.
+    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite. ``imitates`` are
+    the words of causes whose law several places of the grid make up by their sum: one of these that explains nearly as
+    much by fewer numbers is the cause.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -107,6 +109,7 @@ class Suspect:
     unit: str = ""
     tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
+    imitates: tuple[str, ...] = ()
 
 
 class Cause(ABC):
@@ -152,11 +155,12 @@ def added_branch(
     fixed: Sequence[str] = (),
     bounds: Mapping[str, Pair] = NOTHING,
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
+    imitates: Sequence[str] = (),
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
-    ``admits`` is that of the suspect.
+    ``admits`` and ``imitates`` are those of the suspect.
 
     Examples:
         >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
@@ -178,7 +182,7 @@ def added_branch(
     quantity = next(iter(values(1.0, grid[0])))
     return Suspect(
         element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
-        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits,
+        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits, imitates=tuple(imitates),
     )  # fmt: skip
 
 

@@ -6,8 +6,8 @@ from scipy.interpolate import CubicSpline
 from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 
 from dashpot.assess.contest import Bench, try_finding
+from dashpot.assess.court import Court
 from dashpot.assess.noise import flat_noise
-from dashpot.assess.pursuit import Pursuer
 from dashpot.assess.suspicion import linear_view, look_at
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import prepare
@@ -96,13 +96,13 @@ def test_held_out_runs_judge_in_white_noise_where_coloured_noise_hides_a_gain(rn
     slow = 50.0 * np.sin(2.0 * np.pi * 0.2 * TIME[-held_out[0].samples :])
     fast = 2.0 * rng.standard_normal(slow.size)
     misfits = {"before": slow + fast, "better": 1.01 * slow + 0.5 * fast, "worse": 1.01 * slow + 1.2 * fast}
-    monkeypatch.setattr("dashpot.assess.pursuit.misfits_of", lambda model, runs: [misfits[model]])
-    monkeypatch.setattr("dashpot.assess.pursuit.runs_that_show", lambda *asked: ())
-    pursuer = Pursuer(bench, held_out, (), 0, print)
+    monkeypatch.setattr("dashpot.assess.court.misfits_of", lambda model, runs: [misfits[model]])
+    monkeypatch.setattr("dashpot.assess.court.runs_that_show", lambda *asked: ())
+    court = Court(bench, held_out, (), 0)
     for after, holds in (("better", True), ("worse", False)):
-        gain = pursuer.gain_of(*(SimpleModel(name) for name in ("before", after)))
+        gain = court.gain_of(*(SimpleModel(name) for name in ("before", after)))
         assert gain.value < 0.0
-        assert pursuer.holds("before", after, gain) is holds
+        assert court.holds("before", after, gain) is holds
 
 
 class SimpleModel(str):

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dashpot.assess.court import SMALLEST_GAIN, Court
 from dashpot.assess.misfits import share_of_change
-from dashpot.assess.pursuit import SMALLEST_GAIN, Pursuer
 from dashpot.assess.screen import Limit
 
 BEFORE = 1e6
@@ -16,13 +16,13 @@ BEFORE = 1e6
 
 def refusal(fall: float, **relevance: float) -> str:
     """Why a trial whose training error is smaller by the share ``fall`` is refused."""
-    pursuer = Pursuer(None, (), (), 0, print, **relevance)
+    court = Court(None, (), (), 0, **relevance)
     after = BEFORE * (1.0 - fall) ** 2
     trial = SimpleNamespace(
         failure="", merit=BEFORE - after, gain=BEFORE - after, model=SimpleNamespace(chi_square=after)
     )
     look = SimpleNamespace(screen=SimpleNamespace(threshold=10.0), model=SimpleNamespace(chi_square=BEFORE))
-    return pursuer.objection(trial, None, fall, look, 0.0)
+    return court.objection(trial, None, fall, look, 0.0)
 
 
 @pytest.mark.parametrize(("fall", "relevance", "refused"), [(0.04, 0.05, True), (0.06, 0.05, False)])

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dashpot.assess import pursuit
+from dashpot.assess import court
+from dashpot.assess.court import Court
 from dashpot.assess.gain import Gain
-from dashpot.assess.pursuit import Pursuer
 
 STEP, SAMPLES = 1e-3, 20000
 
@@ -19,11 +19,11 @@ def trial(error, local=False):
 
 
 @pytest.fixture
-def pursuer(monkeypatch):
+def judging(monkeypatch):
     noise = np.random.default_rng().standard_normal(SAMPLES)
-    monkeypatch.setattr(pursuit, "misfits_of", lambda error, runs: [error * noise])
+    monkeypatch.setattr(court, "misfits_of", lambda error, runs: [error * noise])
     runs = [SimpleNamespace(drive=SimpleNamespace(dt=STEP))]
-    return Pursuer(bench=None, held_out=runs, causes=(), seed=0, watch=lambda words, done: None)
+    return Court(bench=None, held_out=runs, causes=(), seed=0)
 
 
 @pytest.mark.parametrize(("own", "error", "local", "holds"), [
@@ -33,8 +33,8 @@ def pursuer(monkeypatch):
     (0.001, 1.0, False, False),
     (0.001, 1.02, True, True),
 ])  # fmt: skip
-def test_a_tie_is_none_where_held_out_runs_tell_the_two_apart(pursuer, monkeypatch, own, error, local, holds):
+def test_a_tie_is_none_where_held_out_runs_tell_the_two_apart(judging, monkeypatch, own, error, local, holds):
     """``own`` is the gain of the other trial, ``error`` what it leaves where the best one leaves 1 N."""
-    monkeypatch.setattr(Pursuer, "gain_of", lambda self, before, after: Gain(own, (own, own)))
+    monkeypatch.setattr(Court, "gain_of", lambda self, before, after: Gain(own, (own, own)))
     look = SimpleNamespace(model=2.0)
-    assert pursuer.holds_as_well(trial(error, local), trial(1.0), Gain(0.3, (0.25, 0.35)), look) is holds
+    assert judging.holds_as_well(trial(error, local), trial(1.0), Gain(0.3, (0.25, 0.35)), look) is holds

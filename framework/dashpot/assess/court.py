@@ -1,0 +1,170 @@
+"""Judging the refitted candidates: on the runs that were fitted, and on those that nobody fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from dashpot.assess import reasons
+from dashpot.assess.accepted import Accepted, Rejection
+from dashpot.assess.contest import Bench, Model, Trial, try_finding
+from dashpot.assess.finalists import form_of
+from dashpot.assess.gain import Gain, measure_gain
+from dashpot.assess.misfits import crossed_misfits, misfits_of, pooled, share_of_change
+from dashpot.assess.noise import NoiseModel, learn_noise
+from dashpot.assess.screen import Finding
+from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
+from dashpot.assess.turns import gain_in_turns, runs_that_show
+from dashpot.contract.cause import Cause
+from dashpot.fit.scored import ScoredRun
+from dashpot.model.reading import parse_network
+
+SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
+FORM_ERROR = 0.05
+SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
+SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
+BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
+REFIT_MAY_DOUBLE = 0.5
+HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
+
+
+@dataclass(eq=False)
+class Court:
+    """Refits candidates and judges them; knows what was turned down.
+
+    ``relevance`` is the share by which a cause has to make the training error smaller to be of interest; ``groups``
+    says by run which runs repeat one another. Forms that are ``barred`` do not come back.
+    """
+
+    bench: Bench
+    held_out: Sequence[ScoredRun]
+    causes: Sequence[type[Cause]]
+    seed: int
+    relevance: float = SMALLEST_GAIN
+    groups: Mapping[str, str] = field(default_factory=dict)
+    rejected: list[Rejection] = field(default_factory=list)
+    barred: set[tuple[str, str, str]] = field(default_factory=set)
+
+    def look(self, model: Model, noise: NoiseModel | None) -> Look:
+        """What is left of a model, and every suspect against it."""
+        return look_at(self.bench, model, self.causes, noise, self.seed)
+
+    def admissible(self, look: Look) -> list[Finding]:
+        """What a look has found, but for the forms that are barred."""
+        return [finding for finding in look.screen.findings if form_of(finding) not in self.barred]
+
+    def bar(self, entry: Accepted, reason: str) -> None:
+        """Take back what was accepted, for good."""
+        self.reject(entry.finding, reason, None, None)
+        self.barred.add(form_of(entry.finding))
+
+    def try_out(self, finding: Finding, look: Look, beat: float = np.inf) -> Trial:
+        """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
+        return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, beat)
+
+    def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
+        """The first model with the patches of some causes, refitted from the present numbers."""
+        text = first.declared.text
+        for entry in kept:
+            text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
+        declared = parse_network(text, self.bench.elements, first.declared.file)
+        known = [entry.finding for entry in kept]
+        mends = [mend for mend in model.mends if any(mend.finding is finding for finding in known)]
+        return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise, mends)
+
+    def examine(self, trial: Trial, look: Look, explained: float) -> tuple[Gain | None, str]:
+        """The gain of a trial on held-out runs, and why it may not be accepted, or an empty text."""
+        gain = self.gain_of(look.model, trial.model)
+        change = share_of_change(look.model, trial.model, self.bench.runs)
+        return gain, self.objection(trial, gain, change, look, explained)
+
+    def objection(self, trial: Trial, gain: Gain | None, change: float, look: Look, explained: float) -> str:
+        """Why a trial may not be accepted, or an empty text.
+
+        ``change`` is what it makes of the plain error, ``explained`` the fall of chi square so far.
+        """
+        if trial.failure:
+            return trial.failure
+        if trial.merit <= look.screen.threshold:
+            return "after the refit it explains no more than its own parameters would by chance"
+        if not self.holds(look.model, trial.model, gain):
+            return reasons.NOT_SUPPORTED
+        fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
+        if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
+            return "explains no more than the accepted causes may be wrong by in their form"
+        if change < self.relevance:
+            return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
+        if explained and max(fall, change) < (least := self.least_later_gain(look, explained)):
+            return reasons.TOO_LITTLE.format(least=least)
+        return ""
+
+    def least_later_gain(self, look: Look, explained: float) -> float:
+        """The share by which a later cause has to make the error smaller to be worth a name.
+
+        Where much is ``explained`` (fall of chi square) its form may be wrong by as much; where little is, it can not.
+        """
+        of_form = 1.0 - np.sqrt(max(1.0 - BEYOND_FORM * explained / look.model.chi_square, 0.0))
+        return max(self.relevance, min(SMALLEST_LATER_GAIN, float(of_form)))
+
+    def worth_a_refit(self, finding: Finding, look: Look, explained: float) -> bool:
+        """Whether a refit may make a later cause worth a name: by its fall of chi square or by that of the error."""
+        least = self.least_later_gain(look, explained)
+        least_fall = REFIT_MAY_DOUBLE * (1.0 - (1.0 - least) ** 2) * look.model.chi_square
+        return finding.gain > least_fall or expected_gain(look.columns, finding) > REFIT_MAY_DOUBLE * least
+
+    def holds_as_well(self, other: Trial, trial: Trial, gain: Gain | None, look: Look) -> bool:
+        """Whether a trial that fits like the best one is no worse than this on held-out runs, either.
+
+        Faults of single runs are judged on other pieces than the rest: they do not compare.
+        """
+        if gain is None or any(one.finding.candidate.suspect.local for one in (other, trial)) or other is trial:
+            return True
+        own = self.gain_of(look.model, other.model)
+        if own and own.value <= self.relevance < gain.value:
+            return False
+        steps = [run.drive.dt for run in self.held_out]
+        pair = (misfits_of(one.model, self.held_out) for one in (trial, other))
+        loss = measure_gain(*pair, steps, self.seed)
+        return loss is None or loss.interval[1] > -self.relevance
+
+    def gain_of(self, before: Model, after: Model) -> Gain | None:
+        """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it.
+
+        Where these show the cause but weakly, runs that show it take turns in being held out; they may only speak for
+        it, as what is left without them may not be enough to find it.
+        """
+        local = [
+            mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
+        ]
+        if local:
+            seen = any(run.name in mend.shapes for mend in local for run in self.bench.runs)
+            runs = self.bench.runs if seen else self.held_out
+            crossed = crossed_misfits(after, runs, local)
+            return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
+        steps = [run.drive.dt for run in self.held_out]
+        gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
+        if gain is None or not -HARMLESS < gain.value <= self.relevance:
+            return gain
+        shown = runs_that_show(before, after, self.bench)
+        turned = gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else None
+        return turned if turned and turned.value > self.relevance else gain
+
+    def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
+        """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""
+        if gain is None or gain.value > 0.0:
+            return True
+        if gain.value < -HARMLESS:
+            return False
+        first, second = misfits_of(before, self.held_out), misfits_of(after, self.held_out)
+        names = [run.name for run in self.held_out]
+        noise = learn_noise(dict(zip(names, first, strict=True)), resolution(replace(self.bench, runs=self.held_out)))
+        white = [pooled(map(noise.whiten, names, misfits)) for misfits in (first, second)]
+        return white[1] < white[0]
+
+    def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
+        """Note a candidate that did not hold, with the reason."""
+        candidate = finding.candidate
+        value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
+        self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))

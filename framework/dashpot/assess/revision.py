@@ -1,0 +1,82 @@
+"""Looking again at what was accepted, once a later cause is there: some owed their place to what was still missing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from dashpot.assess import reasons
+from dashpot.assess.accepted import Accepted
+from dashpot.assess.contest import Model, admitted
+from dashpot.assess.court import REFIT_MAY_DOUBLE, Court
+from dashpot.assess.finalists import TIE, choose_finalists
+from dashpot.assess.screen import Finding
+from dashpot.assess.suspicion import Look, expected_gain
+
+MOST_OTHERS = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Revision:
+    """Revises accepted causes before a court; ``first`` is the model without any of them."""
+
+    court: Court
+    first: Model
+
+    def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """The causes that stay, or others in their places, and a look at the model with them."""
+        return self.exchange(*self.prune(*self.reconsider(accepted, look)))
+
+    def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """Drop an earlier cause that a later one made superfluous, or its opposite; its form does not come back."""
+        for number in range(len(accepted) - 1):
+            kept = [*accepted[:number], *accepted[number + 1 :]]
+            model = self.court.rebuild(kept, look.model, self.first, look.noise)
+            price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
+            superfluous = model.chi_square - look.model.chi_square < price + look.screen.threshold
+            if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
+                why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
+                self.court.bar(accepted[number], why)
+                return self.prune(kept, self.court.look(model, look.noise))
+        return accepted, look
+
+    def reconsider(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """Put a simpler cause in the place of an earlier one that owed its lead to what a later one explains."""
+        for number, entry in enumerate(accepted[:-1]):
+            for trial in entry.simpler:
+                instead = replace(entry, finding=trial.finding, trial=trial, rivals=(), others=(), simpler=())
+                changed = [*accepted[:number], instead, *accepted[number + 1 :]]
+                model = self.court.rebuild(changed, look.model, self.first, look.noise)
+                price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
+                if model.chi_square - look.model.chi_square < price + TIE:
+                    self.court.reject(entry.finding, reasons.SIMPLER_WILL_DO, None, None)
+                    return changed, self.court.look(model, look.noise)
+        return accepted, look
+
+    def exchange(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """Put another cause in the place of an earlier one that won only because a later one was still missing."""
+        for number, entry in enumerate(accepted[:-1]):
+            kept = [*accepted[:number], *accepted[number + 1 :]]
+            model = self.court.rebuild(kept, look.model, self.first, look.noise)
+            without = self.court.look(model, look.noise)
+            fall = model.chi_square - look.model.chi_square
+            for finding in self.others_than(entry, without, fall):
+                trial = self.court.try_out(finding, replace(look, model=model))
+                price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
+                if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
+                    continue
+                if (gain := self.court.gain_of(look.model, trial.model)) and gain.value < 0.0:
+                    continue
+                self.court.bar(entry, reasons.BETTER_BESIDE_THE_LATER)
+                foreseen = expected_gain(without.columns, finding)
+                instead = Accepted(finding, trial, foreseen, gain, (), base=model)
+                changed = [*accepted[:number], instead, *accepted[number + 1 :]]
+                return changed, self.court.look(trial.model, look.noise)
+        return accepted, look
+
+    def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
+        """The few findings of other causes that promise most of a fall of chi square."""
+        name = entry.finding.candidate.name
+        found = choose_finalists(self.court.admissible(look), look)
+        return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
