@@ -77,13 +77,14 @@ def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
 
 
 def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
-    """The chi square from which on the refit of a finding comes near the best trial so far."""
+    """The chi square from which on the refit of a finding comes near the best trial so far.
+
+    A law that this one may imitate is refitted to its end.
+    """
     best = max(trials, key=lambda trial: trial.merit, default=None)
-    if best is None or best.failure:
+    if best is None or best.failure or finding.candidate.cause.word in best.finding.candidate.suspect.imitates:
         return np.inf
-    may_be_imitated = finding.candidate.cause.word in best.finding.candidate.suspect.imitates
-    width = max(tie_width(best), IMITATED * best.gain if may_be_imitated else 0.0)
-    return look.model.chi_square - best.merit + width
+    return look.model.chi_square - best.merit + tie_width(best)
 
 
 def idles(other: Trial, chosen: Trial) -> bool:
