@@ -85,6 +85,17 @@ def test_a_digressive_damper_has_half_the_force_at_its_knee():
     assert x.size == 4000
 
 
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.8])
+def test_an_asymmetric_damper_has_the_equivalent_damping_of_a_power_in_each_direction(exponent):
+    amplitude, frequency, reference = 5e-3, 4.0, 0.05
+    speed = 2.0 * np.pi * frequency * amplitude
+    _, _, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 20_000, compression=1e-2, rebound=800.0,
+                        rebound_exponent=exponent, reference=reference)  # fmt: skip
+    # the integral of cos^(n + 1) over the half of the cycle that goes out
+    half = np.sqrt(np.pi) * gamma(0.5 * exponent + 1.0) / gamma(0.5 * exponent + 1.5)
+    assert b[0] == pytest.approx(800.0 * reference * (speed / reference) ** exponent * half / np.pi, rel=1e-4)
+
+
 @pytest.mark.parametrize("exponent", [0.2, 0.5, 1.0, 1.7, 3.0])
 def test_a_power_law_damper_has_the_equivalent_damping_of_a_sine(exponent):
     amplitude, frequency = 5e-3, 5.0
@@ -144,6 +155,26 @@ def test_an_iwan_element_softens_by_its_stiffness_per_decade():
     small, large = (dynamic_stiffness("iwan", x, 3.0, 3, 2000, stiffness=1e5, shortest=1e-4, longest=1e-2)
                     for x in (4e-4, 4e-3))  # fmt: skip
     assert small.real - large.real == pytest.approx(1e5 / 8 * 7 / 2, rel=0.03)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0])
+@pytest.mark.parametrize("amplitude", [2e-5, 3e-4, 2e-3, 2e-2])
+def test_a_kraus_element_is_a_sum_of_springs_behind_sliders(amplitude, exponent):
+    shares = np.linspace(0.05, 0.95, 10)
+    travels = 1e-3 * (shares / (1.0 - shares)) ** (1.0 / exponent)
+    expected = sum(jenkin(1e4, t, amplitude) for t in travels)
+    found = dynamic_stiffness("kraus", amplitude, 3.0, 3, 6000, stiffness=1e5, travel=1e-3, exponent=exponent)
+    assert abs(found - expected) < 1e-6 * 1e5
+
+
+@pytest.mark.parametrize("exponent", [0.6, 1.0])
+def test_the_tangent_of_a_kraus_element_falls_by_the_curve_of_broken_contacts(exponent):
+    """From rest to a deflection x each spring carries min(x, t_i): the slope is the share that has not slipped."""
+    x, step = np.array([0.05, 0.3, 1.0, 3.0]) * 1e-3, 1e-6
+    ends = np.array([last_cycle("kraus", end, 3.0, 1, 4, stiffness=1e5, travel=1e-3, exponent=exponent)[2][0]
+                     for end in np.concatenate([x - step, x + step])])  # fmt: skip
+    slope = np.diff(ends.reshape(2, -1), axis=0)[0] / (2.0 * step)
+    assert slope == pytest.approx(1e5 / (1.0 + (x / 1e-3) ** exponent), abs=0.051 * 1e5)
 
 
 def test_a_specimen_beds_in_once():
