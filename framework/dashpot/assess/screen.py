@@ -142,12 +142,16 @@ class Limit:
 
 @dataclass(frozen=True, eq=False)
 class Screen:
-    """All findings, best first; a merit above ``threshold`` is significant."""
+    """All findings, best first; a merit above ``threshold`` is significant.
+
+    ``together`` is the fall of chi square of all suspects at once, less what that of pure noise would be.
+    """
 
     findings: tuple[Finding, ...]
     threshold: float
     samples: int
     limits: tuple[Limit, ...]
+    together: float = 0.0
 
     @property
     def best(self) -> Finding | None:
@@ -201,7 +205,14 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
-    return Screen(tuple(ordered), threshold, projected.samples, _limits(columns, projected, threshold))
+    limits = _limits(columns, projected, threshold)
+    return Screen(tuple(ordered), threshold, projected.samples, limits, _together(projected))
+
+
+def _together(projected: Projected) -> float:
+    usable = np.diag(projected.spread) > KEPT * projected.original
+    inverse, rank = _inverse(projected.spread[np.ix_(usable, usable)])
+    return float(projected.scores[usable] @ inverse @ projected.scores[usable]) - rank
 
 
 def _judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding | None:
