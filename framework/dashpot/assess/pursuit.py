@@ -6,6 +6,7 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -16,7 +17,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import FORM_ERROR, SMALLEST_LATER_GAIN, Court
-from dashpot.assess.finalists import alike, choose_finalists, imitated, settle_ties, simpler, to_beat
+from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, imitated, settle_ties, simpler, to_beat
 from dashpot.assess.misfits import plainly_strong, pooled
 from dashpot.assess.revision import Revision
 from dashpot.assess.suspicion import Look, expected_gain
@@ -56,7 +57,7 @@ class Pursuer:
         court = self.court
         self.watch("first look", 0.0)
         first = look = court.look(model, None)
-        accepted, look = self.pursue([], look, first)
+        accepted, look = self.another_way(*self.pursue([], look, first), first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
             court.bar(opposite[-1], reasons.OPPOSITE)
@@ -81,6 +82,24 @@ class Pursuer:
             look = self.court.look(winner.trial.model, look.noise)
             accepted, look = revision.revise([*accepted, winner], look)
         return accepted, look
+
+    def another_way(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """What is found without a cause that was accepted twice, if it is better: two of a kind may imitate others."""
+        twice = _twice(accepted)
+        if not twice:
+            return accepted, look
+        forms = {form_of(finding) for finding in first.screen.findings if finding.candidate.name in twice}
+        other = Pursuer(replace(self.court, rejected=[], barred=self.court.barred | forms), self.watch)
+        instead, seen = other.pursue([], first, first)
+        self.tried += other.tried
+        price = (seen.model.numbers - look.model.numbers) * np.log(look.screen.samples)
+        if _twice(instead) or seen.model.chi_square + price + TIE > look.model.chi_square:
+            return accepted, look
+        for entry in (entry for entry in accepted if entry.finding.candidate.name in twice):
+            self.court.bar(entry, reasons.BETTER_WITHOUT)
+        self.court.barred |= forms
+        self.court.rejected.extend(other.court.rejected)
+        return instead, seen
 
     def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
         """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
@@ -185,3 +204,8 @@ class Pursuer:
         fewer = trial.finding.without_last()
         simpler = self.court.try_out(fewer, look)
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
+
+
+def _twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
+    names = Counter(entry.finding.candidate.name for entry in accepted)
+    return {name for name, count in names.items() if count > 1}

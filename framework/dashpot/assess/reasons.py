@@ -7,5 +7,6 @@ NOT_SUPPORTED = "does not make the held-out runs better: not supported by the da
 SUPERFLUOUS = "superfluous once the later causes are there"
 OPPOSITE = "turned into its opposite once the later causes are there"
 BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"
+BETTER_WITHOUT = "twice it imitates what other causes explain better"
 SIMPLER_WILL_DO = "a simpler cause does as well once the later causes are there"
 TOO_LITTLE = "makes the training runs better by less than {least:.2%}: too little to name it beside what is named"
