@@ -26,6 +26,8 @@ FORM_ERROR = 0.05
 SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
+ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is shared out among many
+BEYOND_FORM_ALONE = 0.007
 REFIT_MAY_DOUBLE = 0.5
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
@@ -96,21 +98,23 @@ class Court:
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
-        if explained and max(fall, change) < (least := self.least_later_gain(look, explained)):
+        if explained and max(fall, change) < (least := self.least_later_gain(trial.finding, look, explained)):
             return reasons.TOO_LITTLE.format(least=least)
         return ""
 
-    def least_later_gain(self, look: Look, explained: float) -> float:
+    def least_later_gain(self, finding: Finding, look: Look, explained: float) -> float:
         """The share by which a later cause has to make the error smaller to be worth a name.
 
-        Where much is ``explained`` (fall of chi square) its form may be wrong by as much; where little is, it can not.
+        Where much is ``explained`` (fall of chi square) its form may be wrong by as much; where little is, it can not,
+        nor where one suspect explains nearly all that is left.
         """
-        of_form = 1.0 - np.sqrt(max(1.0 - BEYOND_FORM * explained / look.model.chi_square, 0.0))
-        return max(self.relevance, min(SMALLEST_LATER_GAIN, float(of_form)))
+        alone = finding.gain > ALL_OF_IT * look.screen.together
+        beyond = (BEYOND_FORM_ALONE if alone else BEYOND_FORM) * explained / look.model.chi_square
+        return max(self.relevance, min(SMALLEST_LATER_GAIN, float(1.0 - np.sqrt(max(1.0 - beyond, 0.0)))))
 
     def worth_a_refit(self, finding: Finding, look: Look, explained: float) -> bool:
         """Whether a refit may make a later cause worth a name: by its fall of chi square or by that of the error."""
-        least = self.least_later_gain(look, explained)
+        least = self.least_later_gain(finding, look, explained)
         least_fall = REFIT_MAY_DOUBLE * (1.0 - (1.0 - least) ** 2) * look.model.chi_square
         return finding.gain > least_fall or expected_gain(look.columns, finding) > REFIT_MAY_DOUBLE * least
 

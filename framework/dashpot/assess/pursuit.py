@@ -189,7 +189,7 @@ class Pursuer:
         trials: list[Trial] = []
         for finding in choose_finalists(court.admissible(look), look):
             if explained and not court.worth_a_refit(finding, look, explained):
-                reason = reasons.TOO_LITTLE.format(least=court.least_later_gain(look, explained))
+                reason = reasons.TOO_LITTLE.format(least=court.least_later_gain(finding, look, explained))
                 court.reject(finding, reason, expected_gain(look.columns, finding), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
