@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -11,7 +13,11 @@ from dashpot.model.network import NetworkSpec
 
 PLACES = 9
 SHARE = 0.5  # of the reach, from either end
+DEPTH = 0.1  # of the reach: where the stiffness of a progressive buffer is told
+EXPONENT = 2.0
+EXPONENTS = (1.0, 4.0)
 FAR = 1e3  # m
+Numbers = Callable[[float, float], Mapping[str, float]]
 
 
 class EndStop(Cause):
@@ -27,16 +33,20 @@ class EndStop(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A buffer beyond a deflection near either end; in compression a positive one, in rebound a negative one."""
+        """A linear and a progressive buffer beyond a deflection near either end, if that is on its side of zero."""
         low, high = view.reach
         places = np.linspace(0.0, SHARE * (high - low), PLACES + 1)[1:]
         upper = tuple(place for place in high - places if place > 0.0)
         lower = tuple(place for place in low + places if place < 0.0)
-        units = {"stiffness": "N/m", "compression": "m", "rebound": "m"}
-        if upper:
-            yield added_branch("end_stop", "end_stop", upper, _compression, units)
-        if lower:
-            yield added_branch("end_stop", "end_stop", lower, _rebound, units, fixed=("compression",))
+        units = {"stiffness": "N/m", "compression": "m", "rebound": "m", "exponent": "1", "reference": "m"}
+        reference = float(f"{DEPTH * (high - low):.2g}")
+        for places, numbers, fixed in ((upper, _compression, ()), (lower, _rebound, ("compression",))):
+            if places:
+                yield added_branch("end_stop", "end_stop", places, numbers, units, fixed=fixed)
+                progressive = partial(_progressive, numbers, reference)
+                stop = added_branch("end_stop", "end_stop", places, progressive, units, fixed=(*fixed, "reference"),
+                                    unknowns=2, bounds={"exponent": EXPONENTS})  # fmt: skip
+                yield replace(stop, form="a progressive buffer")
 
 
 def _compression(stiffness: float, place: float) -> dict[str, float]:
@@ -45,3 +55,7 @@ def _compression(stiffness: float, place: float) -> dict[str, float]:
 
 def _rebound(stiffness: float, place: float) -> dict[str, float]:
     return {"stiffness": stiffness, "rebound": place, "compression": FAR}
+
+
+def _progressive(numbers: Numbers, reference: float, stiffness: float, place: float) -> dict[str, float]:
+    return {**numbers(stiffness, place), "exponent": EXPONENT, "reference": reference}

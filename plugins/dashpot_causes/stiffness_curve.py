@@ -25,6 +25,7 @@ class StiffnessCurve(Cause):
     about = "shape of the stiffness curve"
     shows = "storage stiffness is wrong at some preloads at every frequency; even harmonics in phase with deflection"
     confused_with = {
+        "end_stop": "a finer quasi-static loop: a stop has one knee, a curve bends everywhere",
         "preload_dependent_damping": "the quasi-static curve: damping does not show in it",
     }
 
@@ -32,7 +33,8 @@ class StiffnessCurve(Cause):
         """A correction curve through few or through many knots over the covered deflections."""
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
-            yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0)
+            yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0,
+                          imitates=("end_stop",))  # fmt: skip
 
 
 @dataclass(frozen=True)

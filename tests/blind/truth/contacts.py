@@ -49,6 +49,22 @@ class Bumper(Stop):
         return np.expm1(np.maximum(motion.displacement - self.place, 0.0) / self.length)
 
 
+@dataclass(frozen=True)
+class SoftBumper(Stop):
+    """exp(r) - 1 - r with the depth r over a length: no kink where it is touched."""
+
+    place: float
+    length: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator) -> Self:
+        return cls(rng.uniform(20e-3, 29e-3), log_uniform(rng, 2e-3, 6e-3))
+
+    def shape(self, motion: Motion) -> np.ndarray:
+        depth = np.maximum(motion.displacement - self.place, 0.0) / self.length
+        return np.expm1(depth) - depth
+
+
 class Play(Proportional):
     """Any of the forms; the size is a stiffness."""
 
@@ -100,5 +116,5 @@ class SoftLostMotion(Play):
         return 0.5 * both - motion.displacement
 
 
-STOP_FORMS = (Hertz, Bumper)
+STOP_FORMS = (Hertz, Bumper, SoftBumper)
 PLAY_FORMS = (LostMotion, SoftLostMotion)

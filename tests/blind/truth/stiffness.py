@@ -42,22 +42,6 @@ class Knee(StiffnessCurve):
 
 
 @dataclass(frozen=True)
-class ExponentialStop(StiffnessCurve):
-    """exp(r) - 1 - r with r = (x - begin) / length, from `begin` on."""
-
-    begin: float
-    length: float
-
-    @classmethod
-    def draw(cls, rng: np.random.Generator) -> Self:
-        return cls(rng.uniform(20e-3, 29e-3), log_uniform(rng, 2e-3, 6e-3))
-
-    def curve(self, deflection: np.ndarray) -> np.ndarray:
-        reach = np.maximum(deflection - self.begin, 0.0) / self.length
-        return np.expm1(reach) - reach
-
-
-@dataclass(frozen=True)
 class Ripple(StiffnessCurve):
     """sin(2 pi x / length + angle)."""
 
@@ -81,10 +65,10 @@ class PowerLaw(StiffnessCurve):
 
     @classmethod
     def draw(cls, rng: np.random.Generator) -> Self:
-        return cls(rng.uniform(10e-3, 26e-3), rng.uniform(1.3, 3.0))
+        return cls(rng.uniform(4e-3, 12e-3), rng.uniform(1.3, 3.0))
 
     def curve(self, deflection: np.ndarray) -> np.ndarray:
         return (np.maximum(deflection - self.begin, 0.0) / 10e-3) ** self.power
 
 
-FORMS = (Knee, ExponentialStop, Ripple, PowerLaw)
+FORMS = (Knee, Ripple, PowerLaw)
