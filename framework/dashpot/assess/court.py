@@ -12,11 +12,11 @@ from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.finalists import form_of
 from dashpot.assess.gain import Gain, measure_gain
-from dashpot.assess.misfits import crossed_misfits, misfits_of, pooled, share_of_change
+from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
-from dashpot.assess.turns import gain_in_turns, runs_that_show
+from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
 from dashpot.fit.scored import ScoredRun
 from dashpot.model.reading import parse_network
@@ -136,24 +136,22 @@ class Court:
     def gain_of(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; that of a fault of single runs on pieces of these that did not find it.
 
-        Where these show the cause but weakly, runs that show it take turns in being held out; they may only speak for
-        it, as what is left without them may not be enough to find it.
+        Where held-out runs show the cause but weakly, runs that show it take turns in being held out, then, if it is a
+        fault, pieces of them; they may only speak for it, as what is left without them may not be enough to find it.
         """
-        local = [
-            mend for mend in after.mends if mend.local and not any(mend.finding is old.finding for old in before.mends)
-        ]
-        if local:
+        new = [mend for mend in after.mends if not any(mend.finding is old.finding for old in before.mends)]
+        if local := [mend for mend in new if mend.local]:
             seen = any(run.name in mend.shapes for mend in local for run in self.bench.runs)
-            runs = self.bench.runs if seen else self.held_out
-            crossed = crossed_misfits(after, runs, local)
-            return measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], self.seed)
+            return gain_on_pieces(before, after, self.bench.runs if seen else self.held_out, local, self.seed)
         steps = [run.drive.dt for run in self.held_out]
         gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
         if gain is None or not -HARMLESS < gain.value <= self.relevance:
             return gain
         shown = runs_that_show(before, after, self.bench)
-        turned = gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else None
-        return turned if turned and turned.value > self.relevance else gain
+        other = gain_in_turns(self.bench, before, after, shown, self.groups, self.seed) if shown else None
+        if shown and new and not (other and other.value > self.relevance):
+            other = gain_on_pieces(before, after, [run for run in self.bench.runs if run.name in shown], new, self.seed)
+        return other if other and other.value > self.relevance else gain
 
     def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""

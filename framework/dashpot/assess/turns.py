@@ -1,4 +1,4 @@
-"""The gain of a cause that held-out runs hardly show: runs that show it take turns in being held out."""
+"""The gain of a cause that held-out runs hardly show: runs that show it, or pieces of them, take turns."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import numpy as np
 
 from dashpot.assess.contest import Bench, Model
 from dashpot.assess.gain import Gain, measure_gain
-from dashpot.assess.misfits import misfits_of
+from dashpot.assess.mend import Mend
+from dashpot.assess.misfits import crossed_misfits, misfits_of
 from dashpot.fit.holdout import ALWAYS_TRAIN
 from dashpot.fit.scored import ScoredRun
 
@@ -18,6 +19,7 @@ WEAKLY = 0.5  # as strong in held-out runs as in the others, or less
 SHOWS = 0.2  # of the largest difference in any run
 TURNS = 3
 IN_TURNS = "runs that show it, held out in turns"
+ON_PIECES = "pieces of runs, its size found on the other pieces"
 
 
 def runs_that_show(before: Model, after: Model, bench: Bench) -> tuple[str, ...]:
@@ -54,6 +56,15 @@ def gain_in_turns(
         judged += mine
     gain = measure_gain(*misfits, [run.drive.dt for run in judged], seed)
     return replace(gain, runs=IN_TURNS) if gain else None
+
+
+def gain_on_pieces(
+    before: Model, after: Model, runs: Sequence[ScoredRun], mends: Sequence[Mend], seed: int
+) -> Gain | None:
+    """The gain of faults on runs, their strengths found on other pieces of each run than those that are judged."""
+    crossed = crossed_misfits(after, runs, mends)
+    gain = measure_gain(misfits_of(before, runs), crossed, [run.drive.dt for run in runs], seed)
+    return replace(gain, runs=ON_PIECES) if gain else None
 
 
 def _groups_to_miss(bench: Bench, shown: Sequence[str], groups: Mapping[str, str]) -> list[list[ScoredRun]]:
