@@ -15,7 +15,7 @@ UNITS = {"limit": "N", "breakaway": "N", "stribeck_velocity": "m/s", "stiffness"
 TRAVELS = (1e-3, 8e-3, 6e-2, 0.3)  # of the stroke
 SPEEDS = (8e-3, 4e-2, 0.2)  # of the largest speed
 RATIO = 3.0
-FALLS = 1.1  # friction that falls by less is none that depends on velocity
+FALLS = 1.35  # breakaway over sliding: dry friction that falls by less is ordinary
 
 
 class VelocityDependentFriction(Cause):
