@@ -29,6 +29,7 @@ BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
 ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is shared out among many
 BEYOND_FORM_ALONE = 0.007
 REFIT_MAY_DOUBLE = 0.5
+LESS_FAULTS = "held-out runs, their own faults taken out"
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
 
@@ -152,6 +153,15 @@ class Court:
         if shown and new and not (other and other.value > self.relevance):
             other = gain_on_pieces(before, after, [run for run in self.bench.runs if run.name in shown], new, self.seed)
         return other if other and other.value > self.relevance else gain
+
+    def gain_beside(self, faults: Sequence[Accepted], before: Model, after: Model) -> Gain | None:
+        """The gain on the held-out runs; where their own ``faults`` hide it, the gain once these are taken out."""
+        gain = self.gain_of(before, after)
+        if gain is None or gain.value > self.relevance or not faults:
+            return gain
+        mends = faults[-1].trial.model.mends[-len(faults) :]
+        other = self.gain_of(*(replace(model, mends=(*model.mends, *mends)) for model in (before, after)))
+        return replace(other, runs=LESS_FAULTS) if other and other.value > self.relevance else gain
 
     def holds(self, before: Model, after: Model, gain: Gain | None) -> bool:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""

@@ -61,10 +61,9 @@ class Pursuer:
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
             court.bar(opposite[-1], reasons.OPPOSITE)
-            kept = [entry for entry in accepted if entry is not opposite[-1]]
+            kept = [entry for entry in accepted if entry.base and entry is not opposite[-1]]
             look = court.look(court.rebuild(kept, look.model, first.model, look.noise), look.noise)
             accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)
-        self.judge_the_jury(accepted, look, ladder)
         least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * pooled(look.columns.residual.values()))
         named = {entry.finding.candidate.name for entry in accepted}
         rejected = tuple(one for one in court.rejected if (one.cause, one.place or "") not in named)
@@ -101,47 +100,49 @@ class Pursuer:
         self.court.rejected.extend(other.court.rejected)
         return instead, seen
 
-    def judge_the_jury(self, accepted: list[Accepted], look: Look, ladder: list[Model]) -> None:
-        """Faults of held-out runs join the accepted causes, each with a model that has the fault taken out.
+    def faults_of_held_out(self, look: Look, last: Model, named: bool) -> list[Accepted]:
+        """Faults of held-out runs as further causes, each with the last model less all faults so far.
 
-        They have to make these runs better for certain, and by as much as any cause after the first; where there are
-        causes already, by more than the forms of these may be wrong.
+        They have to make these runs better for certain, and by as much as any cause after the first; where causes are
+        ``named`` already, by more than the forms of these may be wrong.
         """
-        court = self.court
+        court, found = self.court, []
         if not court.held_out:
-            return
-        least = FORM_ERROR if accepted else max(court.relevance, SMALLEST_LATER_GAIN)
+            return []
+        least = FORM_ERROR if named else max(court.relevance, SMALLEST_LATER_GAIN)
         directions = known_directions(court.bench, look.model, look.noise)
         jury = Jury(replace(court.bench, runs=court.held_out, unseen=()), directions, court.causes, court.seed)
         for _ in court.held_out:
-            found = jury.faulty(replace(look.model, mends=ladder[-1].mends))
-            if found is None:
-                return
-            finding, mend = found
-            mend = plainly_strong(mend, ladder[-1], court.held_out)
-            model = replace(ladder[-1], mends=(*ladder[-1].mends, mend))
-            gain = court.gain_of(ladder[-1], model)
+            fault = jury.faulty(replace(look.model, mends=last.mends))
+            if fault is None:
+                break
+            finding, mend = fault
+            model = replace(last, mends=(*last.mends, plainly_strong(mend, last, court.held_out)))
+            gain = court.gain_of(last, model)
             if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
-                return
-            trial = Trial(finding, model, finding.gain, finding.merit)
-            accepted.append(Accepted(finding, trial, gain.value, gain, ()))
-            ladder.append(model)
+                break
+            found.append(Accepted(finding, Trial(finding, model, finding.gain, finding.merit), gain.value, gain, ()))
+            last = model
+        return found
 
     def settle_gains(
         self, accepted: list[Accepted], look: Look, first: Look
     ) -> tuple[list[Accepted], Look, list[Model]]:
         """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first.
 
-        The first cause has to hold there, a further one to gain what is of interest at all.
+        The first cause has to hold there, a further one to gain what is of interest at all; faults of the held-out runs
+        themselves come last.
         """
         court = self.court
         ladder = self.polish_ladder(first.model, accepted, look)
-        gains = [court.gain_of(before, after) for before, after in pairwise(ladder)]
+        faults = self.faults_of_held_out(look, ladder[-1], bool(accepted))
+        gains = [court.gain_beside(faults, before, after) for before, after in pairwise(ladder)]
         useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= court.relevance]
         if useless == [0] and court.holds(first.model, accepted[0].trial.model, gains[0]):
             useless = []
         if not useless:
-            return [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)], look, ladder
+            proved = [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)]
+            return [*proved, *faults], look, [*ladder, *(fault.trial.model for fault in faults)]
         entry = accepted[useless[-1]]
         court.reject(entry.finding, reasons.NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
         kept = [other for other in accepted if other is not entry]

@@ -15,6 +15,7 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain
 
 MOST_OTHERS = 2
+MOST_EXCHANGED = 3  # beside more causes than these an exchange is too long a search for too little
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +57,7 @@ class Revision:
 
     def exchange(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Put another cause in the place of an earlier one that won only because a later one was still missing."""
-        for number, entry in enumerate(accepted[:-1]):
+        for number, entry in enumerate(accepted[:-1] if len(accepted) <= MOST_EXCHANGED else ()):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
             without = self.court.look(model, look.noise)

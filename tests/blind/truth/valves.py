@@ -20,7 +20,7 @@ class Asymmetric(Proportional):
 
 @dataclass(frozen=True)
 class TwoSlopes(Asymmetric):
-    """|v| times a side: compression harder, or rebound."""
+    """The velocity, in one direction only: compression harder, or rebound. It takes energy, and never gives any."""
 
     side: float
 
@@ -29,7 +29,7 @@ class TwoSlopes(Asymmetric):
         return cls(float(rng.choice([-1.0, 1.0])))
 
     def shape(self, motion: Motion) -> np.ndarray:
-        return self.side * np.abs(motion.velocity)
+        return self.side * np.maximum(self.side * motion.velocity, 0.0)
 
 
 @dataclass(frozen=True)
