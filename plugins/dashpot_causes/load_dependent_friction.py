@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from dashpot.text.quantity import pretty
 Array = NDArray[np.float64]
 UNITS = {"limit": "N", "stiffness": "N/m"}
 PLACES = 7
+KNOTS = 5  # of the factor over the reach
 FACTORS = (0.06, 0.4)
 BOUNDS = "[0.02, 1.5]"
 SLACK = 0.1
@@ -41,7 +43,7 @@ class LoadDependentFriction(Cause):
             for least in FACTORS:
                 scaled = _Scaled(travels, view.reach, least, rising)
                 yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
-                              travels, scaled, scaled.extend, unknowns=4, quantity="limit", unit="N",
+                              travels, scaled, scaled.extend, unknowns=KNOTS + 1, quantity="limit", unit="N",
                               admits=scaled.admits)  # fmt: skip
 
 
@@ -53,20 +55,20 @@ class _Scaled:
     rising: bool
 
     @property
-    def places(self) -> tuple[float, float, float]:
-        low, high = self.reach
-        return low, 0.5 * (low + high), high
+    def places(self) -> tuple[float, ...]:
+        return tuple(np.linspace(*self.reach, KNOTS).tolist())
 
     @property
-    def factors(self) -> tuple[float, float, float]:
-        middle = 0.5 * (1.0 + self.least)
-        return (self.least, middle, 1.0) if self.rising else (1.0, middle, self.least)
+    def factors(self) -> tuple[float, ...]:
+        ends = (self.least, 1.0) if self.rising else (1.0, self.least)
+        return tuple(np.linspace(*ends, KNOTS).tolist())
 
     def admits(self, found: Mapping[str, float]) -> bool:
         """Whether the factor goes one way all along, and far enough."""
-        factors = [found.get(f"scale[{number}]", 1.0) for number in range(3)]
-        low, middle, high = factors if self.rising else factors[::-1]
-        return low < middle < (1.0 + SLACK) * high and low < CHANGES * high
+        factors = [found.get(f"scale[{number}]", 1.0) for number in range(KNOTS)]
+        rising = factors if self.rising else factors[::-1]
+        one_way = all(low < high + SLACK * max(factors) for low, high in pairwise(rising))
+        return one_way and rising[0] < CHANGES * rising[-1]
 
     def __call__(self, view: View, run: str) -> Array:
         plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])
