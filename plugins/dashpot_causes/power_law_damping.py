@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 from dashpot_causes.levelling import levelling_force
+from dashpot_causes.quadratic_damping import NEARLY
 
 UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
-BOUNDS = ((0.2, 0.9), (1.1, 1.8), (2.2, 4.0))
+BOUNDS = ((0.2, 0.9), (1.1, NEARLY[0]), (NEARLY[1], 4.0))
+AT_END = 0.01  # of the exponent
 SHARE = 0.3
 LEVELLING, LEVELS = (0.02, 0.5), 5  # of the speed: where a digressive damper becomes level
 
@@ -52,5 +54,10 @@ class PowerLawDamping(Cause):
             ]
             return add_branch(text, "\n".join(lines))
 
-        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N")
+        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N", admits=is_not_quadratic)
         yield levelling_force(view, "power_law_damping", LEVELLING, LEVELS, (0.75, 4.0))
+
+
+def is_not_quadratic(numbers: Mapping[str, float]) -> bool:
+    """Whether a refit has not driven the exponent to where quadratic damping begins."""
+    return all(abs(numbers.get("exponent", 1.0) - end) > AT_END for end in NEARLY)

@@ -30,7 +30,10 @@ class Revision:
         return self.exchange(*self.prune(*self.reconsider(accepted, look)))
 
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
-        """Drop an earlier cause that a later one made superfluous, or its opposite; its form does not come back."""
+        """Drop an earlier cause that the last one made superfluous, or its opposite: that takes its place in the order.
+
+        The form that was dropped does not come back.
+        """
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
@@ -39,6 +42,7 @@ class Revision:
             if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
                 why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
                 self.court.bar(accepted[number], why)
+                kept = [*accepted[:number], accepted[-1], *accepted[number + 1 : -1]]
                 return self.prune(kept, self.court.look(model, look.noise))
         return accepted, look
 

@@ -51,12 +51,12 @@ def refine(
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
-    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. A step
-    from one loss to another that is ``hopeless`` is the last one.
+    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. The second
+    of two steps, each from one loss to another that is ``hopeless``, is the last one.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
-    spent, slack = 1, 1.0
+    spent, slack, hoped = 1, 1.0, True
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
@@ -77,8 +77,10 @@ def refine(
         slack = max(DAMPINGS[best] / 10.0, 1e-3)
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
-        if hopeless(before, loss):
+        hope = not hopeless(before, loss)
+        if not (hope or hoped):
             return Refined(point, loss, Outcome.LEFT_BEHIND, spent)
+        hoped = hope
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 

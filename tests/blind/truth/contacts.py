@@ -88,9 +88,9 @@ class LostMotion(Play):
 
 @njit(cache=True)
 def follow(path, gap):
-    """The follower of a path behind play of `gap` to either side, in the middle to begin with."""
+    """The follower of a path behind play of `gap` to either side; the first place is approached from below."""
     found = np.empty(path.size)
-    now = path[0]
+    now = path[0] - gap
     for i in range(path.size):
         if path[i] - now > gap:
             now = path[i] - gap

@@ -45,5 +45,10 @@ def test_the_slow_rise_of_a_contact_that_has_slipped_is_still_that_contact():
     assert suspect("friction", "prandtl").admits(found)
 
 
+@pytest.mark.parametrize(("exponent", "admitted"), [(0.5, True), (1.5, True), (1.7, False), (2.3, False), (3.0, True)])
+def test_a_power_that_was_driven_towards_two_is_quadratic_damping(exponent, admitted):
+    assert suspect("power_law_damping", "power of velocity").admits({"exponent": exponent}) is admitted
+
+
 def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
