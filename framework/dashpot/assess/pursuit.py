@@ -6,7 +6,6 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -16,7 +15,7 @@ import numpy as np
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Model, Trial, admitted
-from dashpot.assess.court import FORM_ERROR, SMALLEST_LATER_GAIN, Court
+from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
 from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, imitated, settle_ties, simpler, to_beat
 from dashpot.assess.misfits import plainly_strong, pooled
 from dashpot.assess.revision import Revision
@@ -69,10 +68,12 @@ class Pursuer:
         rejected = tuple(one for one in court.rejected if (one.cause, one.place or "") not in named)
         return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)
 
-    def pursue(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
-        """Add causes to those that are accepted, as long as there are any that hold."""
+    def pursue(
+        self, accepted: list[Accepted], look: Look, first: Look, most: int = MOST_CAUSES
+    ) -> tuple[list[Accepted], Look]:
+        """Add causes to those that are accepted, as long as there are any that hold, and no more than ``most``."""
         revision = Revision(self.court, first.model)
-        while len(accepted) < MOST_CAUSES:
+        while len(accepted) < most:
             self.tried += len(look.screen.findings)
             winner = self.best_trial(look, sum(entry.trial.gain for entry in accepted))
             if winner is None:
@@ -89,7 +90,7 @@ class Pursuer:
             return accepted, look
         forms = {form_of(finding) for finding in first.screen.findings if finding.candidate.name in twice}
         other = Pursuer(replace(self.court, rejected=[], barred=self.court.barred | forms), self.watch)
-        instead, seen = other.pursue([], first, first)
+        instead, seen = other.pursue([], first, first, len(accepted))
         self.tried += other.tried
         price = (seen.model.numbers - look.model.numbers) * np.log(look.screen.samples)
         if _twice(instead) or seen.model.chi_square + price + TIE > look.model.chi_square:
@@ -208,5 +209,9 @@ class Pursuer:
 
 
 def _twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
-    names = Counter(entry.finding.candidate.name for entry in accepted)
-    return {name for name, count in names.items() if count > 1}
+    """Names that were accepted again, for more than a form may be wrong by."""
+    falls: dict[tuple[str, str], list[float]] = {}
+    for entry in accepted:
+        falls.setdefault(entry.finding.candidate.name, []).append(entry.trial.gain)
+    ordered = {name: sorted(gains, reverse=True) for name, gains in falls.items() if len(gains) > 1}
+    return {name for name, (most, second, *_) in ordered.items() if second > BEYOND_FORM * most}

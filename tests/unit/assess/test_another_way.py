@@ -10,10 +10,10 @@ from dashpot.assess.pursuit import Pursuer
 SAMPLES = 1000
 
 
-def entry(word, form="a form"):
+def entry(word, form="a form", gain=1000.0):
     candidate = SimpleNamespace(name=(word, ""), suspect=SimpleNamespace(form=form), cause=SimpleNamespace(word=word),
                                 site=None)  # fmt: skip
-    return SimpleNamespace(finding=SimpleNamespace(candidate=candidate))
+    return SimpleNamespace(finding=SimpleNamespace(candidate=candidate), trial=SimpleNamespace(gain=gain))
 
 
 def look(chi_square, numbers, *findings):
@@ -29,7 +29,7 @@ def way(monkeypatch, instead, chi_square, numbers=12):
     """What is accepted where the way without drift ends with some causes at a chi square, the first at 5000."""
     asked = []
 
-    def pursue(self, accepted, seen, first):
+    def pursue(self, accepted, seen, first, most):
         asked.append(self.court.barred)
         return instead, look(chi_square, numbers)
 
@@ -58,6 +58,11 @@ def test_a_way_that_is_no_better_or_costs_more_numbers_is_not(monkeypatch, inste
     accepted, court = way(monkeypatch, instead, chi_square, numbers)
     assert accepted == TWICE
     assert not court.rejected and not court.barred
+
+
+def test_a_second_form_of_next_to_nothing_is_what_the_first_one_leaves():
+    seen, small = look(5000.0, 12), [entry("drift", "settling"), entry("drift", "steady", gain=20.0)]
+    assert Pursuer(Court(None, (), (), 0), print).another_way(small, seen, seen) == (small, seen)
 
 
 def test_without_a_cause_that_came_twice_there_is_no_other_way():
