@@ -13,9 +13,9 @@ REST = 1e-3
 
 
 class AsymmetricDamper(Element):
-    """A dashpot with its own damping in compression (v > 0) and rebound.
+    """A dashpot with its own law in compression and rebound: F = damping v r^(exponent - 1)/(1 + digression |v|).
 
-    Each branch is F = damping v r^(exponent - 1)/(1 + digression |v|) with r = |v|/reference.
+    Here r = |v|/reference, and v > 0 is compression.
 
     With a digression of 0 and an exponent of 1 both branches are straight lines. With an exponent of 1, 1/digression is
     the knee velocity, at which the force is half of that of the straight line, and damping/digression the force that it
