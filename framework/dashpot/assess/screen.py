@@ -211,6 +211,8 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
 
 def _together(projected: Projected) -> float:
     usable = np.diag(projected.spread) > KEPT * projected.original
+    if not usable.any():
+        return 0.0
     inverse, rank = _inverse(projected.spread[np.ix_(usable, usable)])
     return float(projected.scores[usable] @ inverse @ projected.scores[usable]) - rank
 

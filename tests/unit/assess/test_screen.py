@@ -106,6 +106,20 @@ def test_what_the_tangents_can_absorb_is_not_claimed():
     assert alarms(absorbable) <= 4
 
 
+def test_all_suspects_together_explain_what_least_squares_does_less_one_for_each_number():
+    columns = columns_of(np.random.default_rng(), (0.1, 0.0, 0.05, 0.0))
+    found = screen(columns, WHITE).together
+    assert found == pytest.approx(fall_of_chi_square(columns, slice(0, 5)) - 5.0, rel=1e-6)
+
+
+def test_suspects_that_the_tangents_absorb_explain_nothing_together():
+    columns = columns_of(np.random.default_rng(), (0.1, 0.0, 0.0, 0.0))
+    tangents = {run: columns.bank.values[run].copy() for run in "ab"}
+    found = screen(replace(columns, tangents=SparseRows.of(tangents)), WHITE)
+    assert found.findings == ()
+    assert found.together == 0.0
+
+
 def test_shuffled_runs_give_nothing():
     """The residual of one run with the columns of the other names no cause."""
 
