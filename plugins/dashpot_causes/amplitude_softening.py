@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
-import numpy as np
-
-from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.contract.cause import Cause, Pair, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
 UNITS = {"stiffness": "N/m", "shortest": "m", "longest": "m", "travel": "m", "exponent": "1"}
@@ -34,30 +32,20 @@ class AmplitudeSoftening(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """Sliders spread between a shortest and a longest yield travel; sliders spread around a middle one."""
-        spans = [(short * view.stroke, long * view.stroke) for short, long in product(SHORTEST, LONGEST)]
-        yield added_branch(
-            "iwan",
-            "amplitude_softening",
-            tuple(float(number) for number in np.arange(len(spans))),
-            lambda stiffness, place: {
-                "stiffness": stiffness,
-                "shortest": spans[int(place)][0],
-                "longest": spans[int(place)][1],
-            },
-            UNITS,
-            unknowns=2,
-        )
-        bells = [(share * view.stroke, exponent) for share, exponent in product(MIDDLE, EXPONENTS)]
-        yield added_branch(
-            "kraus",
-            "amplitude_softening",
-            tuple(float(number) for number in np.arange(len(bells))),
-            lambda stiffness, place: {
-                "stiffness": stiffness,
-                "travel": bells[int(place)][0],
-                "exponent": bells[int(place)][1],
-            },
-            UNITS,
-            unknowns=2,
-            bounds={"exponent": WIDE},
-        )
+        stroke = view.stroke
+        spans = [{"shortest": short * stroke, "longest": long * stroke} for short, long in product(SHORTEST, LONGEST)]
+        bells = [{"travel": share * stroke, "exponent": power} for share, power in product(MIDDLE, EXPONENTS)]
+        yield _spread("iwan", spans, {})
+        yield _spread("kraus", bells, {"exponent": WIDE})
+
+
+def _spread(element: str, spreads: Sequence[Mapping[str, float]], bounds: Mapping[str, Pair]) -> Suspect:
+    return added_branch(
+        element,
+        "amplitude_softening",
+        tuple(float(number) for number in range(len(spreads))),
+        lambda stiffness, place: {"stiffness": stiffness, **spreads[int(place)]},
+        UNITS,
+        unknowns=2,
+        bounds=bounds,
+    )

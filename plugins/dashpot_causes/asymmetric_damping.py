@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
+from dashpot_causes.powers import reference_speed
 
 Array = NDArray[np.float64]
 COMPRESSION, REBOUND = 1.0, -1.0
@@ -18,7 +19,6 @@ UNITS = {"compression": "N*s/m", "rebound": "N*s/m", "compression_exponent": "1"
 NOTHING = 0.01  # N s/m
 POWERS = (0.5, 0.7, 1.4, 2.0)
 EXPONENTS = (0.3, 3.0)
-SHARE = 0.3  # of the largest speed: where the damping of a power is told
 
 
 class AsymmetricDamping(Cause):
@@ -39,7 +39,7 @@ class AsymmetricDamping(Cause):
         yield Suspect(
             "one direction", (COMPRESSION, REBOUND), _columns, _extend, unknowns=0, quantity="damping", unit="N*s/m"
         )
-        reference = float(f"{SHARE * view.speed:.2g}")
+        reference = reference_speed(view)
         grid = tuple(side * power for side in (COMPRESSION, REBOUND) for power in POWERS)
 
         def columns(view: View, run: str) -> Array:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -44,9 +43,10 @@ class EndStop(Cause):
             if places:
                 yield added_branch("end_stop", "end_stop", places, numbers, units, fixed=fixed)
                 progressive = partial(_progressive, numbers, reference)
-                stop = added_branch("end_stop", "end_stop", places, progressive, units, fixed=(*fixed, "reference"),
-                                    unknowns=2, bounds={"exponent": EXPONENTS})  # fmt: skip
-                yield replace(stop, form="a progressive buffer")
+                yield added_branch(
+                    "end_stop", "end_stop", places, progressive, units, fixed=(*fixed, "reference"), unknowns=2,
+                    bounds={"exponent": EXPONENTS}, form="a progressive buffer",
+                )  # fmt: skip
 
 
 def _compression(stiffness: float, place: float) -> dict[str, float]:

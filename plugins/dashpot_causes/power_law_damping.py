@@ -9,14 +9,13 @@ from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 from dashpot_causes.levelling import levelling_force
-from dashpot_causes.quadratic_damping import NEARLY
+from dashpot_causes.powers import NEARLY_TWO, reference_speed
 
 UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
-BOUNDS = ((0.2, 0.9), (1.1, NEARLY[0]), (NEARLY[1], 4.0))
+BOUNDS = ((0.2, 0.9), (1.1, NEARLY_TWO[0]), (NEARLY_TWO[1], 4.0))
 AT_END = 0.01  # of the exponent
-SHARE = 0.3
 LEVELLING, LEVELS = (0.02, 0.5), 5  # of the speed: where a digressive damper becomes level
 
 
@@ -35,7 +34,7 @@ class PowerLawDamping(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One dashpot with a power of the velocity; one whose force becomes level."""
-        reference = float(f"{SHARE * view.speed:.2g}")
+        reference = reference_speed(view)
         grid = DIGRESSIVE + PROGRESSIVE
 
         def values(force: float, exponent: float) -> dict[str, float]:
@@ -60,4 +59,4 @@ class PowerLawDamping(Cause):
 
 def is_not_quadratic(numbers: Mapping[str, float]) -> bool:
     """Whether a refit has not driven the exponent to where quadratic damping begins."""
-    return all(abs(numbers.get("exponent", 1.0) - end) > AT_END for end in NEARLY)
+    return all(abs(numbers.get("exponent", 1.0) - end) > AT_END for end in NEARLY_TWO)

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-
-NEARLY = (1.7, 2.3)  # powers of the velocity that still stand for turbulent flow
-SHARE = 0.3  # of the largest speed: where the force of a power is told
+from dashpot_causes.powers import NEARLY_TWO, reference_speed
 
 
 class QuadraticDamping(Cause):
@@ -33,14 +30,14 @@ class QuadraticDamping(Cause):
             {"damping": "N*s^2/m^2"},
             unknowns=0,
         )
-        reference = float(f"{SHARE * view.speed:.2g}")
-        nearly = added_branch(
+        reference = reference_speed(view)
+        yield added_branch(
             "power_law_damper",
             "quadratic_damping",
             (2.0,),
             lambda force, power: {"force": force, "exponent": power, "reference": reference},
             {"force": "N", "exponent": "1", "reference": "m/s"},
             fixed=("reference",),
-            bounds={"exponent": NEARLY},
+            bounds={"exponent": NEARLY_TWO},
+            form="a power near to two",
         )
-        yield replace(nearly, form="a power near to two")

@@ -85,13 +85,17 @@ def test_a_digressive_damper_has_half_the_force_at_its_knee():
     assert x.size == 4000
 
 
+@pytest.mark.parametrize("side", ["compression", "rebound"])
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.8])
-def test_an_asymmetric_damper_has_the_equivalent_damping_of_a_power_in_each_direction(exponent):
+def test_an_asymmetric_damper_has_the_equivalent_damping_of_a_power_in_each_direction(exponent, side):
     amplitude, frequency, reference = 5e-3, 4.0, 0.05
     speed = 2.0 * np.pi * frequency * amplitude
-    _, _, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 20_000, compression=1e-2, rebound=800.0,
-                        rebound_exponent=exponent, reference=reference)  # fmt: skip
-    # the integral of cos^(n + 1) over the half of the cycle that goes out
+    numbers = {"compression": 1e-2, "rebound": 1e-2, "reference": reference} | {
+        side: 800.0,
+        f"{side}_exponent": exponent,
+    }
+    _, _, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 20_000, **numbers)
+    # the integral of cos^(n + 1) over one half of the cycle
     half = np.sqrt(np.pi) * gamma(0.5 * exponent + 1.0) / gamma(0.5 * exponent + 1.5)
     assert b[0] == pytest.approx(800.0 * reference * (speed / reference) ** exponent * half / np.pi, rel=1e-4)
 

@@ -156,11 +156,12 @@ def added_branch(
     bounds: Mapping[str, Pair] = NOTHING,
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
     imitates: Sequence[str] = (),
+    form: str = "",
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
-    ``admits`` and ``imitates`` are those of the suspect.
+    ``admits``, ``imitates`` and ``form`` are those of the suspect; without a word the form is that of the element.
 
     Examples:
         >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
@@ -181,7 +182,7 @@ def added_branch(
 
     quantity = next(iter(values(1.0, grid[0])))
     return Suspect(
-        element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
+        form or element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
         quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits, imitates=tuple(imitates),
     )  # fmt: skip
 

@@ -14,7 +14,7 @@ def suspect(word, form):
     return next(one for one in CAUSES[word]().suspects(VIEW, None) if one.form == form)
 
 
-@pytest.mark.parametrize(("breakaway", "admitted"), [(30.0, True), (10.5, False), (4.0, False)])
+@pytest.mark.parametrize(("breakaway", "admitted"), [(30.0, True), (14.0, True), (13.0, False), (4.0, False)])
 def test_friction_that_depends_on_velocity_falls_with_it(breakaway, admitted):
     found = {"limit": 10.0, "breakaway": breakaway, "stiffness": 1e5}
     assert suspect("velocity_dependent_friction", "stribeck").admits(found) is admitted
