@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+
+import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.band import HIGHEST, end_of_band
+
+MOUNTINGS = (4.0, 12.0)  # resonance of the mass on its mounting, in parts of the end of the measured band
+MOUNTING_RATIO = 0.06
+UNITS = {"mass": "kg", "stiffness": "N/m", "damping": "N*s/m"}
 
 
 class MovingMass(Cause):
@@ -18,10 +25,11 @@ class MovingMass(Cause):
     confused_with = {
         "relaxation": "a run without specimen: force over acceleration is the mass",
         "delay": "a run without specimen: force over acceleration is the mass",
+        "resonance": "a sweep to higher frequency: a resonance turns round, a mass does not",
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """One inerter in parallel."""
+        """One inerter in parallel, or a mass on a mounting that resonates far above what was driven."""
         yield added_branch(
             "inerter",
             "moving_mass",
@@ -31,3 +39,14 @@ class MovingMass(Cause):
             sign=0,
             unknowns=0,
         )
+        end = end_of_band(view)
+
+        def mounted(mass: float, frequency: float) -> Mapping[str, float]:
+            stiffness = mass * (2.0 * np.pi * frequency) ** 2
+            return {"mass": mass, "stiffness": stiffness, "damping": 2.0 * MOUNTING_RATIO * np.sqrt(stiffness * mass)}
+
+        def is_mass(found: Mapping[str, float]) -> bool:
+            return bool(np.sqrt(found["stiffness"] / found["mass"]) > 2.0 * np.pi * HIGHEST * end)
+
+        yield added_branch("vibration_absorber", "moving_mass", [share * end for share in MOUNTINGS], mounted, UNITS,
+                           unknowns=2, admits=is_mass, form="a mass on its mounting")  # fmt: skip

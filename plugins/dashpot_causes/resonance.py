@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +11,21 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
+from dashpot_causes.band import HIGHEST, end_of_band
 
 Array = NDArray[np.float64]
-UNITS = {"stiffness": "N/m", "fluid_mass": "kg", "damping": "N*s/m"}
+UNITS = {
+    "mass": "kg", "fluid_mass": "kg", "stiffness": "N/m", "damping": "N*s/m", "quadratic_damping": "N*s^2/m^2",
+}  # fmt: skip
 BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
-LOWEST, HIGHEST = 0.15, 3.0  # of the end of the measured band
+TURBULENT = (0.2, 0.8)  # damping ratios of the turbulence alone, at half of the largest speed
+LOWEST = 0.15  # of the end of the measured band
+OVERDAMPED = 1.0  # damping ratio from which on it is relaxation
 SMALLEST_MASS = 1.01e-3  # kg
 
 
 class Resonance(Cause):
-    """A mass behind a spring: fluid in a track, a belt, a column of gas."""
+    """A mass behind a spring, as fluid in a track or a column of gas, or hung on one, as a belt or a bracket."""
 
     word = "resonance"
     kind = "specimen"
@@ -34,24 +40,67 @@ class Resonance(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A mass behind a spring over resonance frequencies, weakly or strongly damped."""
-        end = view.speed / (np.pi * view.stroke)
-        band = LOWEST * end, min(HIGHEST * end, 0.15 / view.dt)
-        places = [(float(f), ratio) for ratio, count in (BROAD, NARROW) for f in np.geomspace(*band, count)]
+        """A mass behind a spring or hung on one, over resonance frequencies and dampings, linear or of turbulence."""
+        end = end_of_band(view)
+        band = Band(LOWEST * end, HIGHEST * end, 0.15 / view.dt, 0.5 * view.speed)
+        plain = [Mode(f, ratio) for ratio, count in (BROAD, NARROW) for f in band.frequencies(count)]
+        turbulent = [Mode(f, NARROW[0], ratio / band.speed)
+                     for ratio in TURBULENT for f in band.frequencies(BROAD[1])]  # fmt: skip
+        for words, element, mass in (
+            ("a mass behind a spring", "hydro", "fluid_mass"),
+            ("a mass hung on a spring", "vibration_absorber", "mass"),
+        ):
+            yield _form(words, element, mass, plain, 2, band)
+            yield _form(f"{words}, in turbulence", element, mass, turbulent, 3, band)
 
-        def values(stiffness: float, place: float) -> dict[str, float]:
-            frequency, ratio = places[int(place)]
-            speed = 2.0 * np.pi * frequency
-            damping = 2.0 * ratio * stiffness / speed
-            return {"stiffness": stiffness, "fluid_mass": stiffness / speed**2, "damping": damping}
 
-        def columns(view: View, run: str) -> Array:
-            return view.respond(run, "hydro", [values(1.0, place) for place in grid])
+@dataclass(frozen=True)
+class Mode:
+    """A resonance: its frequency in Hz, its damping ratio, and what turbulence adds to that per speed, in s/m."""
 
-        def extend(text: str, atoms: Sequence[Atom]) -> str:
-            found = values(*atoms[0])
-            found["fluid_mass"] = max(found["fluid_mass"], SMALLEST_MASS)
-            return add_branch(text, branch_lines(free_name(text, "resonance"), "hydro", found, UNITS))
+    frequency: float
+    ratio: float
+    turbulence: float = 0.0
 
-        grid = tuple(float(number) for number in range(len(places)))
-        yield Suspect("a mass behind a spring", grid, columns, extend, unknowns=2, quantity="stiffness", unit="N/m")
+    def values(self, mass: str, stiffness: float) -> dict[str, float]:
+        """The numbers of an element with a stiffness in N/m; ``mass`` is the word for its mass."""
+        speed = 2.0 * np.pi * self.frequency
+        found = {"stiffness": stiffness, mass: stiffness / speed**2, "damping": 2.0 * self.ratio * stiffness / speed}
+        return found | ({"quadratic_damping": 2.0 * self.turbulence * stiffness / speed} if self.turbulence else {})
+
+
+@dataclass(frozen=True)
+class Band:
+    """Where resonances are looked for, in Hz, up to what is ``sampled`` often enough, and a usual ``speed`` in m/s."""
+
+    low: float
+    high: float
+    sampled: float
+    speed: float
+
+    def frequencies(self, count: int) -> list[float]:
+        """Evenly spread on a logarithmic scale."""
+        return np.geomspace(self.low, min(self.high, self.sampled), count).tolist()
+
+    def shows(self, mass: float, stiffness: float, damping: float, quadratic_damping: float = 0.0) -> bool:
+        """Whether a mass on a spring swings, and not so far beyond the band that it is a mass."""
+        frequency = np.sqrt(stiffness / mass) / (2.0 * np.pi)
+        ratio = (damping + quadratic_damping * self.speed) / (2.0 * np.sqrt(stiffness * mass))
+        return bool(frequency < self.high and ratio < OVERDAMPED)
+
+
+def _form(form: str, element: str, mass: str, modes: Sequence[Mode], unknowns: int, band: Band) -> Suspect:
+    def columns(view: View, run: str) -> Array:
+        return view.respond(run, element, [mode.values(mass, 1.0) for mode in modes])
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        strength, place = atoms[0]
+        found = modes[int(place)].values(mass, strength)
+        found[mass] = max(found[mass], SMALLEST_MASS)
+        return add_branch(text, branch_lines(free_name(text, "resonance"), element, found, UNITS))
+
+    def admits(found: Mapping[str, float]) -> bool:
+        return band.shows(found[mass], found["stiffness"], found["damping"], found.get("quadratic_damping", 0.0))
+
+    grid = tuple(map(float, range(len(modes))))
+    return Suspect(form, grid, columns, extend, unknowns=unknowns, quantity="stiffness", unit="N/m", admits=admits)

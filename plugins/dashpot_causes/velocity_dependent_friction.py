@@ -48,4 +48,5 @@ class VelocityDependentFriction(Cause):
             UNITS,
             unknowns=5,
             admits=lambda found: found["breakaway"] > FALLS * found["limit"],
+            imitates=("friction",),
         )

@@ -35,6 +35,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.spring import Spring
     from dashpot_elements.springpot import Springpot
     from dashpot_elements.stribeck import Stribeck
+    from dashpot_elements.vibration_absorber import VibrationAbsorber
 
     return [
         Spring,
@@ -50,6 +51,7 @@ def dashpot_elements() -> list[type]:
         Springpot,
         Creep,
         Hydro,
+        VibrationAbsorber,
         Coulomb,
         Dahl,
         Prandtl,

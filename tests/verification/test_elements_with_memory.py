@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from verification.alone import network_of
-from verification.truth.elements import bouc_wen_rate, hydro_rate, integrate, stribeck_rate
+from verification.truth.elements import (
+    absorber_pull,
+    absorber_rate,
+    bouc_wen_rate,
+    hydro_rate,
+    integrate,
+    stribeck_rate,
+)
 
 from dashpot.data.drive import drive_from_path
 
@@ -14,6 +21,7 @@ OMEGA = 2.0 * np.pi * FREQUENCY
 # turning points of the path: the middle and the end of every cycle
 TURNS = np.arange(1, 100) * 0.5 / FREQUENCY
 HYDRO = {"fluid_mass": 50.0, "stiffness": 2e5}
+ABSORBER = {"mass": 5.0, "stiffness": 2e4}
 
 
 def place(t):
@@ -39,6 +47,12 @@ def hydro_force(time, damping, turbulence=0.0, chamber=0.0):
     return wall * (place(time) - fluid)
 
 
+def absorber_force(time, damping, turbulence=0.0):
+    mass, *numbers = *ABSORBER.values(), damping, turbulence
+    where, fast = integrate(absorber_rate(place, speed, mass, *numbers), [0.0, 0.0], time)
+    return absorber_pull(place(time) - where, speed(time) - fast, *numbers)
+
+
 def relative(found, expected):
     return np.max(np.abs(found - expected)) / np.max(np.abs(expected))
 
@@ -59,20 +73,41 @@ def test_a_linear_hydro_element_solves_its_equation_of_motion(damping, chamber, 
     assert error < 5e-9
 
 
-def test_the_step_of_a_linear_hydro_element_leaves_the_error_of_the_cubic_path_alone():
+# critical damping is 2 sqrt(k m) = 632.46 N s/m; a mass that is all but held shows the acceleration of the cubic path,
+# which between two samples is right to (2 pi 7 dt)^2/6
+@pytest.mark.parametrize(("damping", "allowed"), [
+    (1.0, 5e-8), (60.0, 5e-8), (630.0, 5e-8), (632.455532, 5e-8), (640.0, 5e-8), (5e4, 8e-5),
+])  # fmt: skip
+def test_a_linear_absorber_solves_its_equation_of_motion(damping, allowed, state):
+    time, found = march("vibration_absorber", 0.5e-3, damping=damping, **ABSORBER)
+    error = relative(found, absorber_force(time, damping))
+    state(f"vibration absorber, d = {damping:g} N s/m at 0.5 ms: {error:.1e} of the largest force")
+    assert error < allowed
+
+
+@pytest.mark.parametrize(("element", "numbers", "force", "damping"), [
+    ("hydro", HYDRO, hydro_force, 1.6e3), ("vibration_absorber", ABSORBER, absorber_force, 60.0),
+])  # fmt: skip
+def test_the_step_of_a_linear_mass_on_a_spring_leaves_the_error_of_the_cubic_path_alone(
+    element, numbers, force, damping
+):
     errors = []
     for dt in (4e-3, 2e-3, 1e-3):
-        time, found = march("hydro", dt, damping=1.6e3, **HYDRO)
-        errors.append(relative(found, hydro_force(time, 1.6e3)))
+        time, found = march(element, dt, damping=damping, **numbers)
+        errors.append(relative(found, force(time, damping)))
     assert np.all(orders(errors) > 3.7)
 
 
-def test_turbulence_in_the_track_is_of_second_order_in_the_step(state):
+@pytest.mark.parametrize(("element", "numbers", "force", "damping", "turbulence"), [
+    ("hydro", HYDRO, hydro_force, 300.0, 2e4), ("vibration_absorber", ABSORBER, absorber_force, 20.0, 500.0),
+])  # fmt: skip
+def test_quadratic_damping_is_of_second_order_in_the_step(element, numbers, force, damping, turbulence, state):
     errors = []
     for dt in (2e-3, 1e-3, 0.5e-3):
-        time, found = march("hydro", dt, damping=300.0, quadratic_damping=2e4, **HYDRO)
-        errors.append(relative(found, hydro_force(time, 300.0, 2e4)))
-    state(f"hydro with d_2 at 2, 1, 0.5 ms: {', '.join(f'{error:.1e}' for error in errors)} of the largest force")
+        time, found = march(element, dt, damping=damping, quadratic_damping=turbulence, **numbers)
+        errors.append(relative(found, force(time, damping, turbulence)))
+    shown = ", ".join(f"{error:.1e}" for error in errors)
+    state(f"{element} with d_2 at 2, 1, 0.5 ms: {shown} of the largest force")
     assert np.all(orders(errors) > 1.9)
     assert errors[1] < 1e-3
 

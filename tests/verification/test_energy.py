@@ -93,6 +93,19 @@ def test_a_hydraulic_mount_dissipates_its_loss_stiffness(rng):
     assert abs(kept) < (1e-6 + 100.0 * decayed) * loss
 
 
+def test_an_absorber_dissipates_its_loss_stiffness(rng):
+    mass, stiffness, damping = 5.0, 2e4, 160.0 * rng.uniform(1.0, 2.0)
+    amplitude, frequency = 1e-3, 8.0
+    turning = 2.0 * np.pi * frequency
+    hung = stiffness + 1j * turning * damping
+    loss = np.pi * amplitude**2 * (-mass * turning**2 * hung / (hung - mass * turning**2)).imag
+    spec = alone("vibration_absorber", mass=mass, stiffness=stiffness, damping=damping)
+    lost, kept = last_cycle(EnergyCounter.of(spec), amplitude, frequency, 16)
+    decayed = np.exp(-damping / (2.0 * mass) * 15.0 / frequency)
+    assert lost == pytest.approx(loss, rel=1e-6 + 100.0 * decayed)
+    assert abs(kept) < (1e-6 + 100.0 * decayed) * loss
+
+
 def test_a_wheel_and_a_body_dissipate_what_their_complex_amplitudes_say(rng):
     tire, suspension, damping = 2e5, 2.5e4, 1500.0 * rng.uniform(0.7, 1.4)
     masses, frequency, amplitude = np.array([36.0, 346.0]), 10.0, 2e-3

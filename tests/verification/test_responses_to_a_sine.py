@@ -26,6 +26,18 @@ def test_a_hydro_element_has_the_dynamic_stiffness_of_its_formula(frequency, cha
     assert abs(found - wall * track / (wall + track)) < (2e-8 + np.exp(-16.0 * 60.0 / frequency)) * wall
 
 
+@pytest.mark.parametrize("frequency", [2.0, 8.0, 10.0, 12.0, 25.0])
+def test_an_absorber_has_the_dynamic_stiffness_of_its_formula(frequency):
+    mass, stiffness, damping, omega = 5.0, 2e4, 160.0, 2.0 * np.pi * frequency
+    hung = stiffness + 1j * omega * damping
+    found = dynamic_stiffness(
+        "vibration_absorber", 1e-3, frequency, 60, 200, mass=mass, stiffness=stiffness, damping=damping
+    )
+    # 60 cycles with a damping constant of 16/s; the cubic between samples is good to (2 pi/200)^4/384
+    expected = -mass * omega**2 * hung / (hung - mass * omega**2)
+    assert abs(found - expected) < (2e-8 + np.exp(-16.0 * 60.0 / frequency)) * abs(hung)
+
+
 @pytest.mark.parametrize("order", [0.03, 0.1, 0.3, 0.7])
 @pytest.mark.parametrize(("frequency", "loss"), [(0.1, 0.03), (1.0, 7e-3), (10.0, 7e-3), (25.0, 7e-3), (100.0, 0.03)])
 def test_a_springpot_has_a_loss_angle_that_does_not_change_with_frequency(order, frequency, loss):

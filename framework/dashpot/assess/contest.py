@@ -98,7 +98,7 @@ class Bench:
 
     def view(self, model: Model) -> ModelView:
         """A model on all runs as causes see it."""
-        return view_of(model.fitted, [*self.runs, *self.unseen], self.elements)
+        return view_of(model.fitted, [*self.runs, *self.unseen], self.elements, self.jobs)
 
     def fit(
         self,
@@ -146,7 +146,7 @@ class Bench:
         residual, tangents = self.linearise(model)
         shapes = shape_rows(model.mends, self.runs)
         white = self._beside_sensors(noise) if noise else flat_noise(dict.fromkeys(residual, 1.0))
-        normal = normal_equations(residual, stack(SparseRows.of(tangents), SparseRows.dense(shapes)), white)
+        normal = normal_equations(residual, stack(SparseRows.of(tangents), SparseRows.dense(shapes)), white, self.jobs)
         return corrected(model.mends, normal, noise is not None)
 
     def linearise(self, model: Model) -> tuple[dict[str, Array], dict[str, Array]]:
@@ -222,17 +222,17 @@ def try_finding(
     suspect = finding.candidate.suspect
     try:
         if suspect.mends:
-            mend = make_mend(bench.view(base), finding)
-            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, mend))
-            positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
-            if suspect.sign and 0 < positive.size < len(finding.atoms):
-                return try_finding(bench, base, finding.keeping(positive), noise, samples, beat)
+            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(bench.view(base), finding)))
         else:
             model = bench.extend(base, finding, noise, beat)
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     if model.outcome is not Outcome.LEFT_BEHIND:
         model = bench.revive(model, noise)
+    if suspect.mends and suspect.sign:
+        positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
+        if 0 < positive.size < len(finding.atoms):
+            return try_finding(bench, base, finding.keeping(positive), noise, samples, beat)
     gain = base.chi_square - model.chi_square
     price = (model.numbers - base.numbers) * np.log(samples)
     failure = "the refit did not come to a finite end" if not np.isfinite(model.chi_square) else ""

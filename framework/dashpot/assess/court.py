@@ -10,6 +10,7 @@ import numpy as np
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
+from dashpot.assess.erring import less_sensor_errors
 from dashpot.assess.finalists import form_of
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -30,6 +31,7 @@ ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is 
 BEYOND_FORM_ALONE = 0.007
 REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
+LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
 
@@ -144,8 +146,7 @@ class Court:
         if local := [mend for mend in new if mend.local]:
             seen = any(run.name in mend.shapes for mend in local for run in self.bench.runs)
             return gain_on_pieces(before, after, self.bench.runs if seen else self.held_out, local, self.seed)
-        steps = [run.drive.dt for run in self.held_out]
-        gain = measure_gain(misfits_of(before, self.held_out), misfits_of(after, self.held_out), steps, self.seed)
+        gain = self.gain_on_held_out(before, after)
         if gain is None or not -HARMLESS < gain.value <= self.relevance:
             return gain
         shown = runs_that_show(before, after, self.bench)
@@ -153,6 +154,18 @@ class Court:
         if shown and new and not (other and other.value > self.relevance):
             other = gain_on_pieces(before, after, [run for run in self.bench.runs if run.name in shown], new, self.seed)
         return other if other and other.value > self.relevance else gain
+
+    def gain_on_held_out(self, before: Model, after: Model) -> Gain | None:
+        """The gain on the held-out runs; where errors of their sensors may hide it, in the rest."""
+        steps = [run.drive.dt for run in self.held_out]
+        pair = [misfits_of(model, self.held_out) for model in (before, after)]
+        gain = measure_gain(*pair, steps, self.seed)
+        known = any(self.bench.sensors.get(run.name) for run in self.held_out)
+        if gain is None or gain.value > self.relevance or not known:
+            return gain
+        sound = (less_sensor_errors(misfits, self.held_out, self.bench.sensors) for misfits in pair)
+        other = measure_gain(*sound, steps, self.seed)
+        return replace(other, runs=LESS_ERRORS) if other and other.value > gain.value else gain
 
     def gain_beside(self, faults: Sequence[Accepted], before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; where their own ``faults`` hide it, the gain once these are taken out."""

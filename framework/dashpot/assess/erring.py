@@ -46,9 +46,25 @@ def beside_sensors(
     return ErringNoise(noise.filters, shapes) if shapes else noise
 
 
-def _shapes(noise: NoiseModel, run: ScoredRun, sheet: Mapping[str, float]) -> _Shapes:
+def less_sensor_errors(
+    misfits: Sequence[Array], runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
+) -> list[Array]:
+    """Misfits (samples,) of runs less all that errors of the kinds in their sheets could have made, of any size."""
+    return [_less_errors(misfit, _error_rows(run, sensors.get(run.name, {})))
+            for misfit, run in zip(misfits, runs, strict=True)]  # fmt: skip
+
+
+def _less_errors(misfit: Array, rows: Array) -> Array:
+    return misfit - np.linalg.lstsq(rows.T, misfit, rcond=1e-10)[0] @ rows if rows.size else misfit
+
+
+def _error_rows(run: ScoredRun, sheet: Mapping[str, float]) -> Array:
     shapes = error_shapes(run.force, run.drive.dt)
     rows = [sheet[key] * shape[run.first :] for key, shape in shapes.items() if sheet.get(key, 0.0) > 0.0]
-    white = noise.whiten(run.name, np.array(rows).reshape(len(rows), run.samples))
+    return np.array(rows).reshape(len(rows), run.samples)
+
+
+def _shapes(noise: NoiseModel, run: ScoredRun, sheet: Mapping[str, float]) -> _Shapes:
+    white = noise.whiten(run.name, _error_rows(run, sheet))
     _, sizes, directions = np.linalg.svd(white, full_matrices=False)
     return _Shapes(directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2))

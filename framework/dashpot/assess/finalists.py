@@ -11,6 +11,7 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
 FINALISTS = 5
+MOST_FORMS = 3  # of one cause
 FEWEST_FINALISTS = 3
 COMES_NEAR = 0.4  # of the best fall of chi square
 TIE = 10.0
@@ -25,17 +26,17 @@ def form_of(finding: Finding) -> tuple[str, str, str]:
 
 
 def choose_finalists(findings: Iterable[Finding], look: Look) -> list[Finding]:
-    """The best form of each significant cause, and further forms that come near it; best first.
+    """The best form of each significant cause, and a few further forms that come near it; best first.
 
     Beyond the third only those whose fall of chi square comes near that of the best.
     """
     significant = [finding for finding in findings if finding.merit > look.screen.threshold]
-    best: dict[tuple[str, str], float] = {}
+    forms: dict[tuple[str, str], list[float]] = {}
     chosen = []
     for finding in significant:
-        name = finding.candidate.name
-        if name not in best or finding.gain > 0.9 * best[name]:
-            best.setdefault(name, finding.gain)
+        gains = forms.setdefault(finding.candidate.name, [])
+        if not gains or (len(gains) < MOST_FORMS and finding.gain > 0.9 * gains[0]):
+            gains.append(finding.gain)
             chosen.append(finding)
     near = [finding for finding in chosen[FEWEST_FINALISTS:] if finding.gain > COMES_NEAR * chosen[0].gain]
     return [*chosen[:FEWEST_FINALISTS], *near][:FINALISTS]
@@ -47,8 +48,8 @@ def alike(trial: Trial, ranked: Sequence[Trial]) -> list[Trial]:
 
 
 def imitated(trial: Trial, others: Iterable[Trial]) -> list[Trial]:
-    """The trials whose law another one makes up by several places, though they come as near with fewer numbers."""
-    words = trial.finding.candidate.suspect.imitates if len(trial.finding.atoms) > 1 else ()
+    """The trials whose law another one makes up, though they come as near with fewer numbers."""
+    words = trial.finding.candidate.suspect.imitates
     return [
         other for other in others
         if other.finding.candidate.cause.word in words and not other.failure

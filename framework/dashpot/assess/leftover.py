@@ -51,7 +51,8 @@ def look_for_leftover(view: ModelView, columns: Columns, noise: NoiseModel, runs
 def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftover:
     general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in columns.residual}
     rows = (columns.tangents, columns.nuisance, SparseRows.of(general))
-    projected = project_out(normal_equations(columns.residual, rows, noise), columns.precision.size, columns.precision)
+    normal = normal_equations(columns.residual, rows, noise, columns.jobs)
+    projected = project_out(normal, columns.precision.size, columns.precision)
     scale = np.sqrt(np.maximum(projected.original, 1e-300))
     values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
     kept = values > 1e-8 * values[-1]
@@ -64,7 +65,7 @@ def _without_sensor_errors(columns: Columns, noise: NoiseModel) -> Signals:
     if columns.nuisance.size == 0:
         return columns.residual
     rows = stack(columns.tangents, columns.nuisance)
-    normal = normal_equations(columns.residual, rows, noise)
+    normal = normal_equations(columns.residual, rows, noise, columns.jobs)
     scale = np.sqrt(np.maximum(np.diag(normal.gram) + columns.precision, 1e-300))
     gram = (normal.gram + np.diag(columns.precision)) / np.outer(scale, scale)
     strengths = np.linalg.lstsq(gram, normal.right / scale, rcond=1e-11)[0] / scale

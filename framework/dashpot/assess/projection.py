@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
+from dashpot.kernel.workers import spread
 
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -82,19 +83,25 @@ class SparseRows:
         return total
 
 
-def normal_equations(residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel) -> Normal:
+def normal_equations(
+    residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel, jobs: int = 1
+) -> Normal:
     """Sum over runs of residual (n,) and rows (c, n), each whitened by the noise of its run.
 
-    Rows of several kinds stand behind one another.
+    Rows of several kinds stand behind one another; ``jobs`` runs are worked on at once.
     """
     kinds = [rows] if isinstance(rows, SparseRows) else list(rows)
     first = np.cumsum([0] + [kind.size for kind in kinds])
     gram, right = np.zeros((first[-1], first[-1])), np.zeros(first[-1])
-    for run, values in residual.items():
+
+    def products(run: str) -> tuple[Array, Array]:
         white = np.concatenate([noise.whiten(run, kind.values[run]) for kind in kinds])
+        return white @ white.T, white @ noise.whiten(run, residual[run])
+
+    for run, (squares, products_with_residual) in zip(residual, spread(products, residual, jobs=jobs), strict=True):
         at = np.concatenate([kind.places[run] + shift for kind, shift in zip(kinds, first[:-1], strict=True)])
-        gram[np.ix_(at, at)] += white @ white.T
-        right[at] += white @ noise.whiten(run, values)
+        gram[np.ix_(at, at)] += squares
+        right[at] += products_with_residual
     return Normal(gram, right, sum(values.size for values in residual.values()))
 
 

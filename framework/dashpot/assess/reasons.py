@@ -2,7 +2,7 @@
 
 EXPLAINS_LESS = "explains less than the accepted cause"
 LOSES_ON_HELD_OUT = "fits as well as the accepted cause, but held-out runs speak for that one"
-IMITATES = "several places at once imitate what the accepted cause does with fewer numbers"
+IMITATES = "it only imitates, by its many numbers, what the accepted cause does with fewer"
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
 SUPERFLUOUS = "superfluous once the later causes are there"
 OPPOSITE = "turned into its opposite once the later causes are there"

@@ -59,26 +59,37 @@ class Revision:
                     return changed, self.court.look(model, look.noise)
         return accepted, look
 
-    def exchange(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
-        """Put another cause in the place of an earlier one that won only because a later one was still missing."""
-        for number, entry in enumerate(accepted[:-1] if len(accepted) <= MOST_EXCHANGED else ()):
-            kept = [*accepted[:number], *accepted[number + 1 :]]
+    def exchange(
+        self, accepted: list[Accepted], look: Look, newest: Accepted | None = None
+    ) -> tuple[list[Accepted], Look]:
+        """Put another cause in the place of one that won only because the ``newest`` one was still missing.
+
+        Without a newest one it is the last; what was put in is the newest to the others.
+        """
+        newest = newest or accepted[-1]
+        older = [entry for entry in accepted if entry is not newest] if len(accepted) <= MOST_EXCHANGED else []
+        for entry in older:
+            kept = [other for other in accepted if other is not entry]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
-            without = self.court.look(model, look.noise)
-            fall = model.chi_square - look.model.chi_square
-            for finding in self.others_than(entry, without, fall):
-                trial = self.court.try_out(finding, replace(look, model=model))
-                price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
-                if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
-                    continue
-                if (gain := self.court.gain_of(look.model, trial.model)) and gain.value < 0.0:
-                    continue
+            instead = self.better_than(entry, model, look)
+            if instead is not None:
                 self.court.bar(entry, reasons.BETTER_BESIDE_THE_LATER)
-                foreseen = expected_gain(without.columns, finding)
-                instead = Accepted(finding, trial, foreseen, gain, (), base=model)
-                changed = [*accepted[:number], instead, *accepted[number + 1 :]]
-                return changed, self.court.look(trial.model, look.noise)
+                changed = [instead if other is entry else other for other in accepted]
+                return self.exchange(changed, self.court.look(instead.trial.model, look.noise), instead)
         return accepted, look
+
+    def better_than(self, entry: Accepted, model: Model, look: Look) -> Accepted | None:
+        """Another cause that explains more than an accepted one beside all others, which are the ``model``, or None."""
+        without = self.court.look(model, look.noise)
+        for finding in self.others_than(entry, without, model.chi_square - look.model.chi_square):
+            trial = self.court.try_out(finding, replace(look, model=model))
+            price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
+            if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
+                continue
+            gain = self.court.gain_of(look.model, trial.model)
+            if gain is None or gain.value >= 0.0:
+                return Accepted(finding, trial, expected_gain(without.columns, finding), gain, (), base=model)
+        return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
         """The few findings of other causes that promise most of a fall of chi square."""

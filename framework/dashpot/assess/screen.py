@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.noise import NoiseModel
-from dashpot.assess.projection import Projected, SparseRows, normal_equations, project_out, stack
+from dashpot.assess.projection import Projected, SparseRows, normal_equations, project_out
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Atom, Cause, Suspect
 from dashpot.model.sites import Site
@@ -59,7 +59,7 @@ class Candidate:
 class Columns:
     """Columns of all runs: ``tangents``, ``nuisance`` and the ``bank`` of suspects, warm-up cut off.
 
-    ``priors`` (q,) are the standard deviations of the nuisance strengths.
+    ``priors`` (q,) are the standard deviations of the nuisance strengths. ``jobs`` runs are worked on at once.
     """
 
     residual: Mapping[str, Array]
@@ -68,11 +68,24 @@ class Columns:
     bank: SparseRows
     priors: Array
     candidates: tuple[Candidate, ...]
+    jobs: int = 1
+
+    @property
+    def kinds(self) -> tuple[SparseRows, SparseRows, SparseRows]:
+        """Tangents, nuisance and bank."""
+        return self.tangents, self.nuisance, self.bank
 
     @property
     def precision(self) -> Array:
         """What is known of the strengths of tangents and nuisance beforehand, 1/variance."""
         return np.concatenate([np.zeros(self.tangents.size), 1.0 / self.priors**2])
+
+    def less(self, strengths: Array) -> dict[str, Array]:
+        """The residual of each run (n,) less tangents, nuisance and bank times their strengths."""
+        parts = np.split(strengths, np.cumsum([kind.size for kind in self.kinds])[:-1])
+        pairs = list(zip(self.kinds, parts, strict=True))
+        return {run: values - sum(kind.combined(part, run) for kind, part in pairs)
+                for run, values in self.residual.items()}  # fmt: skip
 
     def samples_of(self, finding: Finding) -> int:
         """How many samples the runs have that a finding touches."""
@@ -167,24 +180,24 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows
         rows, at = [np.empty((0, scored.samples))], [np.empty(0, dtype=np.intp)]
         for candidate in (candidate for candidate in candidates if candidate.site is None):
             found = np.atleast_2d(candidate.suspect.columns(view, run))[:, scored.first :]
-            alive = np.flatnonzero(found.any(axis=1))
-            rows.append(found[alive])
-            at.append(alive + candidate.columns.start)
+            alive = found.any(axis=1)
+            rows.append(found if alive.all() else found[alive])
+            at.append(np.flatnonzero(alive) + candidate.columns.start)
         values[run], places[run] = np.concatenate(rows), np.concatenate(at)
     return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
 
-def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
-    """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden.
+def thinned(columns: Columns) -> Columns:
+    """The columns with every second place of fine grids only, of which neighbours are nearly alike, for no verdict."""
+    return replace(columns, bank=columns.bank.thinned(_every_second(columns.candidates)), candidates=())
 
-    Neighbours on a grid are nearly alike, so every second place of a fine one will do.
-    """
-    rows = stack(columns.tangents, columns.nuisance, columns.bank.thinned(_every_second(columns.candidates)))
-    normal = normal_equations(columns.residual, rows, noise)
+
+def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
+    """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden."""
+    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
     scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
     matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
-    strengths = np.linalg.lstsq(matrix, normal.right / scale, rcond=1e-12)[0] / scale
-    return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
+    return columns.less(np.linalg.lstsq(matrix, normal.right / scale, rcond=1e-12)[0] / scale)
 
 
 def _every_second(candidates: Sequence[Candidate]) -> Places:
@@ -199,8 +212,8 @@ def _is_fine(suspect: Suspect) -> bool:
 
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
-    rows = (columns.tangents, columns.nuisance, columns.bank)
-    projected = project_out(normal_equations(columns.residual, rows, noise), columns.precision.size, columns.precision)
+    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
+    projected = project_out(normal, columns.precision.size, columns.precision)
     numbers = columns.tangents.size
     findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
@@ -253,10 +266,12 @@ def _judge_greedy(
         solved = [_solve(s, matrix, option, suspect.sign) for option in options]
         chosen = options[int(np.argmax([gain for gain, _ in solved]))]
         gain, strengths = solved[options.index(chosen)]
+        used = np.flatnonzero(strengths)
+        chosen, strengths = tuple(chosen[k] for k in used), strengths[used]
         merit = gain - len(chosen) * (1 + suspect.unknowns) * np.log(samples)
-        if best is not None and merit <= best.merit:
+        if not chosen or (best is not None and merit <= best.merit):
             break
-        atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True) if b != 0.0)
+        atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True))
         part = matrix[np.ix_(chosen, chosen)]
         deviations = np.sqrt(np.maximum(np.diag(_inverse(part)[0]), 0.0))
         best = Finding(candidate, atoms, gain, float(merit), strengths, chosen, deviations, absorbed[:, chosen])

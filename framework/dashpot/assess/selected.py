@@ -20,17 +20,12 @@ KEPT = 1e-4  # of the square of a column must be left by those chosen before
 
 def selected_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     """What is left of each run after tangents, sensor errors and the suspects that are significant together."""
-    kinds = (columns.tangents, columns.nuisance, columns.bank)
-    normal = normal_equations(columns.residual, kinds, noise)
+    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
     fixed = columns.tangents.size + columns.nuisance.size
     chosen = np.concatenate([np.arange(fixed), fixed + select(project_out(normal, fixed))])
     strengths = np.zeros(fixed + columns.bank.size)
     strengths[chosen] = _solve(normal, chosen)
-    parts = np.split(strengths, np.cumsum([kind.size for kind in kinds])[:-1])
-    return {
-        run: values - sum(kind.combined(part, run) for kind, part in zip(kinds, parts, strict=True))
-        for run, values in columns.residual.items()
-    }
+    return columns.less(strengths)
 
 
 def select(projected: Projected) -> NDArray[np.intp]:

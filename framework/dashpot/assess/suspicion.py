@@ -15,7 +15,7 @@ from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
 from dashpot.assess.nuisance import sensor_nuisance, table_nuisance
 from dashpot.assess.projection import SparseRows, side_by_side, stack
-from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
+from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen, thinned
 from dashpot.assess.seat import Seat, seats_of
 from dashpot.assess.selected import selected_residual
 from dashpot.assess.view import ModelView, view_of
@@ -56,14 +56,22 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     bank = collect_bank(view, candidates)
     if inside:
         bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
-    columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates))
-    noise_of, rounds = (selected_residual, INNER_ROUNDS) if inside else (rich_residual, NOISE_ROUNDS)
-    for _ in range(rounds):
-        noise = learn_noise(noise_of(columns, noise), resolution(bench))
+    columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates), bench.jobs)
+    noise = noise_beside(columns, noise, resolution(bench), bool(inside))
     model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
     columns = replace(columns, residual=residual, tangents=SparseRows.dense(tangents))
     return Look(model, noise, view, columns, screen(columns, noise, seed), unavailable)
+
+
+def noise_beside(columns: Columns, noise: NoiseModel, smallest: Mapping[str, float], inside: bool) -> NoiseModel:
+    """The noise of each run beside all suspects; beside those that show, where there are many, ``inside`` a network."""
+    residual_of, seen, rounds = (
+        (selected_residual, columns, INNER_ROUNDS) if inside else (rich_residual, thinned(columns), NOISE_ROUNDS)
+    )
+    for _ in range(rounds):
+        noise = learn_noise(residual_of(seen, noise), smallest)
+    return noise
 
 
 def first_noise(bench: Bench, model: Model) -> NoiseModel:
@@ -88,7 +96,7 @@ def linear_view(bench: Bench, model: Model) -> tuple[ModelView, dict[str, Array]
     residual, tangents = bench.linearise(model)
     free = ~model.at_end[:, None]
     followed = {run: np.where(free, rows, 0.0) for run, rows in tangents.items()}
-    return view_of(model.fitted, bench.runs, bench.elements), residual, followed
+    return view_of(model.fitted, bench.runs, bench.elements, bench.jobs), residual, followed
 
 
 def gather_candidates(

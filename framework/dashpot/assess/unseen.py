@@ -16,7 +16,7 @@ from dashpot.assess.mend import Mend, make_mend
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.nuisance import sensor_nuisance
 from dashpot.assess.projection import SparseRows, normal_equations, stack
-from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen
+from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen, thinned
 from dashpot.assess.suspicion import first_noise, resolution
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
@@ -42,8 +42,9 @@ class Jury:
         if columns is None:
             return None
         noise = first_noise(self.bench, model)
+        thin = thinned(columns)
         for _ in range(NOISE_ROUNDS):
-            noise = learn_noise(rich_residual(columns, noise), resolution(self.bench))
+            noise = learn_noise(rich_residual(thin, noise), resolution(self.bench))
         finding = screen(columns, noise, self.seed).best
         if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
             return None
@@ -51,7 +52,7 @@ class Jury:
 
     def _columns(self, model: Model) -> tuple[Columns | None, ModelView]:
         residual, tangents = self.bench.linearise(model)
-        view = view_of(model.fitted, self.bench.runs, self.bench.elements)
+        view = view_of(model.fitted, self.bench.runs, self.bench.elements, self.bench.jobs)
         candidates = _local_candidates(self.causes, view, model)
         if not candidates:
             return None, view
@@ -60,13 +61,13 @@ class Jury:
         nothing = SparseRows.dense({run: rows[:0] for run, rows in tangents.items()})
         known = np.concatenate([np.ones(turned.size), priors])
         bank = collect_bank(view, candidates)
-        return Columns(residual, nothing, stack(turned, sheet), bank, known, tuple(candidates)), view
+        return Columns(residual, nothing, stack(turned, sheet), bank, known, tuple(candidates), self.bench.jobs), view
 
 
 def known_directions(bench: Bench, model: Model, noise: NoiseModel) -> Array:
     """Directions (p, p) of the model's numbers, scaled so that the training runs leave a deviation of one in each."""
     residual, tangents = bench.linearise(model)
-    gram = normal_equations(residual, SparseRows.dense(tangents), noise).gram
+    gram = normal_equations(residual, SparseRows.dense(tangents), noise, bench.jobs).gram
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     values, vectors = np.linalg.eigh(gram / np.outer(scale, scale))
     kept = values > 1e-10 * max(float(values[-1]), 1e-300) if values.size else np.zeros(0, bool)

@@ -101,9 +101,11 @@ class ModelView:
         return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
 
 
-def view_of(network: NetworkSpec, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]]) -> ModelView:
+def view_of(
+    network: NetworkSpec, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]], jobs: int = 1
+) -> ModelView:
     """A fitted network on runs as causes see it."""
-    objective = Objective(compile_network(network), runs)
+    objective = Objective(compile_network(network), runs, jobs)
     forces = objective.forces(objective.network.start)
     seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
     return ModelView({run.name: run for run in runs}, seen, elements, network)

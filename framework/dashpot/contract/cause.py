@@ -86,8 +86,8 @@ class Suspect:
     those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
     a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths
     (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite. ``imitates`` are
-    the words of causes whose law several places of the grid make up by their sum: one of these that explains nearly as
-    much by fewer numbers is the cause.
+    the words of causes whose law this one can make up with its many numbers: one of these that explains nearly as much
+    by fewer is the cause.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)

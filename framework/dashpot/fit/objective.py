@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +14,12 @@ from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork
 from dashpot.kernel.parts import Parts, take_apart
 from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.workers import spread
 
 Array = NDArray[np.float64]
 
 
 Whiten = Callable[[str, Array], Array]
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 # the numbers of runs whose forces were measured together
 Team = tuple[int, ...]
 
@@ -86,7 +83,7 @@ class Objective:
                 block[1 + k, piece] = (other - seen[0])[run.first :]
             self._weigh(number, block)
 
-        self._map(fill, range(len(self.runs)))
+        spread(fill, range(len(self.runs)), jobs=self.jobs)
         return block[0], block[1:]
 
     def _linearise_as_a_whole(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
@@ -104,7 +101,7 @@ class Objective:
             for number, force in self._forces(team, values):
                 found[number] = force
 
-        self._map(fill, self.teams)
+        spread(fill, self.teams, jobs=self.jobs)
         return found
 
     def misfits(self, values: Array) -> Array:
@@ -117,13 +114,13 @@ class Objective:
                 run = self.runs[number]
                 out[:, self.pieces[number]] = force[:, run.first :] - run.force[run.first :]
 
-        self._map(fill, self.teams)
+        spread(fill, self.teams, jobs=self.jobs)
         return out
 
     def residuals(self, values: Array) -> Array:
         """Misfits (lanes, all counted samples) weighted or whitened so that their root mean square is the loss."""
         misfits = self.misfits(values)
-        self._map(lambda number: self._weigh(number, misfits), range(len(self.runs)))
+        spread(lambda number: self._weigh(number, misfits), range(len(self.runs)), jobs=self.jobs)
         return misfits
 
     def losses(self, values: Array) -> Array:
@@ -186,12 +183,6 @@ class Objective:
         found = self.network.forces(rows, values)
         for number in team:
             yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
-
-    def _map(self, work: Callable[[Item], Result], items: Iterable[Item]) -> list[Result]:
-        if self.jobs == 1:
-            return list(map(work, items))
-        with ThreadPoolExecutor(self.jobs) as pool:
-            return list(pool.map(work, items))
 
 
 def _teams(runs: Sequence[ScoredRun]) -> list[Team]:

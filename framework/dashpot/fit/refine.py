@@ -15,6 +15,7 @@ from dashpot.fit.objective import Objective
 Array = NDArray[np.float64]
 
 STEP = 1e-5
+STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
 
 
@@ -52,7 +53,8 @@ def refine(
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
     Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. The second
-    of two steps, each from one loss to another that is ``hopeless``, is the last one.
+    of two steps, each from one loss to another that is ``hopeless``, is the last one, unless a number grew or fell as
+    fast as it may.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
@@ -73,11 +75,12 @@ def refine(
                 return Refined(point, loss, Outcome.CONVERGED, spent)
             slack *= 100.0
             continue
+        strides = _strides(tries[best] - point, coordinates)
         before, loss, point = loss, float(losses[best]), tries[best]
         slack = max(DAMPINGS[best] / 10.0, 1e-3)
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
-        hope = not hopeless(before, loss)
+        hope = strides or not hopeless(before, loss)
         if not (hope or hoped):
             return Refined(point, loss, Outcome.LEFT_BEHIND, spent)
         hoped = hope
@@ -123,6 +126,10 @@ def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, poin
 
 
 def _limited(step: Array, coordinates: Coordinates) -> Array:
-    # a logarithm moves by no more than a factor of ten a step
     largest = np.max(np.abs(step[coordinates.log]), initial=0.0)
-    return step * min(1.0, 2.3 / largest) if largest > 0.0 else step
+    return step * min(1.0, STRIDE / largest) if largest > 0.0 else step
+
+
+def _strides(move: Array, coordinates: Coordinates) -> bool:
+    steps = np.abs(move / coordinates.unit)[coordinates.log]
+    return bool(np.any(steps > 0.9 * STRIDE))

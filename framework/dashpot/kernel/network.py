@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -24,6 +23,7 @@ from dashpot.kernel.source import ARGUMENTS
 from dashpot.kernel.structure import program_of, source_of
 from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.kernel.trace import refuse_missing_numbers
+from dashpot.kernel.workers import spread
 from dashpot.model.network import END, Characteristic, NetworkSpec
 from dashpot.model.topology import topology_of
 
@@ -92,10 +92,7 @@ class CompiledNetwork(Compiled):
                 out[block.place] = workspace[-1, : block.count]
             return out
 
-        if jobs == 1:
-            return np.array(list(map(work, runs, measured, weights)))
-        with ThreadPoolExecutor(jobs) as pool:
-            return np.array(list(pool.map(work, runs, measured, weights)))
+        return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
     def _group(self, count: int) -> tuple[Native, int]:
         vectors, alone = ALONE if count == 1 else FEW if count <= LANES else MANY

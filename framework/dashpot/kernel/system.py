@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property, lru_cache
@@ -27,6 +26,7 @@ from dashpot.kernel.structure import KEPT, Build, structure_of
 from dashpot.kernel.system_source import ARGUMENTS, UNBALANCED, UNSOLVED, SystemLayouts, print_system
 from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
 from dashpot.kernel.trace import refuse_missing_numbers
+from dashpot.kernel.workers import spread
 from dashpot.model.network import Characteristic, NetworkSpec
 from dashpot.model.topology import Topology, topology_of
 
@@ -183,10 +183,7 @@ class CompiledSystem(Compiled):
             return self._score(run, *(np.ascontiguousarray(np.transpose(aim), dtype=float) for aim in (target, weight)),
                                values)  # fmt: skip
 
-        if jobs == 1:
-            return np.array(list(map(work, runs, measured, weights)))
-        with ThreadPoolExecutor(jobs) as pool:
-            return np.array(list(pool.map(work, runs, measured, weights)))
+        return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
         lanes = self._lanes(run, values)

@@ -32,7 +32,7 @@ class Dragged(Resonator):
 
     def shape(self, motion: Motion) -> np.ndarray:
         speed = 2 * np.pi * self.frequency
-        return _drag(motion.acceleration, speed**2, 2 * self.ratio * speed, 0.0, STEP) / speed**2
+        return _drag(motion.acceleration, speed**2, 2 * self.ratio * speed, STEP) / speed**2
 
 
 @dataclass(frozen=True)
@@ -49,23 +49,45 @@ class Orifice(Resonator):
 
     def shape(self, motion: Motion) -> np.ndarray:
         speed = 2 * np.pi * self.frequency
-        return _drag(motion.acceleration, speed**2, 2 * self.ratio * speed, self.turbulence, STEP) / speed**2
+        return _drag(motion.acceleration, speed**2, 2 * self.ratio * speed, STEP, self.turbulence) / speed**2
+
+
+@dataclass(frozen=True)
+class Hardening(Resonator):
+    """The same on a spring that is twice as stiff at some stretch: its resonance rises with amplitude."""
+
+    frequency: float
+    ratio: float
+    stretch: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator) -> Self:
+        return cls(log_uniform(rng, 6.0, 30.0), rng.uniform(0.1, 0.3), log_uniform(rng, 2e-2, 2e-1))
+
+    def shape(self, motion: Motion) -> np.ndarray:
+        speed = 2 * np.pi * self.frequency
+        return _drag(motion.acceleration, speed**2, 2 * self.ratio * speed, STEP, 0.0, 1 / self.stretch**2) / speed**2
 
 
 @njit(cache=True)
-def _drag(acceleration, stiffness, damping, turbulence, step):
+def _drag(acceleration, stiffness, damping, step, turbulence=0.0, hardening=0.0):
     """Pull on the mass per mass, by Heun."""
     stretch, rate = 0.0, 0.0
     force = np.zeros(acceleration.size)
     for i in range(1, acceleration.size):
-        pull = stiffness * stretch + (damping + turbulence * abs(rate)) * rate
-        bend = acceleration[i - 1] - pull
+        bend = acceleration[i - 1] - _pull(stretch, rate, stiffness, damping, turbulence, hardening)
         far, fast = stretch + step * rate, rate + step * bend
-        there = acceleration[i] - stiffness * far - (damping + turbulence * abs(fast)) * fast
+        there = acceleration[i] - _pull(far, fast, stiffness, damping, turbulence, hardening)
         stretch += 0.5 * step * (rate + fast)
         rate += 0.5 * step * (bend + there)
-        force[i] = stiffness * stretch + (damping + turbulence * abs(rate)) * rate
+        force[i] = _pull(stretch, rate, stiffness, damping, turbulence, hardening)
     return force
 
 
-FORMS = (Dragged, Orifice)
+@njit(cache=True)
+def _pull(stretch, rate, stiffness, damping, turbulence, hardening):
+    elastic = stiffness * stretch * (1.0 + hardening * stretch * stretch)
+    return elastic + (damping + turbulence * abs(rate)) * rate
+
+
+FORMS = (Dragged, Orifice, Hardening)

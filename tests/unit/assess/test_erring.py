@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dashpot.assess.erring import beside_sensors
+from dashpot.assess.erring import beside_sensors, less_sensor_errors
 from dashpot.assess.noise import ORDER, flat_noise
 
 STEP, SAMPLES, WARM_UP, NOISE = 1e-3, 300, 50, 4.0
@@ -40,3 +40,19 @@ def test_an_error_within_the_data_sheet_costs_little_and_one_beyond_it_much(run)
 def test_without_a_data_sheet_only_the_noise_counts(run):
     noise = flat_noise({"a": NOISE})
     assert beside_sensors(noise, [run], {}) is noise
+
+
+def test_what_errors_of_the_sensor_could_have_made_is_taken_out_of_a_misfit_and_nothing_else(run):
+    rng = np.random.default_rng()
+    force, rate = run.force[WARM_UP:], np.gradient(run.force, STEP)[WARM_UP:]
+    errors = rng.uniform(-5.0, 5.0, 3) @ np.array([1e-3 * force, np.ones(force.size), 1e-4 * rate])
+    other = rng.normal(0.0, NOISE, run.samples)
+    with_errors, without = (less_sensor_errors([misfit], [run], {"a": SHEET})[0] for misfit in (other + errors, other))
+    assert with_errors == pytest.approx(without, abs=1e-9)
+    # of noise no more than three numbers are taken: 37 is beyond one in ten millions of chi square for three
+    assert np.sum((other - without) ** 2) < 37.0 * NOISE**2
+
+
+def test_without_a_data_sheet_a_misfit_stays_as_it_is(run):
+    misfit = np.random.default_rng().normal(0.0, 5.0, run.samples)
+    assert np.array_equal(less_sensor_errors([misfit], [run], {})[0], misfit)

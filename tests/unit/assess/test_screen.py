@@ -77,6 +77,19 @@ def test_several_places_are_added_as_long_as_they_pay():
     assert sorted(place for _, place in found.atoms) == [1.0, 4.0]
 
 
+def test_a_place_that_further_ones_make_needless_is_left_out():
+    """A place near to the sum of two hidden ones comes first, but has no share once both are there."""
+    rng = np.random.default_rng()
+    columns = columns_of(rng, [0.0, 0.5, 0.5, 0.0], most=4)
+    for run in "ab":
+        rows = columns.bank.values[run]
+        # less a little of the noise: beside both it could only be of the wrong sign
+        rows[0] = rows[1] + rows[2] - 0.1 * (columns.residual[run] - 0.5 * (rows[1] + rows[2]))
+    found = screen(columns, WHITE).best
+    assert sorted(place for _, place in found.atoms) == [2.0, 3.0]
+    assert len(found.chosen) == found.strengths.size == found.deviations.size == found.absorbed.shape[1] == 2
+
+
 def alarms(draw, draws=30):
     """How many of so many draws name something. By chance it is 1 in 100: P(more than 4 of 30) = 2e-5."""
     return sum(screen(draw(), WHITE).best is not None for _ in range(draws))

@@ -1,5 +1,6 @@
 """A refit may turn a cause into its opposite: then it is not that cause."""
 
+import math
 from types import SimpleNamespace
 
 import pytest
@@ -7,7 +8,7 @@ import pytest
 from dashpot.contract.registry import load_registry
 
 CAUSES = load_registry().causes
-VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03))
+VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=1e-3)
 
 
 def suspect(word, form):
@@ -52,3 +53,27 @@ def test_a_power_that_was_driven_towards_two_is_quadratic_damping(exponent, admi
 
 def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
+
+
+# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: up to three times as much it is a resonance
+@pytest.mark.parametrize(("word", "form"), [
+    ("fluid_mass", "a mass behind a spring"), ("mass", "a mass hung on a spring"),
+])  # fmt: skip
+@pytest.mark.parametrize(("frequency", "ratio", "turbulence", "admitted"), [
+    (5.0, 0.1, 0.0, True),
+    (23.0, 0.9, 0.0, True),
+    (25.0, 0.1, 0.0, False),
+    (5.0, 1.1, 0.0, False),
+    (5.0, 0.1, 4.0, False),
+])  # fmt: skip
+def test_a_resonance_swings_within_reach_of_what_was_driven(word, form, frequency, ratio, turbulence, admitted):
+    turning, mass = 2.0 * math.pi * frequency, 3.0
+    found = {word: mass, "stiffness": mass * turning**2, "damping": 2.0 * ratio * mass * turning,
+             "quadratic_damping": 2.0 * turbulence * mass * turning}  # fmt: skip
+    assert suspect("resonance", f"{form}, in turbulence").admits(found) is admitted
+
+
+@pytest.mark.parametrize(("frequency", "admitted"), [(23.0, False), (25.0, True), (300.0, True)])
+def test_a_mass_on_its_mounting_resonates_beyond_that(frequency, admitted):
+    found = {"mass": 3.0, "stiffness": 3.0 * (2.0 * math.pi * frequency) ** 2, "damping": 1.0}
+    assert suspect("moving_mass", "a mass on its mounting").admits(found) is admitted

@@ -73,6 +73,27 @@ def test_a_bound_holds_and_the_others_go_on():
     assert damping == pytest.approx(best, rel=1e-5)
 
 
+def without_hope(damping):
+    spec = network(f"""
+        rubber: {{element: spring, stiffness: {{start: 1.5e5, bounds: [1e4, 1e6]}}}}
+        oil: {{element: damper, damping: {{start: {damping!r}, bounds: [0.01, 1e6]}}}}
+    """)
+    objective, coordinates = Objective(compile_network(spec), runs()), search_coordinates(spec)
+    found = refine(objective, coordinates, coordinates.start, tolerance=1e-12, hopeless=lambda before, after: True)
+    return found.outcome, numbers(spec, coordinates, found.point)["oil.damping"]
+
+
+def test_a_refinement_without_hope_is_left_behind():
+    assert without_hope(2.0 * DAMPING)[0] is Outcome.LEFT_BEHIND
+
+
+def test_a_number_that_has_dwindled_may_grow_back_before_hope_is_lost():
+    decades = np.random.default_rng().uniform(2.5, 4.4)
+    outcome, damping = without_hope(DAMPING / 10.0**decades)
+    # ten times a step, then two steps of Newton's in the logarithm
+    assert 0.5 * DAMPING < damping < 2.0 * DAMPING, outcome
+
+
 def test_it_says_when_the_steps_were_spent():
     _, objective, coordinates = ready(KELVIN_VOIGT, runs())
     assert refine(objective, coordinates, coordinates.start, steps=1).outcome is Outcome.STEPS_SPENT

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from dashpot.kernel.observe import Observation, read_observation
 
@@ -81,3 +82,18 @@ def test_small_changes_of_a_force_that_is_not_shown_are_not_shown():
     held = read_observation(("measurement.force.least",), np.array([[0.0]]))
     _, changes, _ = held.linear(wave(TIME), np.ones((2, TIME.size)), DT)
     assert changes == pytest.approx(np.broadcast_to(wave(TIME) > 0.0, (2, TIME.size)).astype(float))
+
+
+@pytest.mark.parametrize("samples", [2, 3, 4, 5, 6, 400])
+def test_each_lane_is_shifted_along_its_own_cubic_spline(samples):
+    rng = np.random.default_rng()
+    force, delay = rng.standard_normal((4, samples)).cumsum(axis=1), rng.uniform(-3e-3, 3e-3, 4)
+    delay[2] = 0.0
+    at = np.arange(samples)
+    expected = [
+        CubicSpline(at, row)(np.clip(at - late / 1e-3, 0.0, at[-1])) for row, late in zip(force, delay, strict=True)
+    ]
+    seen = Observation(np.ones(4), np.zeros(4), delay).see(force, 1e-3)
+    assert seen == pytest.approx(np.array(expected), abs=1e-9 * np.abs(force).max())
+    force[1, -1] = np.nan
+    assert np.isnan(Observation(np.ones(4), np.zeros(4), delay).see(force, 1e-3)).any(axis=1).tolist() == [0, 1, 0, 0]

@@ -1,6 +1,6 @@
 """Laws with memory as differential equations along a given smooth motion, for solve_ivp.
 
-Hydro (1.9), Stribeck in a Dahl slider (1.13), Bouc-Wen in its classical numbers, warming up.
+Hydro (1.9), a mass hung on a spring, Stribeck in a Dahl slider (1.13), Bouc-Wen in its classical numbers, warming up.
 """
 
 from __future__ import annotations
@@ -36,6 +36,20 @@ def hydro_rate(place, mass, wall, damping, turbulence=0.0, chamber=0.0) -> Rate:
     def rate(t, y):
         force = wall * (place(t) - y[0]) - chamber * y[0] - damping * y[1] - turbulence * abs(y[1]) * y[1]
         return [y[1], force / mass]
+
+    return rate
+
+
+def absorber_pull(stretch, rate, stiffness, damping, turbulence=0.0):
+    """The force of spring and dashpot on a mass that hangs on them."""
+    return stiffness * stretch + damping * rate + turbulence * abs(rate) * rate
+
+
+def absorber_rate(place, speed, mass, *numbers) -> Rate:
+    """Place and velocity of a mass that hangs on what moves as ``place(t)`` with ``speed(t)``."""
+
+    def rate(t, y):
+        return [y[1], absorber_pull(place(t) - y[0], speed(t) - y[1], *numbers) / mass]
 
     return rate
 

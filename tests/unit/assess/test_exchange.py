@@ -1,0 +1,70 @@
+"""A cause that gives way to another one beside a later cause; what was put in may let others give way in turn."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from dashpot.assess.revision import MOST_EXCHANGED, Revision
+
+
+class Court:
+    """Remembers what was taken back; models and looks are of no matter here."""
+
+    def __init__(self):
+        self.barred = []
+
+    def rebuild(self, kept, model, first, noise):
+        return [entry.word for entry in kept]
+
+    def look(self, model, noise):
+        return SimpleNamespace(model=model, noise=noise)
+
+    def bar(self, entry, reason):
+        self.barred.append(entry.word)
+
+
+class Scripted(Revision):
+    """``better`` says by (cause, others) what explains more."""
+
+    better = {}
+
+    def better_than(self, entry, model, look):
+        word = self.better.get((entry.word, *model))
+        return accepted(word) if word else None
+
+
+def accepted(word):
+    return SimpleNamespace(word=word, trial=SimpleNamespace(model=word))
+
+
+@pytest.fixture
+def exchange(monkeypatch):
+    def run(words, better):
+        monkeypatch.setattr(Scripted, "better", better)
+        court = Court()
+        found, _ = Scripted(court, None).exchange([accepted(word) for word in words], court.look("last", None))
+        return [entry.word for entry in found], court.barred
+
+    return run
+
+
+def test_an_earlier_cause_gives_way_in_its_place(exchange):
+    assert exchange(["friction", "drift"], {("friction", "drift"): "softening"}) == (
+        ["softening", "drift"],
+        ["friction"],
+    )
+
+
+def test_what_was_put_in_lets_the_later_one_give_way_too(exchange):
+    better = {("softening", "resonance"): "relaxation", ("resonance", "relaxation"): "moving_mass"}
+    assert exchange(["softening", "resonance"], better) == (["relaxation", "moving_mass"], ["softening", "resonance"])
+
+
+def test_the_newest_cause_does_not_give_way(exchange):
+    assert exchange(["friction", "drift"], {("drift", "friction"): "offset"}) == (["friction", "drift"], [])
+    assert exchange(["friction"], {("friction",): "drift"}) == (["friction"], [])
+
+
+def test_beside_many_causes_none_is_exchanged(exchange):
+    words = [f"cause {number}" for number in range(MOST_EXCHANGED + 1)]
+    assert exchange(words, {(words[0], *words[1:]): "other"}) == (words, [])
