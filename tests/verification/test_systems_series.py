@@ -8,7 +8,7 @@ from verification.systems import excitation, rms, system, times
 from verification.truth.motion import smooth_motion
 
 from dashpot import load_registry
-from dashpot.kernel.system import Status
+from dashpot.kernel.system import TOLERANCE, Status
 
 LANES = 24
 ELEMENTS = {
@@ -23,6 +23,7 @@ ELEMENTS = {
     "hydro": "fluid_mass: 5 kg, stiffness: 200 N/mm, damping: 500 N*s/m",
 }
 QUICK = ("springpot", "stribeck", "clearance", "backlash")
+MOUNT_STIFFNESS = 80e3
 MOUNT = "mount: {parallel: {k: {element: spring, stiffness: 80 N/mm}, d: {element: damper, damping: 100 N*s/m}}}"
 
 
@@ -54,6 +55,7 @@ def test_an_element_behind_a_mount_is_solved_and_converges(word, state):
     state(f"{word} behind a mount at 1 ms: {np.median(coarse / size):.1e} of the RMS force, at 1/4 ms "
           f"{np.median(fine / size):.1e}; estimate {np.median(found[1].error[:, 0] / size):.1e}")  # fmt: skip
     assert np.median(coarse / size) < 2e-3
-    # two halvings of a method of second order, and a third left over for corners
-    assert np.median(fine) < np.median(coarse) / 5.0
+    # two halvings of a method of second order, and a third left over for corners; Newton's method stops before zero
+    unsolved = MOUNT_STIFFNESS * TOLERANCE * np.ptp(run.motions[network.outputs[0]].displacement)
+    assert np.median(fine) < max(np.median(coarse) / 5.0, unsolved)
     assert np.median(coarse / found[1].error[:, 0]) < 2.0

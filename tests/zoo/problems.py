@@ -162,5 +162,5 @@ def evaluations_to_goal(word: str, problem: str, seed: list[int], budget: int) -
     goal = GOAL * task.floor
     space = Space(tuple(f"p{number}" for number in range(task.size)), rng.random(task.size))
     method = make_optimizer(word, load_registry().optimizers)
-    found = run_search(method, task.losses, task.residuals, space, seed[0], budget=budget, target=goal)
+    found = run_search(method, task.losses, task.residuals, space, int(rng.integers(2**32)), budget=budget, target=goal)
     return found.evaluations if found.loss <= goal else np.inf
