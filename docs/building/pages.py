@@ -236,6 +236,7 @@ RATES = {
     "in_first_three": "a hidden effect is among the first three names and the rivals of the first",
     "exact": "exactly the hidden effects are named",
     "confidently_wrong": "it says all is explained, by a cause outside the family",
+    "beyond_confusions": "the same, by a cause that is not declared to be confused with it either",
     "false_alarms": "something is named where nothing is hidden",
     "over_noise_to_1.05": "the held-out error after the extension is within 1.05 of the noise",
     "right_after_asking": "the first name is right once the run that was asked for is there",

@@ -84,6 +84,11 @@ class Outcome:
         return self.verdict["verdict"] == "explained" and not self.in_family
 
     @property
+    def beyond_confusions(self) -> bool:
+        """Whether it is confidently wrong by a name that no plugin declares to be confused with what is hidden."""
+        return self.confidently_wrong and not set(self.kinds) & confused_with(self.first)
+
+    @property
     def over_noise(self) -> float | None:
         """The held-out error after the extension over the noise that is really in these runs: as an oracle has it."""
         after, runs = self.verdict["rmse"]["after"]["held_out"], self.verdict["held_out"]
@@ -126,6 +131,14 @@ class Outcome:
                 f"[{self.seconds:.1f} s]")  # fmt: skip
 
 
+def confused_with(word: str) -> set[str]:
+    """The causes that a cause declares to be confused with, or that declare it."""
+    from dashpot.contract.registry import load_registry
+
+    causes = load_registry().causes
+    return {*causes[word].confused_with, *(other for other, cause in causes.items() if word in cause.confused_with)}
+
+
 def summary(outcomes: Sequence[Outcome]) -> dict:
     """Rates and the confusion matrix."""
     hidden = [o for o in outcomes if o.kinds]
@@ -139,6 +152,7 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "family_right": [sum(o.in_family for o in found), len(found)],
         "in_first_three": [sum(o.in_first_three for o in found), len(found)],
         "confidently_wrong": [sum(o.confidently_wrong for o in found), len(found)],
+        "beyond_confusions": [sum(o.beyond_confusions for o in found), len(found)],
         "by_strength": _by_strength(hidden),
         "over_noise": _quantiles([o.over_noise for o in found if o.over_noise is not None]),
         "gain_calibration": _rank_correlation([pair for o in outcomes for pair in o.gains]),
@@ -170,7 +184,8 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
     print(f"exactly the hidden effects: {_of(rates['exact'])}; truth named or a declared rival: "
           f"{_of(rates['named_or_rival'])}")  # fmt: skip
     print(f"first name of the right family: {_of(rates['family_right'])}; truth in the first three: "
-          f"{_of(rates['in_first_three'])}; confidently wrong: {_of(rates['confidently_wrong'])}")  # fmt: skip
+          f"{_of(rates['in_first_three'])}; confidently wrong: {_of(rates['confidently_wrong'])}, "
+          f"by a name that is not declared to be confused with it: {_of(rates['beyond_confusions'])}")  # fmt: skip
     print(
         "first right by strength left: "
         + ", ".join(f"{band} {_of(pair)}" for band, pair in rates["by_strength"].items())

@@ -96,7 +96,7 @@ class Diagnosis:
             "tried": self.pursuit.tried,
             "rejected": [vars(rejection) for rejection in self.pursuit.rejected],
             "limits": detection_limits(self.pursuit),
-            "leftover": {"score": self.leftover.score, "size": self.leftover.size},
+            "leftover": vars(self.leftover),
             "seed": self.seed,
         }
 

@@ -1,7 +1,7 @@
 """Is there structure left that no suspect explains? Tests that name nothing.
 
-Two questions to the whitened residual of the final model: does it correlate with a general set of functions of the
-motion, and do repeated runs agree about it?
+Three questions to the whitened residual of the final model: does it correlate with a general set of functions of the
+motion, do repeated runs agree about it, and is there a line in its spectrum?
 """
 
 from __future__ import annotations
@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.assess.lines import strongest_line
 from dashpot.assess.noise import NoiseModel
 from dashpot.assess.projection import SparseRows, normal_equations, project_out, stack
-from dashpot.assess.screen import Columns
+from dashpot.assess.screen import KEPT, Columns
 from dashpot.assess.view import ModelView
 from dashpot.data.run import Run
 
@@ -23,42 +24,55 @@ Signals = Mapping[str, Array]
 
 SIGNIFICANT = 6.0
 SMALLEST_SIZE = 0.1
+SHARE_LEFT = 0.3  # of the RMS of what is explained: a tenth of its square
 LAGS = (0.003, 0.02, 0.15, 1.0)
+NO_REPEATS = "no run was repeated"
 
 
 @dataclass(frozen=True)
 class Leftover:
-    """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS)."""
+    """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
+
+    ``what`` says how it shows.
+    """
 
     score: float
     size: float
+    what: str
 
-    @property
-    def notable(self) -> bool:
-        """Whether something is left that is both certain and not negligible."""
-        return self.score > SIGNIFICANT and self.size > SMALLEST_SIZE
+    def notable(self, explained: float = 0.0) -> bool:
+        """Whether something is left that is both certain and not negligible.
+
+        That is measured by the noise, or by what is ``explained``: the RMS of the effects that have a name, in units
+        of the noise.
+        """
+        negligible = min(SMALLEST_SIZE, SHARE_LEFT * explained) if explained else SMALLEST_SIZE
+        return self.score > SIGNIFICANT and self.size > negligible
 
 
 def look_for_leftover(view: ModelView, columns: Columns, noise: NoiseModel, runs: Sequence[Run]) -> Leftover:
-    """The more telling one of the two tests, sensor errors within the data sheet left aside."""
-    return max(
-        _correlation(view, columns, noise),
-        _agreement(_without_sensor_errors(columns, noise), noise, runs),
-        key=lambda leftover: (leftover.notable, leftover.size),
-    )
+    """The most telling one of the three tests, sensor errors within the data sheet left aside."""
+    sound = _without_sensor_errors(columns, noise)
+    white = {run: noise.whiten(run, values) for run, values in sound.items()}
+    tests = (_correlation(view, columns, noise), _agreement(white, runs), _line(view, white))
+    return max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
 
 
 def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftover:
-    general = {run: general_functions(view, run)[:, view.scored[run].first :] for run in columns.residual}
-    rows = (columns.tangents, columns.nuisance, SparseRows.of(general))
+    general = {run: general_functions(view, run) for run in columns.residual}
+    names = list(next(iter(general.values())))
+    values = {run: np.array([*rows.values()])[:, view.scored[run].first :] for run, rows in general.items()}
+    rows = (columns.tangents, columns.nuisance, SparseRows.of(values))
     normal = normal_equations(columns.residual, rows, noise, columns.jobs)
     projected = project_out(normal, columns.precision.size, columns.precision)
     scale = np.sqrt(np.maximum(projected.original, 1e-300))
-    values, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
-    kept = values > 1e-8 * values[-1]
-    excess = float(np.sum((vectors[:, kept].T @ (projected.scores / scale)) ** 2 / values[kept])) - float(kept.sum())
+    sizes, vectors = np.linalg.eigh(projected.spread / np.outer(scale, scale))
+    kept = sizes > 1e-8 * sizes[-1]
+    excess = float(np.sum((vectors[:, kept].T @ (projected.scores / scale)) ** 2 / sizes[kept])) - float(kept.sum())
     score = excess / float(np.sqrt(2.0 * kept.sum()))
-    return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)))
+    alone = projected.scores**2 / np.maximum(np.diag(projected.spread), KEPT * projected.original + 1e-300)
+    what = f"it follows {names[int(np.argmax(alone))]}"
+    return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)), what)
 
 
 def _without_sensor_errors(columns: Columns, noise: NoiseModel) -> Signals:
@@ -72,38 +86,40 @@ def _without_sensor_errors(columns: Columns, noise: NoiseModel) -> Signals:
     return {run: values - rows.combined(strengths, run) for run, values in columns.residual.items()}
 
 
-def general_functions(view: ModelView, run: str) -> Array:
-    """Products of deflection and velocity, powers, signs, and the same remembered for a while: (functions, n)."""
+def general_functions(view: ModelView, run: str) -> dict[str, Array]:
+    """Products of deflection and velocity, powers, signs, and the same remembered for a while: (n,) by name."""
     x = (view.displacement(run) - np.mean(view.reach)) / (0.5 * np.ptp(view.reach))
     local = view.displacement(run) - np.mean(view.displacement(run))
     local = local / max(float(np.std(local)), 1e-300)
     v = view.velocity(run) / view.speed
     a = np.gradient(v)
-    plain = [
-        x,
-        x**2,
-        x**3,
-        x**4,
-        v,
-        v * np.abs(v),
-        np.abs(v),
-        v**3,
-        v * x,
-        v * x**2,
-        v * local,
-        v * local**2,
-        np.tanh(20.0 * v),
-        np.tanh(20.0 * v) * x,
-        np.tanh(20.0 * v) * local,
-        local**2,
-        local**3,
-        np.tanh(4.0 * x),
-        a,
-        a * local,
-        view.force(run) * v,
-    ]
-    remembered = [_low_pass(signal, view.step(run) / lag) for lag in LAGS for signal in (local, local**2, np.abs(v))]
-    return np.array([*plain, *remembered])
+    plain = {
+        "the deflection": x,
+        "the square of the deflection": x**2,
+        "the cube of the deflection": x**3,
+        "the fourth power of the deflection": x**4,
+        "the velocity": v,
+        "the velocity times its size": v * np.abs(v),
+        "the size of the velocity": np.abs(v),
+        "the cube of the velocity": v**3,
+        "velocity times deflection": v * x,
+        "velocity times the square of the deflection": v * x**2,
+        "velocity times the deflection from the middle of the run": v * local,
+        "velocity times the square of the deflection from the middle of the run": v * local**2,
+        "the direction of motion": np.tanh(20.0 * v),
+        "the direction of motion times deflection": np.tanh(20.0 * v) * x,
+        "the direction of motion times the deflection from the middle of the run": np.tanh(20.0 * v) * local,
+        "the square of the deflection from the middle of the run": local**2,
+        "the cube of the deflection from the middle of the run": local**3,
+        "a step of the deflection": np.tanh(4.0 * x),
+        "the acceleration": a,
+        "acceleration times deflection": a * local,
+        "force times velocity": view.force(run) * v,
+    }
+    past = {"deflection": local, "square of the deflection": local**2, "size of the velocity": np.abs(v)}
+    remembered = {f"the {name} of the last {lag:g} s": _low_pass(signal, view.step(run) / lag)
+                  for lag in LAGS for name, signal in past.items()}  # fmt: skip
+    return plain | remembered
 
 
 def _low_pass(signal: Array, share: float) -> Array:
@@ -113,9 +129,8 @@ def _low_pass(signal: Array, share: float) -> Array:
     return lfilter([1.0 - keep], [1.0, -keep], signal)
 
 
-def _agreement(residual: Signals, noise: NoiseModel, runs: Sequence[Run]) -> Leftover:
+def _agreement(white: Signals, runs: Sequence[Run]) -> Leftover:
     total, samples = 0.0, 0
-    white = {run: noise.whiten(run, residual[run]) for run in residual}
     for run in runs:
         if run.repeats in white and run.name in white:
             first, second = white[run.repeats], white[run.name]
@@ -123,5 +138,10 @@ def _agreement(residual: Signals, noise: NoiseModel, runs: Sequence[Run]) -> Lef
             total += float(first[-count:] @ second[-count:])
             samples += count
     if samples == 0:
-        return Leftover(0.0, 0.0)
-    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)))
+        return Leftover(0.0, 0.0, NO_REPEATS)
+    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), "repeated runs agree about it")
+
+
+def _line(view: ModelView, white: Signals) -> Leftover:
+    found = strongest_line(white, {run: view.step(run) for run in white})
+    return Leftover(found.score, found.size, f"it is a line at {found.frequency:.4g} Hz")

@@ -42,6 +42,12 @@ class Pursuit:
     ladder: tuple[Model, ...]
     least_force: float
 
+    @property
+    def explained(self) -> float:
+        """The RMS of what the accepted causes explain on the training runs, in units of the noise."""
+        falls = sum(entry.trial.gain for entry in self.accepted if entry.base is not None)
+        return float(np.sqrt(max(falls, 0.0) / self.last.screen.samples))
+
 
 @dataclass(eq=False)
 class Pursuer:

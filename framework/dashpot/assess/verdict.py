@@ -20,5 +20,5 @@ def give_verdict(faults: Sequence[Fault], pursuit: Pursuit, leftover: Leftover) 
     if any(entry.rivals for entry in pursuit.accepted):
         return "ambiguous"
     if pursuit.accepted:
-        return "partly_explained" if leftover.notable else "explained"
-    return "unexplained" if leftover.notable else "nothing_missing"
+        return "partly_explained" if leftover.notable(pursuit.explained) else "explained"
+    return "unexplained" if leftover.notable() else "nothing_missing"

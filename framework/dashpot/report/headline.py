@@ -117,11 +117,18 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     if errors.floor and errors.after is not None:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
     named = f"only {percent(errors.gain)} of it is {_named(causes)}" if causes else "it is only partly explained"
-    return f"{error_phrase(errors)}; {named}; {left}."
+    return f"{error_phrase(errors)}; {named}; {left}{_leftover(diagnosis)}."
 
 
-def _unexplained(_: Json, errors: Errors) -> str:
-    return f"{error_phrase(errors)}: something is missing in the model, and no known cause fits it."
+def _unexplained(diagnosis: Json, errors: Errors) -> str:
+    missing = f"something is missing in the model, and no known cause fits it{_leftover(diagnosis)}"
+    return f"{error_phrase(errors)}: {missing}."
+
+
+def _leftover(diagnosis: Json) -> str:
+    """How what is left shows."""
+    left = diagnosis.get("leftover") or {}
+    return f": {left['what']}, {number(left['size'], 2)} × the noise" if left.get("what") else ""
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:
