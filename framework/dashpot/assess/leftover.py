@@ -26,7 +26,7 @@ SIGNIFICANT = 6.0
 SMALLEST_SIZE = 0.1
 SHARE_LEFT = 0.3  # of the RMS of what is explained: a tenth of its square
 LAGS = (0.003, 0.02, 0.15, 1.0)
-NO_REPEATS = "no run was repeated"
+NO_REPEATS = "is not known to come again"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftov
     excess = float(np.sum((vectors[:, kept].T @ (projected.scores / scale)) ** 2 / sizes[kept])) - float(kept.sum())
     score = excess / float(np.sqrt(2.0 * kept.sum()))
     alone = projected.scores**2 / np.maximum(np.diag(projected.spread), KEPT * projected.original + 1e-300)
-    what = f"it follows {names[int(np.argmax(alone))]}"
+    what = f"follows {names[int(np.argmax(alone))]}"
     return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)), what)
 
 
@@ -139,9 +139,9 @@ def _agreement(white: Signals, runs: Sequence[Run]) -> Leftover:
             samples += count
     if samples == 0:
         return Leftover(0.0, 0.0, NO_REPEATS)
-    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), "repeated runs agree about it")
+    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), "comes again in repeated runs")
 
 
 def _line(view: ModelView, white: Signals) -> Leftover:
     found = strongest_line(white, {run: view.step(run) for run in white})
-    return Leftover(found.score, found.size, f"it is a line at {found.frequency:.4g} Hz")
+    return Leftover(found.score, found.size, f"is a line at {found.frequency:.4g} Hz")

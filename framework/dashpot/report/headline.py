@@ -15,6 +15,7 @@ Json = Mapping[str, Any]
 # where an error is taken from, best first
 RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"}
 
+MOST = 0.9  # of an error: no longer only a part of it
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
@@ -116,19 +117,20 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
-    named = f"only {percent(errors.gain)} of it is {_named(causes)}" if causes else "it is only partly explained"
+    share = percent(errors.gain) if errors.gain and errors.gain > MOST else f"only {percent(errors.gain)}"
+    named = f"{share} of it is {_named(causes)}" if causes else "it is only partly explained"
     return f"{error_phrase(errors)}; {named}; {left}{_leftover(diagnosis)}."
 
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
-    missing = f"something is missing in the model, and no known cause fits it{_leftover(diagnosis)}"
-    return f"{error_phrase(errors)}: {missing}."
+    missing = "something is missing in the model, and no known cause fits it"
+    return f"{error_phrase(errors)}: {missing}{_leftover(diagnosis)}."
 
 
 def _leftover(diagnosis: Json) -> str:
-    """How what is left shows."""
+    """How the structure shows that is left, and how much of it there is."""
     left = diagnosis.get("leftover") or {}
-    return f": {left['what']}, {number(left['size'], 2)} × the noise" if left.get("what") else ""
+    return f"; of what is left, {number(left['size'], 2)} × the noise {left['what']}" if left.get("what") else ""
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:

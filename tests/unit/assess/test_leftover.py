@@ -20,4 +20,4 @@ from dashpot.assess.leftover import Leftover
     ],
 )
 def test_what_is_left_is_measured_by_the_noise_and_by_what_is_explained(score, size, explained, notable):
-    assert Leftover(score, size, "it follows the velocity").notable(explained) is notable
+    assert Leftover(score, size, "follows the velocity").notable(explained) is notable

@@ -40,6 +40,16 @@ def test_partly_explained_says_what_is_left():
     assert said.endswith("27.5 N remain unexplained, 1.9 × the noise floor.")
 
 
+def test_what_is_left_is_described():
+    left = {"score": 36.0, "size": 0.2134, "what": "is a line at 48.7 Hz"}
+    rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 3.0}}
+    partly = headline(diagnosis(verdict="partly_explained", rmse=rmse, leftover=left))
+    assert "; 95 % of it is dry friction" in partly
+    unexplained = headline(diagnosis(verdict="unexplained", causes=[], leftover=left))
+    for said in (partly, unexplained):
+        assert said.endswith("; of what is left, 0.21 × the noise is a line at 48.7 Hz.")
+
+
 def test_unexplained_does_not_guess():
     said = headline(diagnosis(verdict="unexplained", causes=[relaxation()]))
     assert said.endswith("something is missing in the model, and no known cause fits it.")
