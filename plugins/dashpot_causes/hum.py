@@ -12,7 +12,7 @@ from dashpot.contract.cause import Cause, Suspect, View, unchanged
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
-MAINS = (50.0, 60.0, 100.0, 120.0)
+MAINS = {50.0: (1, 3), 60.0: (1, 3), 100.0: (1,), 120.0: (1,)}  # with the harmonics that come along
 HIGHEST = 0.4  # of the sampling rate
 
 
@@ -31,27 +31,32 @@ class Hum(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Sine and cosine of a frequency of the mains in every run."""
-        for frequency in MAINS:
-            if frequency * max(view.step(run) for run in view.runs) < HIGHEST:
-                lines = _Lines(frequency, tuple(view.runs))
-                grid = tuple(float(k) for k in range(2 * len(lines.runs)))
+        """Sine and cosine of a frequency of the mains, and of its third harmonic, in every run."""
+        highest = HIGHEST / max(view.step(run) for run in view.runs)
+        for frequency, harmonics in MAINS.items():
+            if frequency < highest:
+                lines = _Lines([k * frequency for k in harmonics if k * frequency < highest], tuple(view.runs))
+                grid = tuple(float(k) for k in range(2 * len(lines.frequencies) * len(lines.runs)))
                 yield Suspect(f"{frequency:g} Hz", grid, lines, unchanged, joint=True, sign=0, unknowns=0,
                               mends=True, local=True, tell=lines.tell)  # fmt: skip
 
 
 @dataclass(frozen=True)
 class _Lines:
-    frequency: float
+    frequencies: Sequence[float]
     runs: tuple[str, ...]
 
     def __call__(self, view: View, run: str) -> Array:
-        rows = np.zeros((2 * len(self.runs), view.force(run).size))
+        samples, each = view.force(run).size, 2 * len(self.frequencies)
+        rows = np.zeros((each * len(self.runs), samples))
         if run in self.runs:
-            angle = 2.0 * np.pi * self.frequency * view.step(run) * np.arange(rows.shape[1])
-            place = 2 * self.runs.index(run)
-            rows[place : place + 2] = np.sin(angle), np.cos(angle)
+            angles = 2.0 * np.pi * np.outer(self.frequencies, view.step(run) * np.arange(samples))
+            place = each * self.runs.index(run)
+            rows[place : place + each] = np.concatenate([np.sin(angles), np.cos(angles)])
         return rows
 
     def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-        return {"amplitude": (float(np.sqrt(2.0 * np.mean(np.square(strengths)))), "N")}
+        squares = np.square(strengths).reshape(len(self.runs), 2, len(self.frequencies))
+        amplitudes = np.sqrt(squares.sum(axis=1).mean(axis=0))
+        names = ["amplitude", *(f"amplitude at {frequency:g} Hz" for frequency in self.frequencies[1:])]
+        return {name: (float(amplitude), "N") for name, amplitude in zip(names, amplitudes, strict=True)}

@@ -11,7 +11,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import form_of
+from dashpot.assess.finalists import Form, form_of
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
@@ -40,7 +40,8 @@ class Court:
     """Refits candidates and judges them; knows what was turned down.
 
     ``relevance`` is the share by which a cause has to make the training error smaller to be of interest; ``groups``
-    says by run which runs repeat one another. Forms that are ``barred`` do not come back.
+    says by run which runs repeat one another. Forms that are ``barred`` do not come back, those that were ``exchanged``
+    only in exchange for another one.
     """
 
     bench: Bench
@@ -50,24 +51,39 @@ class Court:
     relevance: float = SMALLEST_GAIN
     groups: Mapping[str, str] = field(default_factory=dict)
     rejected: list[Rejection] = field(default_factory=list)
-    barred: set[tuple[str, str, str]] = field(default_factory=set)
+    barred: set[Form] = field(default_factory=set)
+    exchanged: set[Form] = field(default_factory=set)
 
     def look(self, model: Model, noise: NoiseModel | None) -> Look:
         """What is left of a model, and every suspect against it."""
         return look_at(self.bench, model, self.causes, noise, self.seed)
 
-    def admissible(self, look: Look) -> list[Finding]:
-        """What a look has found, but for the forms that are barred."""
-        return [finding for finding in look.screen.findings if form_of(finding) not in self.barred]
+    def admissible(self, look: Look, exchange: bool = False) -> list[Finding]:
+        """What a look has found to be added, or to be put in exchange."""
+        out = self.barred if exchange else self.barred | self.exchanged
+        return [finding for finding in look.screen.findings if form_of(finding) not in out]
 
     def bar(self, entry: Accepted, reason: str) -> None:
         """Take back what was accepted, for good."""
         self.reject(entry.finding, reason, None, None)
         self.barred.add(form_of(entry.finding))
 
+    def swap(self, entry: Accepted, reason: str) -> None:
+        """Take back what was accepted, in exchange for another cause."""
+        self.reject(entry.finding, reason, None, None)
+        self.exchanged.add(form_of(entry.finding))
+
     def try_out(self, finding: Finding, look: Look, beat: float = np.inf) -> Trial:
         """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
         return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, beat)
+
+    def simplify(self, trial: Trial, look: Look) -> Trial:
+        """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
+        atoms = trial.finding.atoms
+        if trial.finding.candidate.suspect.joint or len(atoms) < 2:
+            return trial
+        simpler = self.try_out(trial.finding.without_last(), look)
+        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers."""

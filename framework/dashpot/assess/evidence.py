@@ -9,6 +9,7 @@ from typing import Any
 
 import dashpot
 from dashpot.assess.accepted import Rejection
+from dashpot.assess.limits import of_interest
 from dashpot.assess.misfits import residuals_of
 from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.signals import signal_evidence
@@ -65,6 +66,7 @@ def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
 
     ``value`` is told in the cause's own ``unit``, ``force`` is the RMS force in N that it makes.
     """
+    last = pursuit.last
     return [
         {
             **limit.candidate.told(),
@@ -73,7 +75,7 @@ def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
             "unit": limit.candidate.suspect.unit or "N",
             "force": limit.force,
         }
-        for limit in (known.at_least(pursuit.least_force) for known in pursuit.last.screen.limits)
+        for limit in (of_interest(known, last.columns, pursuit.least_force) for known in last.screen.limits)
     ]
 
 

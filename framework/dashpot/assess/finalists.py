@@ -10,6 +10,8 @@ from dashpot.assess.contest import Trial
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
+Form = tuple[str, str, str]
+
 FINALISTS = 5
 MOST_FORMS = 3  # of one cause
 FEWEST_FINALISTS = 3
@@ -20,7 +22,7 @@ NEARLY = 0.95
 IMITATED = 0.02  # of a fall of chi square: what the form of a single law may be wrong by
 
 
-def form_of(finding: Finding) -> tuple[str, str, str]:
+def form_of(finding: Finding) -> Form:
     """The word of the cause, the words of its site, and its form."""
     return (*finding.candidate.name, finding.candidate.suspect.form)
 

@@ -39,6 +39,12 @@ class Mend:
         """Whether it touches single runs and says nothing about others."""
         return self.finding.candidate.suspect.local
 
+    def keeping(self, finding: Finding, kept: Sequence[int]) -> Mend:
+        """The mend of the ``finding`` that has only these places left, by their number."""
+        at = list(kept)
+        shapes = {run: rows[at] for run, rows in self.shapes.items() if rows[at].any()}
+        return Mend(finding, shapes, self.strengths[at], self.deviations[at])
+
     def fault(self, run: str) -> Array | float:
         """What is to be taken out of the force of a run, (n,) N."""
         return self.strengths @ self.shapes[run] if run in self.shapes else 0.0

@@ -95,7 +95,8 @@ class Pursuer:
         if not twice:
             return accepted, look
         forms = {form_of(finding) for finding in first.screen.findings if finding.candidate.name in twice}
-        other = Pursuer(replace(self.court, rejected=[], barred=self.court.barred | forms), self.watch)
+        court = replace(self.court, rejected=[], barred=self.court.barred | forms, exchanged=set())
+        other = Pursuer(court, self.watch)
         instead, seen = other.pursue([], first, first, len(accepted))
         self.tried += other.tried
         price = (seen.model.numbers - look.model.numbers) * np.log(look.screen.samples)
@@ -185,7 +186,7 @@ class Pursuer:
             for other in (other for other in ranked if other not in near):
                 why = reasons.LOSES_ON_HELD_OUT if other in level else reasons.EXPLAINS_LESS
                 court.reject(other.finding, why, None, None)
-            chosen = self.simplify(chosen, look)
+            chosen = court.simplify(chosen, look)
             rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
             gain = court.gain_of(look.model, chosen.model)
             return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
@@ -203,15 +204,6 @@ class Pursuer:
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(court.try_out(finding, look, to_beat(trials, finding, look)))
         return trials
-
-    def simplify(self, trial: Trial, look: Look) -> Trial:
-        """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
-        atoms = trial.finding.atoms
-        if trial.finding.candidate.suspect.joint or len(atoms) < 2:
-            return trial
-        fewer = trial.finding.without_last()
-        simpler = self.court.try_out(fewer, look)
-        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
 
 def _twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:

@@ -15,6 +15,7 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain
 
 MOST_OTHERS = 2
+MOST_PLACES = 4
 MOST_EXCHANGED = 3  # beside more causes than these an exchange is too long a search for too little
 
 
@@ -27,7 +28,22 @@ class Revision:
 
     def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """The causes that stay, or others in their places, and a look at the model with them."""
-        return self.exchange(*self.prune(*self.reconsider(accepted, look)))
+        return self.exchange(*self.prune(*self.reconsider(*self.part(accepted, look))))
+
+    def part(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """Put another cause in the place of the last one in one run of several, if it is a fault of single runs."""
+        entry = accepted[-1]
+        places = range(len(entry.finding.atoms))
+        for place in places if entry.finding.candidate.suspect.local and 1 < len(places) <= MOST_PLACES else ():
+            others = [other for other in places if other != place]
+            rest = replace(entry, finding=entry.finding.keeping(others))
+            mends = [mend.keeping(rest.finding, others) if mend.finding is entry.finding else mend
+                     for mend in look.model.mends]  # fmt: skip
+            model = self.court.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
+            instead = self.better_than(entry, model, look)
+            if instead is not None:
+                return [*accepted[:-1], rest, instead], self.court.look(instead.trial.model, look.noise)
+        return accepted, look
 
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that the last one made superfluous, or its opposite: that takes its place in the order.
@@ -73,7 +89,7 @@ class Revision:
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
             instead = self.better_than(entry, model, look)
             if instead is not None:
-                self.court.bar(entry, reasons.BETTER_BESIDE_THE_LATER)
+                self.court.swap(entry, reasons.BETTER_BESIDE_THE_LATER)
                 changed = [instead if other is entry else other for other in accepted]
                 return self.exchange(changed, self.court.look(instead.trial.model, look.noise), instead)
         return accepted, look
@@ -82,17 +98,18 @@ class Revision:
         """Another cause that explains more than an accepted one beside all others, which are the ``model``, or None."""
         without = self.court.look(model, look.noise)
         for finding in self.others_than(entry, without, model.chi_square - look.model.chi_square):
-            trial = self.court.try_out(finding, replace(look, model=model))
+            beside = replace(look, model=model)
+            trial = self.court.simplify(self.court.try_out(finding, beside), beside)
             price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
             if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
                 continue
             gain = self.court.gain_of(look.model, trial.model)
             if gain is None or gain.value >= 0.0:
-                return Accepted(finding, trial, expected_gain(without.columns, finding), gain, (), base=model)
+                return Accepted(trial.finding, trial, expected_gain(without.columns, finding), gain, (), base=model)
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
         """The few findings of other causes that promise most of a fall of chi square."""
         name = entry.finding.candidate.name
-        found = choose_finalists(self.court.admissible(look), look)
+        found = choose_finalists(self.court.admissible(look, exchange=True), look)
         return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]

@@ -135,22 +135,18 @@ class Finding:
 
 @dataclass(frozen=True)
 class Limit:
-    """The smallest effect of a cause that would have been found with 95 % power.
+    """The smallest effect of a cause that would have been significant with 95 % power.
 
-    ``force`` is its RMS in N, of which a refit leaves the share ``left``; ``strength`` its size at ``place`` of the
-    suspect's grid.
+    ``force`` is its RMS in N, ``strength`` its size at ``place`` of the suspect's grid, which is a ``column`` of the
+    bank, and ``deviation`` the standard deviation with which these data tell that size.
     """
 
     candidate: Candidate
     place: float
     strength: float
     force: float
-    left: float
-
-    def at_least(self, force: float) -> Limit:
-        """The limit for effects of which a refit leaves no less than a force in N."""
-        grown = max(1.0, force / max(self.left * self.force, 1e-300))
-        return replace(self, strength=grown * self.strength, force=grown * self.force)
+    column: int
+    deviation: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -309,12 +305,13 @@ def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[L
         if suspect.joint or not usable.any():
             continue
         price = (1 + suspect.unknowns) * np.log(projected.samples) + threshold
-        strength = (np.sqrt(price) + POWER_95) / np.sqrt(kept[where][usable])
+        deviations = 1.0 / np.sqrt(kept[where][usable])
+        strength = (np.sqrt(price) + POWER_95) * deviations
         forces = strength * sizes[where][usable]
         least = int(np.argmin(forces))
-        place = suspect.grid[np.flatnonzero(usable)[least]]
-        left = float(np.sqrt(kept[where][usable][least] / projected.original[where][usable][least]))
-        limit = Limit(candidate, place, float(strength[least]), float(forces[least]), left)
+        at = int(np.flatnonzero(usable)[least])
+        limit = Limit(candidate, suspect.grid[at], float(strength[least]), float(forces[least]), where.start + at,
+                      float(deviations[least]))  # fmt: skip
         if candidate.name not in found or limit.force < found[candidate.name].force:
             found[candidate.name] = limit
     return tuple(found.values())

@@ -123,11 +123,11 @@ def expected_gain(columns: Columns, finding: Finding) -> float:
     strengths = np.zeros(columns.bank.size)
     strengths[where] = finding.strengths
     left = {run: values - columns.bank.combined(strengths, run) for run, values in columns.residual.items()}
-    before, after = (_refitted(columns.tangents, signals) for signals in (columns.residual, left))
+    before, after = (left_by_refit(columns.tangents, signals) for signals in (columns.residual, left))
     return float(1.0 - np.sqrt(after / before)) if before > 0.0 else 0.0
 
 
-def _refitted(tangents: SparseRows, signals: Mapping[str, Array]) -> float:
+def left_by_refit(tangents: SparseRows, signals: Mapping[str, Array]) -> float:
     """The sum over runs of the mean squares of signals, less what the tangents can follow."""
     weight = {run: 1.0 / values.size for run, values in signals.items()}
     gram = sum(weight[run] * (rows @ rows.T) for run, rows in tangents.values.items())

@@ -1,17 +1,20 @@
 """A cause that gives way to another one beside a later cause; what was put in may let others give way in turn."""
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import pytest
 
+from dashpot.assess.accepted import Accepted
 from dashpot.assess.revision import MOST_EXCHANGED, Revision
 
 
 class Court:
-    """Remembers what was taken back; models and looks are of no matter here."""
+    """Remembers what was exchanged; models and looks are of no matter here."""
 
     def __init__(self):
         self.barred = []
+        self.bench = SimpleNamespace(fit=lambda declared, fitted, noise, mends: mends[0].places)
 
     def rebuild(self, kept, model, first, noise):
         return [entry.word for entry in kept]
@@ -19,7 +22,7 @@ class Court:
     def look(self, model, noise):
         return SimpleNamespace(model=model, noise=noise)
 
-    def bar(self, entry, reason):
+    def swap(self, entry, reason):
         self.barred.append(entry.word)
 
 
@@ -68,3 +71,50 @@ def test_the_newest_cause_does_not_give_way(exchange):
 def test_beside_many_causes_none_is_exchanged(exchange):
     words = [f"cause {number}" for number in range(MOST_EXCHANGED + 1)]
     assert exchange(words, {(words[0], *words[1:]): "other"}) == (words, [])
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A fault of single runs, by its runs."""
+
+    places: tuple[str, ...]
+    candidate = SimpleNamespace(suspect=SimpleNamespace(local=True))
+
+    @property
+    def atoms(self):
+        return self.places
+
+    def keeping(self, kept):
+        return Fault(tuple(self.places[at] for at in kept))
+
+
+class InParts(Revision):
+    """What is ``missed`` when a run is left out, by the runs that stay."""
+
+    missed = {}
+
+    def better_than(self, entry, model, look):
+        word = self.missed.get(model)
+        return accepted(word) if word else None
+
+
+def parts(monkeypatch, places, missed):
+    monkeypatch.setattr(InParts, "missed", missed)
+    finding = Fault(places)
+    mend = SimpleNamespace(finding=finding, keeping=lambda rest, kept: SimpleNamespace(places=rest.places))
+    court = Court()
+    look = court.look(SimpleNamespace(declared=None, fitted=None, mends=(mend,)), None)
+    found, _ = InParts(court, None).part([Accepted(finding, None, 0.0, None, ())], look)
+    return [getattr(entry, "word", None) or entry.finding.places for entry in found]
+
+
+def test_a_fault_of_one_run_of_several_gives_way_to_another_cause(monkeypatch):
+    assert parts(monkeypatch, ("first", "second", "third"), {("first", "third"): "gain"}) == [
+        ("first", "third"),
+        "gain",
+    ]
+
+
+def test_a_fault_that_nothing_explains_better_stays_whole(monkeypatch):
+    assert parts(monkeypatch, ("first", "second"), {}) == [("first", "second")]
+    assert parts(monkeypatch, ("first",), {(): "gain"}) == [("first",)]
