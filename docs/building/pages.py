@@ -226,6 +226,8 @@ BLIND_KINDS = {
     "axle": " of an axle",
     "sensors": " with sensors that err within their data sheet",
     "sensors-null": " with such sensors and nothing hidden",
+    "no_quasi_static": " without a quasi-static run",
+    "no_repeats": " without repeated runs",
     "without": " without the plugin of the cause",
     "double": " with two effects, one up to ten times the other",
     "follow": " on three runs, the run that the diagnosis asks for driven as well",

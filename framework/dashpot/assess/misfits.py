@@ -48,13 +48,18 @@ def crossed_misfits(model: Model, runs: Sequence[ScoredRun], mends: Sequence[Men
 def share_of_change(before: Model, after: Model, runs: Sequence[ScoredRun]) -> float:
     """The share by which the error falls if the difference of two models is no error of the second."""
     first, second = misfits_of(before, runs), misfits_of(after, runs)
-    changed = pooled([one - other for one, other in zip(first, second, strict=True)])
-    return float(1.0 - np.sqrt(max(1.0 - (changed / max(pooled(first), 1e-300)) ** 2, 0.0)))
+    changed = balanced([one - other for one, other in zip(first, second, strict=True)])
+    return float(1.0 - np.sqrt(max(1.0 - (changed / max(balanced(first), 1e-300)) ** 2, 0.0)))
 
 
 def pooled(signals: Iterable[Array]) -> float:
     """Root mean square over all samples of several signals."""
     return float(np.sqrt(np.mean(np.concatenate(list(signals)) ** 2)))
+
+
+def balanced(signals: Iterable[Array]) -> float:
+    """Root mean square over several signals of which each has the same weight, however long it is."""
+    return float(np.sqrt(np.mean([np.mean(signal**2) for signal in signals])))
 
 
 def plainly_strong(mend: Mend, model: Model, runs: Sequence[ScoredRun]) -> Mend:

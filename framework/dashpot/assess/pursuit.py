@@ -17,7 +17,7 @@ from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
 from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, imitated, settle_ties, simpler, to_beat
-from dashpot.assess.misfits import plainly_strong, pooled
+from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.suspicion import Look, expected_gain
 from dashpot.assess.unseen import Jury, known_directions
@@ -69,7 +69,7 @@ class Pursuer:
             kept = [entry for entry in accepted if entry.base and entry is not opposite[-1]]
             look = court.look(court.rebuild(kept, look.model, first.model, look.noise), look.noise)
             accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)
-        least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * pooled(look.columns.residual.values()))
+        least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * balanced(look.columns.residual.values()))
         named = {entry.finding.candidate.name for entry in accepted}
         rejected = tuple(one for one in court.rejected if (one.cause, one.place or "") not in named)
         return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)

@@ -47,6 +47,16 @@ def test_the_change_is_what_a_cause_makes_of_the_plain_error(monkeypatch):
     assert share_of_change("before", "before", ()) == 0.0
 
 
+def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
+    rng = np.random.default_rng()
+    short, long = rng.standard_normal(20_000), rng.standard_normal(60_000)
+    misfits = {"before": [1.2 * short, long], "after": [short, long]}
+    monkeypatch.setattr("dashpot.assess.misfits.misfits_of", lambda model, runs: misfits[model])
+    before = (1.2**2 + 1.0) / 2.0
+    expected = 1.0 - np.sqrt(1.0 - 0.2**2 / 2.0 / before)
+    assert share_of_change("before", "after", ()) == pytest.approx(expected, rel=0.05)
+
+
 def test_a_limit_is_raised_to_what_is_of_interest():
     """Of the effect a refit leaves what is no constant; what it seems to be scatters by its deviation."""
     ramp = {"a": np.linspace(0.0, 2.0, 1001)[None, :]}
