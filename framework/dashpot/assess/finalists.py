@@ -20,6 +20,7 @@ TIE = 10.0
 TIE_SHARE = 5e-4
 NEARLY = 0.95
 IMITATED = 0.02  # of a fall of chi square: what the form of a single law may be wrong by
+DOUBTFUL = 0.005  # of it: what such a form mostly is wrong by
 
 
 def form_of(finding: Finding) -> Form:
@@ -57,6 +58,13 @@ def imitated(trial: Trial, others: Iterable[Trial]) -> list[Trial]:
         if other.finding.candidate.cause.word in words and not other.failure
         and other.model.numbers < trial.model.numbers and other.gain > (1.0 - IMITATED) * trial.gain
     ]  # fmt: skip
+
+
+def in_doubt(imitation: Trial, chosen: Trial) -> bool:
+    """Whether a law that another one makes up may be more than that: it leads by more than forms mostly err."""
+    word = chosen.finding.candidate.cause.word
+    leads = (1.0 - DOUBTFUL) * imitation.gain > chosen.gain and imitation.merit > chosen.merit + TIE
+    return leads and word in imitation.finding.candidate.suspect.imitates
 
 
 def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:

@@ -16,7 +16,18 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
-from dashpot.assess.finalists import TIE, alike, choose_finalists, form_of, imitated, settle_ties, simpler, to_beat
+from dashpot.assess.finalists import (
+    TIE,
+    alike,
+    choose_finalists,
+    form_of,
+    imitated,
+    in_doubt,
+    settle_ties,
+    simpler,
+    to_beat,
+)
+from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.suspicion import Look, expected_gain
@@ -167,30 +178,36 @@ class Pursuer:
     def best_trial(self, look: Look, explained: float) -> Accepted | None:
         """The best finalist that holds on runs that took no part, or None."""
         court, trials = self.court, self.refit_finalists(look, explained)
+        imitations: list[Trial] = []
         while trials:
             trial, *rest = ranked = sorted(trials, key=lambda trial: -trial.merit)
             if trial.model.outcome is Outcome.LEFT_BEHIND:
                 trials = [court.try_out(each.finding, look) for each in ranked]
                 continue
-            foreseen = expected_gain(look.columns, trial.finding)
             gain, reason = court.examine(trial, look, explained)
-            if not reason and any(not court.examine(other, look, explained)[1] for other in imitated(trial, rest)):
-                reason = reasons.IMITATES
             if reason:
-                court.reject(trial.finding, reason, foreseen, gain)
-                trials = rest
-                continue
-            level = alike(trial, ranked)
-            near = [other for other in level if court.holds_as_well(other, trial, gain, look)]
-            chosen, others = settle_ties(near)
-            for other in (other for other in ranked if other not in near):
-                why = reasons.LOSES_ON_HELD_OUT if other in level else reasons.EXPLAINS_LESS
-                court.reject(other.finding, why, None, None)
-            chosen = court.simplify(chosen, look)
-            rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-            gain = court.gain_of(look.model, chosen.model)
-            return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
+                court.reject(trial.finding, reason, expected_gain(look.columns, trial.finding), gain)
+            elif any(not court.examine(other, look, explained)[1] for other in imitated(trial, rest)):
+                imitations.append(trial)
+            else:
+                return self.accept(ranked, imitations, gain, look)
+            trials = rest
         return None
+
+    def accept(self, ranked: Sequence[Trial], imitations: Sequence[Trial], gain: Gain | None, look: Look) -> Accepted:
+        """The first of the ``ranked`` trials, which holds and has this gain, or a simpler one alike; its rivals."""
+        court, trial = self.court, ranked[0]
+        level = alike(trial, ranked)
+        near = [other for other in level if court.holds_as_well(other, trial, gain, look)]
+        chosen, others = settle_ties(near)
+        doubtful = tuple(other for other in imitations if in_doubt(other, chosen))
+        for other in (other for other in (*ranked, *imitations) if other not in (*near, *doubtful)):
+            court.reject(other.finding, _why_not(other, level, imitations), None, None)
+        others = (*others, *doubtful)
+        chosen = court.simplify(chosen, look)
+        rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
+        foreseen, gain = expected_gain(look.columns, trial.finding), court.gain_of(look.model, chosen.model)
+        return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
 
     def refit_finalists(self, look: Look, explained: float) -> list[Trial]:
         """The best findings of a look as refitted models; later causes only where they may be worth a name."""
@@ -204,6 +221,12 @@ class Pursuer:
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(court.try_out(finding, look, to_beat(trials, finding, look)))
         return trials
+
+
+def _why_not(trial: Trial, level: Sequence[Trial], imitations: Sequence[Trial]) -> str:
+    if trial in imitations:
+        return reasons.IMITATES
+    return reasons.LOSES_ON_HELD_OUT if trial in level else reasons.EXPLAINS_LESS
 
 
 def _twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:

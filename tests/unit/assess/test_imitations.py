@@ -4,14 +4,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from dashpot.assess.finalists import imitated
+from dashpot.assess.finalists import imitated, in_doubt
 
 
 def trial(word, gain, numbers, imitates=(), failure=""):
     suspect = SimpleNamespace(imitates=imitates)
     candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect)
     finding = SimpleNamespace(candidate=candidate)
-    return SimpleNamespace(finding=finding, model=SimpleNamespace(numbers=numbers), gain=gain, failure=failure)
+    return SimpleNamespace(
+        finding=finding, model=SimpleNamespace(numbers=numbers), gain=gain, merit=gain - 12.0 * numbers, failure=failure
+    )
 
 
 SLIDERS = {"word": "friction", "gain": 1000.0, "numbers": 15, "imitates": ("amplitude_softening",)}
@@ -31,3 +33,10 @@ def test_a_law_that_explains_nearly_as_much_with_fewer_numbers_is_the_cause(gain
 
 def test_no_other_cause_is_imitated():
     assert not imitated(trial(**SLIDERS), [trial("relaxation", 999.0, 12)])
+
+
+@pytest.mark.parametrize(("gain", "told"), [(10_000.0, False), (10_040.0, False), (10_060.0, True)])
+def test_an_imitation_that_leads_by_more_than_forms_mostly_err_is_a_rival(gain, told):
+    sliders = trial("friction", gain, 13, ("amplitude_softening",))
+    assert in_doubt(sliders, trial("amplitude_softening", 10_000.0, 12)) is told
+    assert not in_doubt(sliders, trial("relaxation", 10_000.0, 12))
