@@ -113,7 +113,7 @@ class Court:
         if not self.holds(look.model, trial.model, gain):
             return reasons.NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
-        if fall < FORM_ERROR and trial.gain < SHARE_OF_FORM * explained:
+        if within_form(trial.gain, look.model.chi_square, explained):
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
@@ -209,3 +209,8 @@ class Court:
         candidate = finding.candidate
         value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
         self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
+
+
+def within_form(gain: float, before: float, explained: float) -> bool:
+    """Whether a fall of chi square ``before`` is no more than what is ``explained`` may be wrong by in its form."""
+    return 1.0 - np.sqrt(1.0 - gain / before) < FORM_ERROR and gain < SHARE_OF_FORM * explained

@@ -92,7 +92,8 @@ class Pursuer:
         revision = Revision(self.court, first.model)
         while len(accepted) < most:
             self.tried += len(look.screen.findings)
-            winner = self.best_trial(look, sum(entry.trial.gain for entry in accepted))
+            explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
+            winner = self.best_trial(look, max(explained, 0.0))
             if winner is None:
                 break
             self.watch(f"accepted {winner.finding.candidate.cause.word}", (len(accepted) + 1) / MOST_CAUSES)

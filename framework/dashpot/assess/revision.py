@@ -9,7 +9,7 @@ import numpy as np
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Model, admitted
-from dashpot.assess.court import REFIT_MAY_DOUBLE, Court
+from dashpot.assess.court import REFIT_MAY_DOUBLE, Court, within_form
 from dashpot.assess.finalists import TIE, choose_finalists
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain
@@ -48,13 +48,16 @@ class Revision:
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that the last one made superfluous, or its opposite: that takes its place in the order.
 
-        The form that was dropped does not come back.
+        It is superfluous, too, where it explains no more than the others may be wrong by in their form. The form that
+        was dropped does not come back.
         """
+        explained = self.first.chi_square - look.model.chi_square
         for number in range(len(accepted) - 1):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
-            superfluous = model.chi_square - look.model.chi_square < price + look.screen.threshold
+            fall = model.chi_square - look.model.chi_square
+            superfluous = fall < price + look.screen.threshold or within_form(fall, model.chi_square, explained)
             if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
                 why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
                 self.court.bar(accepted[number], why)
@@ -80,7 +83,8 @@ class Revision:
     ) -> tuple[list[Accepted], Look]:
         """Put another cause in the place of one that won only because the ``newest`` one was still missing.
 
-        Without a newest one it is the last; what was put in is the newest to the others.
+        Without a newest one it is the last; what was put in is the newest to the others. Where it explains less than
+        the newest one did, it comes last.
         """
         newest = newest or accepted[-1]
         older = [entry for entry in accepted if entry is not newest] if len(accepted) <= MOST_EXCHANGED else []
@@ -90,7 +94,8 @@ class Revision:
             instead = self.better_than(entry, model, look)
             if instead is not None:
                 self.court.swap(entry, reasons.BETTER_BESIDE_THE_LATER)
-                changed = [instead if other is entry else other for other in accepted]
+                weak = instead.trial.gain < newest.trial.gain
+                changed = [*kept, instead] if weak else [instead if other is entry else other for other in accepted]
                 return self.exchange(changed, self.court.look(instead.trial.model, look.noise), instead)
         return accepted, look
 

@@ -37,7 +37,7 @@ class Scripted(Revision):
 
 
 def accepted(word):
-    return SimpleNamespace(word=word, trial=SimpleNamespace(model=word))
+    return SimpleNamespace(word=word, trial=SimpleNamespace(model=word, gain=1.0 if word == "weak" else 2.0))
 
 
 @pytest.fixture
@@ -56,6 +56,10 @@ def test_an_earlier_cause_gives_way_in_its_place(exchange):
         ["softening", "drift"],
         ["friction"],
     )
+
+
+def test_what_explains_less_than_the_later_cause_comes_last(exchange):
+    assert exchange(["friction", "drift"], {("friction", "drift"): "weak"}) == (["drift", "weak"], ["friction"])
 
 
 def test_what_was_put_in_lets_the_later_one_give_way_too(exchange):
