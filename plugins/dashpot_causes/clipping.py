@@ -36,7 +36,8 @@ class Clipping(Cause):
         """Levels near the largest or the smallest force, above or below which part of the force is missing."""
         forces = [view.force(run) for run in view.runs]
         low, high = min(force.min() for force in forces), max(force.max() for force in forces)
-        for side, end in ((1, high), (-1, low)):
+        ends: dict[Literal[1, -1], float] = {1: high, -1: low}
+        for side, end in ends.items():
             levels = tuple(float(end - side * share * (high - low)) for share in SHARES)
             cut = _Cut(side, levels)
             yield Suspect(

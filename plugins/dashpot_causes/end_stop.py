@@ -39,12 +39,12 @@ class EndStop(Cause):
         lower = tuple(place for place in low + places if place < 0.0)
         units = {"stiffness": "N/m", "compression": "m", "rebound": "m", "exponent": "1", "reference": "m"}
         reference = float(f"{DEPTH * (high - low):.2g}")
-        for places, numbers, fixed in ((upper, _compression, ()), (lower, _rebound, ("compression",))):
-            if places:
-                yield added_branch("end_stop", "end_stop", places, numbers, units, fixed=fixed)
+        for side, numbers, fixed in ((upper, _compression, ()), (lower, _rebound, ("compression",))):
+            if side:
+                yield added_branch("end_stop", "end_stop", side, numbers, units, fixed=fixed)
                 progressive = partial(_progressive, numbers, reference)
                 yield added_branch(
-                    "end_stop", "end_stop", places, progressive, units, fixed=(*fixed, "reference"), unknowns=2,
+                    "end_stop", "end_stop", side, progressive, units, fixed=(*fixed, "reference"), unknowns=2,
                     bounds={"exponent": EXPONENTS}, form="a progressive buffer",
                 )  # fmt: skip
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
@@ -11,6 +14,7 @@ from dashpot.text.quantity import pretty
 from dashpot_causes.levelling import levelling_force
 from dashpot_causes.powers import NEARLY_TWO, reference_speed
 
+Array = NDArray[np.float64]
 UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
@@ -40,7 +44,7 @@ class PowerLawDamping(Cause):
         def values(force: float, exponent: float) -> dict[str, float]:
             return {"force": force, "exponent": exponent, "reference": reference}
 
-        def columns(view, run):
+        def columns(view: View, run: str) -> Array:
             return view.respond(run, "power_law_damper", [values(1.0, exponent) for exponent in grid])
 
         def extend(text: str, atoms: Sequence[Atom]) -> str:

@@ -76,9 +76,10 @@ def read_mdf(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
         channels.append((key, name, group, unit))
 
     with MDF(path) as file:
-        for index, group in enumerate(file.groups):
+        groups: list[Any] = file.groups
+        for index, group in enumerate(groups):
             clock = file.masters_db.get(index)
-            places = [place for place in range(len(group.channels)) if place != clock]  # type: ignore[attr-defined]
+            places = [place for place in range(len(group.channels)) if place != clock]
             # left to itself the library would cut invalid samples out, and the channels would no longer fit their clock
             signals = [file.get(group=index, index=place, ignore_invalidation_bits=True) for place in places]
             measured = [(signal, values) for signal in signals if (values := _numbers(signal)) is not None]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dashpot.contract.specimen import Specimen
 
@@ -136,9 +136,9 @@ def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.rand
     from dashpot_specimens.rig_log import coloured_noise
 
     size = len(next(iter(channels.values())))
-    noisy = {key: np.round(values + coloured_noise(rng, size, 5.0), 1) if key[0] == "F" else
-             np.round(1e3 * (values + 1e-6 * rng.standard_normal(size)), 4)
-             for key, values in channels.items()}  # fmt: skip
+    noisy: dict[str, Any] = {key: np.round(values + coloured_noise(rng, size, 5.0), 1) if key[0] == "F" else
+                             np.round(1e3 * (values + 1e-6 * rng.standard_normal(size)), 4)
+                             for key, values in channels.items()}  # fmt: skip
     np.savez_compressed(path, t=np.arange(size) * every * STEP, **noisy)
 
 

@@ -148,8 +148,8 @@ class Court:
         if own and own.value <= self.relevance < gain.value:
             return False
         steps = [run.drive.dt for run in self.held_out]
-        pair = (misfits_of(one.model, self.held_out) for one in (trial, other))
-        loss = measure_gain(*pair, steps, self.seed)
+        first, second = (misfits_of(one.model, self.held_out) for one in (trial, other))
+        loss = measure_gain(first, second, steps, self.seed)
         return loss is None or loss.interval[1] > -self.relevance
 
     def gain_of(self, before: Model, after: Model) -> Gain | None:
@@ -174,13 +174,13 @@ class Court:
     def gain_on_held_out(self, before: Model, after: Model) -> Gain | None:
         """The gain on the held-out runs; where errors of their sensors may hide it, in the rest."""
         steps = [run.drive.dt for run in self.held_out]
-        pair = [misfits_of(model, self.held_out) for model in (before, after)]
-        gain = measure_gain(*pair, steps, self.seed)
+        first, second = (misfits_of(model, self.held_out) for model in (before, after))
+        gain = measure_gain(first, second, steps, self.seed)
         known = any(self.bench.sensors.get(run.name) for run in self.held_out)
         if gain is None or gain.value > self.relevance or not known:
             return gain
-        sound = (less_sensor_errors(misfits, self.held_out, self.bench.sensors) for misfits in pair)
-        other = measure_gain(*sound, steps, self.seed)
+        first, second = (less_sensor_errors(misfits, self.held_out, self.bench.sensors) for misfits in (first, second))
+        other = measure_gain(first, second, steps, self.seed)
         return replace(other, runs=LESS_ERRORS) if other and other.value > gain.value else gain
 
     def gain_beside(self, faults: Sequence[Accepted], before: Model, after: Model) -> Gain | None:

@@ -132,7 +132,7 @@ def _low_pass(signal: Array, share: float) -> Array:
 def _agreement(white: Signals, runs: Sequence[Run]) -> Leftover:
     total, samples = 0.0, 0
     for run in runs:
-        if run.repeats in white and run.name in white:
+        if run.repeats is not None and run.repeats in white and run.name in white:
             first, second = white[run.repeats], white[run.name]
             count = min(first.size, second.size)
             total += float(first[-count:] @ second[-count:])

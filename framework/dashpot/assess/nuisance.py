@@ -23,7 +23,8 @@ def sensor_nuisance(
     runs: Sequence[ScoredRun], view: ModelView, sensors: Mapping[str, Mapping[str, float]]
 ) -> tuple[SparseRows, Array]:
     """The force channel's errors within its specification, one of each kind per run, and how large they may be."""
-    values, places, priors = {}, {}, []
+    values, places = {}, {}
+    priors: list[float] = []
     for run in runs:
         shapes = error_shapes(view.force(run.name), run.drive.dt)
         known = {key: size for key, size in sensors.get(run.name, {}).items() if key in shapes and size > 0.0}

@@ -129,4 +129,6 @@ def _probe(element: type[Element], keys: tuple[str, ...]) -> CompiledNetwork:
         if key in declared.curves
     }
     branch = Branch("probe", element, values, curves)
-    return compile_network(NetworkSpec("probe", Group("", "parallel", (branch,))))
+    probe = compile_network(NetworkSpec("probe", Group("", "parallel", (branch,))))
+    assert isinstance(probe, CompiledNetwork)
+    return probe

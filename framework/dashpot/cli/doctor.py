@@ -51,7 +51,8 @@ def examine(session: Session) -> Iterator[Finding]:
     from dashpot.model.shipped import spec_folder
 
     requirements = [checkup.Requirement.of(text) for text in requires("dashpot") or ()]
-    yield from checkup.python(metadata("dashpot").get("Requires-Python", ""))
+    about = metadata("dashpot")
+    yield from checkup.python(about["Requires-Python"] if "Requires-Python" in about else "")
     yield from checkup.libraries(requirements, installed)
     yield from checkup.cache(cache_folder())
     yield from checkup.compiler()

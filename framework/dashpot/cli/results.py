@@ -72,7 +72,7 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
 
     content = diagnosis.as_dict()
     folder.write("diagnosis.json", json_text(content))
-    if diagnosis.extended_text is not None:
+    if diagnosis.extended_name is not None and diagnosis.extended_text is not None:
         folder.write(diagnosis.extended_name, diagnosis.extended_text)
     title = (diagnosis.extended_name or diagnosis.model.name).removesuffix(".yaml")
     evidence = with_schematics(diagnosis.evidence(), {title: diagnosis.final})

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.model.network import NetworkSpec
-from dashpot.model.patch import add_branch
+from dashpot.model.patch import add_branch, branch_names
 
 Array = NDArray[np.float64]
 Atom = tuple[float, float]  # strength and place on the grid
@@ -234,8 +234,6 @@ def branch_lines(
 
 def free_name(text: str, wanted: str) -> str:
     """``wanted``, or with a number if the network has a branch of that name."""
-    from dashpot.text.document import Document
-
-    taken = set(Document.parse(text).root.entries["branches"].entries)
+    taken = set(branch_names(text))
     names = [wanted, *(f"{wanted}_{number}" for number in range(2, len(taken) + 3))]
     return next(name for name in names if name not in taken)

@@ -57,8 +57,9 @@ def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
     # the polynomials of every step, or their derivatives, at equal parts of it
     u = np.arange(parts) / parts
     powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(len(ascending))]
-    return sum(np.outer(part, np.polynomial.polynomial.polyval(u, power))
-               for part, power in zip(ascending, powers, strict=True)).ravel()  # fmt: skip
+    terms = [np.outer(part, np.polynomial.polynomial.polyval(u, power))
+             for part, power in zip(ascending, powers, strict=True)]  # fmt: skip
+    return sum(terms, np.zeros(())).ravel()
 
 
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:

@@ -29,7 +29,8 @@ def smooth_path(dt: float, x: Array, noise: float) -> tuple[Array, Array, Array]
     half = min(int(np.clip(PASSED / max(fastest_part(x, noise), 1e-9), SHORTEST, LONGEST)), most)
     at = np.linspace(-1.0, 1.0, 2 * half + 1)
     fit = np.linalg.pinv(legendre.legvander(at, min(DEGREE, 2 * half)))
-    return tuple(_moved_along(x, _rate(at, fit, order) / (dt * half) ** order) for order in range(3))
+    place, speed, bend = (_moved_along(x, _rate(at, fit, order) / (dt * half) ** order) for order in range(3))
+    return place, speed, bend
 
 
 def fastest_part(x: Array, noise: float) -> float:
@@ -47,7 +48,7 @@ def fastest_part(x: Array, noise: float) -> float:
     return float(frequency[max(last - WIDENED, 0)])
 
 
-def _rate(at: Array, fit: Array, order: int) -> Array:
+def _rate(at: Array, fit: NDArray[np.floating], order: int) -> Array:
     """Weights (2 half + 1, 2 half + 1): row by row the derivative at one place of a window from all samples of it."""
     basis = legendre.legder(np.eye(fit.shape[0]), order, axis=0) if order else np.eye(fit.shape[0])
     return legendre.legval(at, basis).T @ fit

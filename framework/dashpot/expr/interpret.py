@@ -45,7 +45,7 @@ class Recipe:
                     found[place] = function(*given)
                 else:
                     curve, order = function
-                    found[place] = (tables or {})[curve](*given, order)
+                    found[place] = (tables or {})[curve](given[0], order)
         return [found[place] for place in self._roots]
 
 

@@ -126,6 +126,21 @@ def apply(operation: str, *arguments: Node) -> Node:
     return _intern(operation, arguments, None) if simple is None else simple
 
 
+def minimum(first: Node | float, second: Node | float) -> Node:
+    """The smaller one, as numpy's, which is not declared to take nodes."""
+    return apply("minimum", as_node(first), as_node(second))
+
+
+def maximum(first: Node | float, second: Node | float) -> Node:
+    """The larger one, likewise."""
+    return apply("maximum", as_node(first), as_node(second))
+
+
+def where(condition: Node, yes: Node | float, no: Node | float) -> Node:
+    """One of two, by a condition, likewise."""
+    return apply("where", condition, as_node(yes), as_node(no))
+
+
 def compute(operation: str) -> Callable[..., Any]:
     """The numpy function that computes an operation."""
     if operation == "wrightomega":

@@ -143,7 +143,9 @@ def _kinds(member: int, part: Part, start: Array, searched: set[int], sizes: Siz
             yield _Kind(member, branches, lanes, forces, shapes[0])
 
 
-def _shapes(powers: Sequence[Array], forces: Sequence[int], shapes: Sequence[int], sizes: Sizes) -> Array | None:
+def _shapes(
+    powers: Sequence[tuple[float, float, float]], forces: Sequence[int], shapes: Sequence[int], sizes: Sizes
+) -> Array | None:
     # a force over a stiffness is a way
     if len(shapes) != 1:
         return None

@@ -36,8 +36,7 @@ def correct_ends(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
     slow = widest(runs)
     if slow is None or not spec.data_curves():
         return spec
-    network = compile_network(spec)
-    simulated = network.simulate(network.prepare(slow.drive))
+    simulated = compile_network(spec).along(slow.drive)()
     for path, curve in spec.data_curves().items():
         at, force = np.array(curve.at), np.array([value.number for value in curve.values])
         line = Backbone(at, force, np.zeros(at.size), 0.0, True, 1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork
 from dashpot.kernel.parts import Parts, take_apart
-from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.system import CompiledSystem, SystemRows
 from dashpot.kernel.workers import spread
 
 Array = NDArray[np.float64]
@@ -146,7 +147,8 @@ class Objective:
     def _scores(self, values: Array) -> Array:
         weights = [np.where(np.arange(run.force.size) < run.first, 0.0, 1.0 / run.samples) for run in self.runs]
         if isinstance(self.network, CompiledNetwork):
-            return self.network.score(self.rows, [run.force for run in self.runs], weights, values, self.jobs)
+            rows = cast("list[Rows]", self.rows)
+            return self.network.score(rows, [run.force for run in self.runs], weights, values, self.jobs)
         ends, targets, weighs = len(self.network.outputs), [], []
         for team in self.teams:
             shape = (ends, self.runs[team[0]].force.size)
@@ -156,7 +158,8 @@ class Objective:
                 target[place], weigh[place] = self.runs[number].force, weights[number]
             targets.append(target)
             weighs.append(weigh)
-        scores = self.network.score([self.rows[team[0]] for team in self.teams], targets, weighs, values, self.jobs)
+        records = [cast(SystemRows, self.rows[team[0]]) for team in self.teams]
+        scores = self.network.score(records, targets, weighs, values, self.jobs)
         found = np.empty((len(self.runs), values.shape[0]))
         for team, score in zip(self.teams, scores, strict=True):
             found[list(team)] = score[[self.network.number_of(self.runs[number].end) for number in team]]
@@ -177,9 +180,11 @@ class Objective:
         # what the load cells show in runs that were measured together
         rows, see = self.rows[team[0]], self.network.observation(values).see
         if isinstance(self.network, CompiledNetwork):
+            assert isinstance(rows, Rows)
             for number in team:
                 yield number, see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
             return
+        assert isinstance(rows, SystemRows)
         found = self.network.forces(rows, values)
         for number in team:
             yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)

@@ -64,8 +64,8 @@ def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, ref
     """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start)
     if isinstance(network, CompiledNetwork):
-        force = network.simulate(network.prepare(excitation))
-        return RunSolution({END: observation.see(force[None], excitation.dt)[0]}, {}, {END: 0.0})
+        alone = network.simulate(network.prepare(excitation))
+        return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0})
     found = network.solve(network.prepare(excitation, refine))
     if found.status[0] is not Status.GOOD:
         raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "

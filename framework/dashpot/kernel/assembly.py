@@ -33,7 +33,7 @@ class Bundle:
     def __sub__(self, other: Bundle | float) -> Bundle:
         return self._paired("fsub" if self.type == NUMBER else "sub", other)
 
-    def __rsub__(self, other: Bundle | float) -> Bundle:
+    def __rsub__(self, other: float) -> Bundle:
         return self.like(other)._paired("fsub" if self.type == NUMBER else "sub", self)
 
     def __mul__(self, other: Bundle | float) -> Bundle:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.structure import recipe_of
@@ -16,10 +20,11 @@ from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
+Prepared = TypeVar("Prepared")
 
 
 @dataclass(frozen=True)
-class Compiled:
+class Compiled(ABC, Generic[Prepared]):
     """A network that is constant: one per topology and number of knots, never per parameter value.
 
     ``values`` are blocks of lanes, (lanes, slots) in SI, in the order of ``spec.slots()``.
@@ -37,6 +42,18 @@ class Compiled:
     def start(self) -> Array:
         """The values of the file as a single lane (slots,)."""
         return np.array([slot.value.number for slot in self.spec.slots()])
+
+    @abstractmethod
+    def prepare(self, motion: Drive | Excitation) -> Prepared:
+        """The part of the work that depends on the motion alone."""
+
+    @abstractmethod
+    def simulate(self, run: Prepared, values: Array | None = None) -> Array:
+        """The force (lanes, samples) in N along what is prepared; one lane is answered as (samples,)."""
+
+    def along(self, motion: Drive | Excitation) -> Callable[..., Array]:
+        """What simulates ``values`` along a motion; this is prepared once."""
+        return partial(self.simulate, self.prepare(motion))
 
     def observation(self, values: Array) -> Observation:
         """How the load cells see each lane."""

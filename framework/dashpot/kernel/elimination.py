@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from dashpot.expr.node import Node, constant
+from dashpot.expr.node import Node, constant, maximum
 
 # a pivot below this share of its row's own stiffness is noise of the subtraction, or a joint that nothing holds
 FLOOR, SMALLEST = 1e-12, 1e-9
@@ -28,7 +28,7 @@ def solve_symmetric(matrix: Matrix, right: Mapping[str, Node]) -> dict[str, Node
     while rows:
         name = min(rows, key=lambda candidate: len(rows[candidate]))
         row = rows.pop(name)
-        pivot = 1.0 / np.maximum(row.pop(name), floors[name])
+        pivot = 1.0 / maximum(row.pop(name), floors[name])
         for other, entry in row.items():
             factor = entry * pivot
             sides[other] = sides[other] - factor * sides[name]

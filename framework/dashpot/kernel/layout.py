@@ -6,7 +6,7 @@ A row holds one number of each lane of a group. First come the constants of the 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -112,7 +112,7 @@ def _arguments(nodes: Sequence[Node]) -> list[Node]:
     return [argument for node in nodes if node.operation != "table" for argument in node.arguments]
 
 
-def _unique(nodes) -> tuple[Node, ...]:  # noqa: ANN001
+def _unique(nodes: Iterable[Node]) -> tuple[Node, ...]:
     return tuple({node.serial: node for node in nodes}.values())
 
 

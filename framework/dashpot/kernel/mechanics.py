@@ -23,7 +23,7 @@ from typing import Protocol
 import numpy as np
 
 from dashpot.expr.derive import derive
-from dashpot.expr.node import Node, constant, lookup, symbol, symbols_of
+from dashpot.expr.node import Node, constant, lookup, maximum, minimum, symbol, symbols_of, where
 from dashpot.expr.rebuild import rebuild, replaced
 from dashpot.kernel.elimination import ZERO, solve_symmetric
 from dashpot.kernel.trace import RATES, TracedBranch, trace_along
@@ -92,15 +92,17 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
-    still, moving = _Still(topology, laws), _Moving(topology, laws)
+    still, moving = _Still(topology, laws), Moving(topology, laws)
     states = {name for law in laws for name in law.states} | {row_of(joint, key) for joint in topology.unknown
                                                                for key in (*_KEPT, "next")}  # fmt: skip
     rest, commit = still.rest(), moving.commit()
     if meter:
         rest, commit = {**rest, **meter.rest(still)}, {**commit, **meter.commit(moving)}
     finish = _Finish(states | {NOTHING})
-    return Equations(*(finish(rows) for rows in (still.start(), still.improve(), rest, moving.predict(),
-                                                moving.improve(), commit)), frozenset(known))  # fmt: skip
+    start, settle, rest, predict, improve, commit = (
+        finish(rows) for rows in (still.start(), still.improve(), rest, moving.predict(), moving.improve(), commit)
+    )
+    return Equations(start, settle, rest, predict, improve, commit, frozenset(known))
 
 
 _KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
@@ -112,7 +114,7 @@ class _Finish:
     def __init__(self, states: set[str]) -> None:
         self.states = states
 
-    def __call__(self, rows: Rows) -> Rows:
+    def __call__(self, rows: Rows) -> dict[str, Node]:
         return dict(zip(rows, rebuild(list(rows.values()), self.look_up), strict=True))
 
     def look_up(self, node: Node) -> Node:
@@ -130,7 +132,7 @@ class Meter(Protocol):
     def rest(self, still: Balance) -> Rows:
         """Their values when the record begins."""
 
-    def commit(self, moving: Balance) -> Rows:
+    def commit(self, moving: Moving) -> Rows:
         """Their values at the end of a step."""
 
 
@@ -175,7 +177,7 @@ class Balance(ABC):
     def mass(self, joint: str) -> Node:
         """The mass of a node."""
         node = self.topology.joints[joint]
-        return reduce(np.add, [symbol(f"{node.numbers}.{key}") for key in node.masses], ZERO)
+        return sum([symbol(f"{node.numbers}.{key}") for key in node.masses], ZERO)
 
     def push(self, joint: str, forces: Sequence[Node] | None = None) -> Node:
         """The sum of the forces of all edges on a node, upwards; ``forces`` may be given."""
@@ -198,22 +200,22 @@ class Balance(ABC):
         unknown = self.topology.unknown
         missing = {joint: self.load(joint) - self.carried(joint) for joint in unknown}
         ways = solve_symmetric(self._matrix(), missing)
-        distance = reduce(np.maximum, (np.absolute(way) for way in ways.values()), ZERO)
+        distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
         done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
         # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
-        stalled = distance > before - NEARER * np.minimum(damping * before, FARTHEST)
-        damped = np.where(stalled, np.maximum(0.5 * damping, SMALLEST_DAMPING), np.minimum(2.0 * damping, 1.0))
+        stalled = distance > before - NEARER * minimum(damping * before, FARTHEST)
+        damped = where(stalled, maximum(0.5 * damping, SMALLEST_DAMPING), minimum(2.0 * damping, 1.0))
         # what is not a number is not far: such a lane is finished, and its forces tell
         near = np.logical_not(distance > TOLERANCE)
-        share = np.where(near, 1.0, np.minimum(damped, FARTHEST / np.maximum(distance, FARTHEST)))
-        moves = {joint: np.where(done, 0.0, share * way) for joint, way in ways.items()}
+        share = where(near, 1.0, minimum(damped, FARTHEST / maximum(distance, FARTHEST)))
+        moves = {joint: where(done, 0.0, share * way) for joint, way in ways.items()}
         after = {row_of(joint, "next"): self._next(joint) + move for joint, move in moves.items()}
         return {
             **after,
             **self.reached(moves),
             DISTANCE: distance,
             DAMPING: damped,
-            DONE: np.where(done | near, 1.0, 0.0),
+            DONE: where(done | near, 1.0, 0.0),
         }
 
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
@@ -282,7 +284,7 @@ class _Still(Balance):
     def start(self) -> dict[str, Node]:
         """All unknown nodes in the middle of the known ones."""
         driven = [symbol(driven_symbol(joint, "new")) for joint in self.topology.held("driven")]
-        middle = reduce(np.add, driven, ZERO) / float(max(len(driven), 1))
+        middle = sum(driven, ZERO) / float(max(len(driven), 1))
         first = {row_of(joint, "next"): middle for joint in self.topology.unknown}
         return {**first, DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
 
@@ -295,7 +297,7 @@ class _Still(Balance):
         return {**rows, **self.outputs()}
 
 
-class _Moving(Balance):
+class Moving(Balance):
     """One step."""
 
     def velocity(self, joint: str) -> Node:
@@ -352,7 +354,7 @@ class _Moving(Balance):
             for name, node in law.states.items():
                 found[name] = self.along(edge, node) + self.along(edge, self.tangent(node)) * way
         done = symbol(DONE) > 0.5
-        return {reached_row(name): np.where(done, symbol(reached_row(name)), node) for name, node in found.items()}
+        return {reached_row(name): where(done, symbol(reached_row(name)), node) for name, node in found.items()}
 
     def commit(self) -> dict[str, Node]:
         """The end of the step becomes the begin of the next one."""

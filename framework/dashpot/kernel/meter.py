@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dashpot.expr.node import Node, symbol
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.elimination import ZERO
-from dashpot.kernel.mechanics import GRAVITY, Balance, Rows, row_of
+from dashpot.kernel.mechanics import GRAVITY, Balance, Moving, Rows, row_of
 from dashpot.kernel.trace import TracedBranch, trace_stored
 from dashpot.model.topology import Edge, Topology
 
@@ -47,7 +47,7 @@ class EnergyMeter:
             rows |= {row_of(joint, WORK): ZERO, row_of(joint, "push"): self._outside(still, joint)}
         return rows
 
-    def commit(self, moving: Balance) -> Rows:
+    def commit(self, moving: Moving) -> Rows:
         """The work of the step is added."""
         rows: dict[str, Node] = {}
         for edge, law, force in self._edges(moving):

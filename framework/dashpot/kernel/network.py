@@ -34,7 +34,7 @@ GROUPS = ALONE, FEW, MANY = (1, True), (1, False), (2, False)
 
 
 @dataclass(frozen=True)
-class CompiledNetwork(Compiled):
+class CompiledNetwork(Compiled[Rows]):
     """A compiled network all of whose elements see the motion of its driven end; see ``Compiled``."""
 
     @cached_property

@@ -67,6 +67,7 @@ def take_apart(spec: NetworkSpec) -> Parts:
     makes: dict[Hashable, Part] = {}
     for branch in spec.leaves():
         network = compile_network(NetworkSpec(branch.name, Group("", "parallel", (branch,))))
+        assert isinstance(network, CompiledNetwork)
         slots = tuple(paths.index(path) for path in network.paths)
         make = _make(branch)
         known = makes.get(make)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 from dashpot.expr.node import Node, is_logical
 from dashpot.kernel import functions
@@ -103,9 +104,9 @@ class Pass:
         for call in calls:
             kinds.setdefault(call.operation, []).append(call)
         given = {kind: together([self.value(call.arguments[0]) for call in same]) for kind, same in kinds.items()}
-        *answers, _ = self.assembly.woven(
-            [*(partial(LONG[kind], x) for kind, x in given.items()), partial(self._compute, beside)]
-        )
+        parts: list[Callable[[], Any]] = [*(partial(LONG[kind], x) for kind, x in given.items()),
+                                          partial(self._compute, beside)]  # fmt: skip
+        *answers, _ = self.assembly.woven(parts)
         for (kind, same), answer in zip(kinds.items(), answers, strict=True):
             whole = functions.wrightomega_above(given[kind], answer) if kind == "wrightomega" else answer
             for call, part in zip(same, apart(whole, len(same)), strict=True):

@@ -50,7 +50,7 @@ class Status(Enum):
 _CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANCED}
 
 
-def status_of(code: int, answer: Array) -> Status:
+def status_of(code: float, answer: Array) -> Status:
     """How a lane ended, from the code of the kernel and what it answered."""
     return _CODES[int(code)] if np.isfinite(answer).all() else Status.NOT_FINITE
 
@@ -83,7 +83,7 @@ class Solution:
 
 
 @dataclass(frozen=True)
-class CompiledSystem(Compiled):
+class CompiledSystem(Compiled[SystemRows]):
     """A compiled network with unknown nodes; see ``Compiled``. ``signals`` are forces over time that laws refer to."""
 
     topology: Topology
@@ -180,8 +180,7 @@ class CompiledSystem(Compiled):
         """
 
         def work(run: SystemRows, target: Array, weight: Array) -> Array:
-            return self._score(run, *(np.ascontiguousarray(np.transpose(aim), dtype=float) for aim in (target, weight)),
-                               values)  # fmt: skip
+            return self._score(run, _by_sample(target), _by_sample(weight), values)
 
         return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
@@ -227,7 +226,7 @@ class CompiledSystem(Compiled):
         seen |= dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
         rule = alternate(excitation.dt / parts, count // PAIR)
         seen |= {f"rule.{key}": getattr(rule, key) for key in ("slope", "now", "before", "swing")}
-        return self._columns(seen | self._newton(excitation), count)
+        return self._columns({**seen, **self._newton(excitation)}, count)
 
     def _still(self, excitation: Excitation) -> dict[str, float]:
         seen = {f"rule.{key}": 0.0 for key in ("slope", "now", "before", "swing")} | self._newton(excitation)
@@ -311,6 +310,10 @@ def _shelves(spec: NetworkSpec) -> dict[str, Shelf]:
         shelves[path] = Shelf(base, len(curve.at))
         base += len(curve.at) + 1
     return shelves
+
+
+def _by_sample(rows: Array) -> Array:
+    return np.ascontiguousarray(np.transpose(rows), dtype=float)
 
 
 def _between(samples: Array, at: Array) -> Array:

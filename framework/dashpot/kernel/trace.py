@@ -13,10 +13,8 @@ from dashpot.model.network import Branch, Characteristic, NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 # how a branch sees the drive: "still" without memory, "path" along the cubic of a whole step, "monotone" from turning
-# point to turning point
-Sight = Literal["still", "path", "monotone"]
-# the law in itself, with the symbols of a motion that is put in later
-Course = Literal["still", "path", "monotone", "edge"]
+# point to turning point; "edge" is the law in itself, with the symbols of a motion that is put in later
+Sight = Literal["still", "path", "monotone", "edge"]
 
 STATE_MARK = "|"  # between the branch and the state in the symbol of a state
 RATES = ("velocity_old", "velocity_new", "acceleration")
@@ -27,7 +25,7 @@ class TracedBranch:
     """The law of one branch as graph nodes. ``states`` maps the symbol of a state to its new value."""
 
     name: str
-    sight: Course
+    sight: Sight
     force: Node
     states: Mapping[str, Node]
 
@@ -93,7 +91,7 @@ def _see(branch: Branch) -> TracedBranch:
     return traced if needs_rates else trace_along(branch, "monotone")
 
 
-def trace_along(branch: Branch, sight: Course) -> TracedBranch:
+def trace_along(branch: Branch, sight: Sight) -> TracedBranch:
     """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on."""
     motion, states = _motion(sight), _states(branch)
     response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
@@ -104,7 +102,7 @@ def trace_along(branch: Branch, sight: Course) -> TracedBranch:
     return TracedBranch(branch.name, sight, force, {states[k]: as_node(v) for k, v in response.states.items()})
 
 
-def trace_stored(branch: Branch, sight: Course) -> Node | None:
+def trace_stored(branch: Branch, sight: Sight) -> Node | None:
     """The energy in J that a branch stores, from the motion and the states at the end of a step; None: not known.
 
     A law of the deflection alone stores all ``work`` that is done on it, one of the rates alone stores nothing. The
@@ -121,7 +119,7 @@ def trace_stored(branch: Branch, sight: Course) -> Node | None:
     return as_node(0.0) if moving <= {f"{sight}.{rate}" for rate in RATES} else None
 
 
-def _motion(sight: Course) -> Motion:
+def _motion(sight: Sight) -> Motion:
     return Motion(*(symbol(f"{sight}.{key}") for key in ("old", "new", *RATES)))
 
 

@@ -57,7 +57,7 @@ def cause_phrase(cause: Json) -> str:
     branches = {name.rpartition(".")[0] for name in parameters}
     if len(branches) > 1:
         return f"{cause_title(cause)} in {len(branches)} branches"
-    first = next(iter(parameters.values()), {})
+    first: Json = next(iter(parameters.values()), {})
     if first.get("value") is None or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
     size = with_interval(first["value"], first.get("interval"), first.get("unit") or "")
@@ -151,7 +151,7 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
 
 def _gain_of(causes: list[Json]) -> float | None:
     """What several causes gain together, each on what the ones before it left."""
-    gains = [cause.get("gain") for cause in causes]
+    gains: list[Any] = [cause.get("gain") for cause in causes]
     return None if None in gains else 1.0 - math.prod(1.0 - gain for gain in gains)
 
 

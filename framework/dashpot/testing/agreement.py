@@ -40,8 +40,7 @@ def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: s
         examination.fail(f"with {case}, the force is not finite for ordinary numbers: {_first(specimen, eager)}",
                          "Guard the law against overflow and division by zero.")  # fmt: skip
     traced = simulate_interpreted(specimen.spec, drive, specimen.values)
-    network = compile_network(specimen.spec)
-    compiled = network.simulate(network.prepare(drive), specimen.values)
+    compiled = compile_network(specimen.spec).along(drive)(specimen.values)
     scale = _force_scale(specimen, eager)
     advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
     _demand_equal(examination, traced / scale, eager / scale, f"with {case}, the traced law", advice)

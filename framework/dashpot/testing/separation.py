@@ -26,12 +26,11 @@ def check_separation(element: type[Element], seed: int | None = None) -> None:
     sizes = draw_sizes(rng)
     drive = random_drive(rng, "multisine", sizes.length, sizes.time, SAMPLES)
     for specimen in draw_specimens(element, rng, sizes, LANES):
-        network = compile_network(specimen.spec)
-        run = network.prepare(drive)
-        together = network.simulate(run, specimen.values)
+        simulate = compile_network(specimen.spec).along(drive)
+        together = simulate(specimen.values)
         eager = simulate_eagerly(specimen.spec, drive, specimen.values)
         for lane in CHOSEN:
-            alone = network.simulate(run, specimen.values[lane])
+            alone = simulate(specimen.values[lane])
             examination.demand(np.array_equal(alone, together[lane], equal_nan=True), f"with {specimen.form}, the "
                                f"compiled lane {lane} alone differs from itself among {LANES}", KERNEL)  # fmt: skip
             own = simulate_eagerly(specimen.spec, drive, specimen.values[lane])

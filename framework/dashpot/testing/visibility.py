@@ -41,7 +41,7 @@ def _runners(specimen: Specimen) -> dict[str, Simulate]:
     network = compile_network(specimen.spec)
     return {
         "in its own code": lambda drive, values: simulate_eagerly(specimen.spec, drive, values),
-        "compiled": lambda drive, values: network.simulate(network.prepare(drive), values),
+        "compiled": lambda drive, values: network.along(drive)(values),
     }
 
 

@@ -93,7 +93,7 @@ def mapping(keys: Mapping[str, Schema], required: Collection[str] = (), about: s
 def by_key(cases: Mapping[str, Schema], otherwise: Schema) -> Schema:
     """The schema of the first key that is there."""
     schema = otherwise
-    for key, then in reversed(cases.items()):
+    for key, then in reversed(list(cases.items())):
         schema = {"if": {"type": "object", "required": [key]}, "then": then, "else": schema}
     return schema
 

@@ -60,7 +60,8 @@ def _without(
     coefficients = np.linalg.solve(matrix, np.sum([rights[k] for k in others], axis=0) / scale) / scale
     found = [_compare(forces[k], coefficients @ shapes[k]) for k in others]
     misfits = [
-        np.mean((forces[k] - coefficients @ shapes[k]) ** 2) / max(np.mean(forces[k] ** 2), 1e-300) for k in others
+        np.mean((forces[k] - coefficients @ shapes[k]) ** 2) / max(float(np.mean(forces[k] ** 2)), 1e-300)
+        for k in others
     ]
     return float(np.mean(np.minimum(misfits, 1.0))), coefficients, [gain for gain, _ in found]
 

@@ -172,7 +172,7 @@ class _Conduct:
         allowed = [allowance(objective, branch, part.fit.declared.name, shares[branch])
                    for branch, part in parts.items()]  # fmt: skip
         known_before = known_numbers(objective)
-        shifts = [each.shift for each in (*allowed, *known_before)]
+        shifts = [*(each.shift for each in allowed), *(each.shift for each in known_before)]
         known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
         fit = FitResult(
             declared=plan.network,
