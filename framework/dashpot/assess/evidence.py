@@ -9,7 +9,7 @@ from typing import Any
 
 import dashpot
 from dashpot.assess.accepted import Rejection
-from dashpot.assess.limits import of_interest
+from dashpot.assess.limits import left_force, of_interest
 from dashpot.assess.misfits import residuals_of
 from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.signals import signal_evidence
@@ -64,7 +64,8 @@ def history_of(fit: FitResult) -> dict[str, list[float]]:
 def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
     """The smallest strength of each cause that would have been found with 95 % power, and is of practical relevance.
 
-    ``value`` is told in the cause's own ``unit``, ``force`` is the RMS force in N that it makes.
+    It is told where the cause shows best. ``value`` is in its own ``unit``, ``force`` is the RMS force in N that it
+    makes, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is needed.
     """
     last = pursuit.last
     return [
@@ -74,6 +75,7 @@ def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
             "value": limit.strength if limit.candidate.suspect.unit else limit.force,
             "unit": limit.candidate.suspect.unit or "N",
             "force": limit.force,
+            "left": left_force(limit, last.columns),
         }
         for limit in (of_interest(known, last.columns, pursuit.least_force) for known in last.screen.limits)
     ]

@@ -15,14 +15,14 @@ def of_interest(limit: Limit, columns: Columns, least_force: float) -> Limit:
 
     The size that it seems to have scatters about the true one, which has to be that much larger.
     """
-    seems = least_force / max(_left(limit, columns), 1e-300)
+    seems = least_force * limit.strength / max(left_force(limit, columns), 1e-300)
     grown = max(1.0, (seems + POWER_95 * limit.deviation) / limit.strength)
     return replace(limit, strength=grown * limit.strength, force=grown * limit.force)
 
 
-def _left(limit: Limit, columns: Columns) -> float:
-    """The RMS in N that a refit leaves of one unit of the effect; all runs weigh the same."""
-    unit = np.zeros(columns.bank.size)
-    unit[limit.column] = 1.0
-    effect = {run: columns.bank.combined(unit, run) for run in columns.residual}
+def left_force(limit: Limit, columns: Columns) -> float:
+    """The RMS in N that a refit leaves of an effect at its limit; all runs weigh the same."""
+    strengths = np.zeros(columns.bank.size)
+    strengths[limit.column] = limit.strength
+    effect = {run: columns.bank.combined(strengths, run) for run in columns.residual}
     return float(np.sqrt(left_by_refit(columns.tangents, effect) / len(effect)))

@@ -94,6 +94,7 @@ class Limit(TypedDict, total=False):
     value: float
     unit: str
     force: float  # RMS, N
+    left: float  # what a refit leaves of it, RMS, N
 
 
 class Evidence(TypedDict, total=False):

@@ -98,12 +98,14 @@ def limits_grid(limits: Sequence[Json]) -> Grid:
         Column("value", "value", "", 3),
         UNIT,
         Column("force", "force RMS", "N", 3),
+        Column("left", "left by a refit", "N", 3),
     ]
     rows = [
         {
             "cause": cause_title(limit),
             "quantity": limit["quantity"],
             "force": limit.get("force"),
+            "left": limit.get("left"),
             **_in_rig_units(limit["value"], limit["unit"]),
         }
         for limit in limits

@@ -101,14 +101,15 @@ def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
 
 def _limit(diagnosis: Json) -> str:
     """How small an effect the silence is about."""
-    limits = [limit for limit in diagnosis.get("limits") or () if limit.get("force")]
+    limits = [limit for limit in diagnosis.get("limits") or () if limit.get("left")]
     if not limits:
         return ""
+    left = quantity(max(limit["left"] for limit in limits), "N")
     hardest = max(limits, key=lambda limit: limit["force"])
     force, value = quantity(hardest["force"], "N"), quantity(hardest["value"], hardest["unit"])
     return (
-        f" Each suspected cause would have been found from a force of {force} RMS on, most of them earlier; the "
-        f"hardest to see is {cause_title(hardest)} ({hardest['quantity']} {value})."
+        f" Each suspected cause would have been found where other numbers of the model leave {left} RMS of it or more; "
+        f"the hardest to see is {cause_title(hardest)}, from {force} RMS on ({hardest['quantity']} {value})."
     )
 
 

@@ -144,12 +144,21 @@ def test_silence_says_how_small_an_effect_it_is_about():
             "value": 2.0,
             "unit": "N",
             "force": 1.4,
+            "left": 1.3,
         },
-        {"cause": "delay", "title": "delay", "quantity": "delay", "value": 45e-6, "unit": "s", "force": 9.0},
+        {
+            "cause": "delay",
+            "title": "delay",
+            "quantity": "delay",
+            "value": 45e-6,
+            "unit": "s",
+            "force": 9.0,
+            "left": 1.2,
+        },
     ]
     said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
-    assert "from a force of 9.00 N RMS on" in said
-    assert "delay (delay 45.0 us)" in said
+    assert "leave 1.30 N RMS of it or more" in said
+    assert "delay, from 9.00 N RMS on (delay 45.0 us)." in said
 
 
 SUSPENSION, BAR = "between wheel_left and body, likewise wheel_right and body", "between wheel_left and wheel_right"
