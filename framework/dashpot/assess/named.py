@@ -67,7 +67,8 @@ class NamedCause:
         found: dict[str, Any] = {}
         for mend in self.mends:
             for name, (number, unit, interval) in mend.told().items():
-                found[name] = {"value": number, "unit": unit, "interval": list(interval)}
+                # a fault of all runs is told by the fitted ones, which come first
+                found.setdefault(name, {"value": number, "unit": unit, "interval": list(interval)})
         for path, value in self.slots.items():
             branch, _, name = path.partition(".")
             found[name if branch == self.branch else path] = {

@@ -80,7 +80,7 @@ def _local_candidates(causes: Sequence[type[Cause]], view: ModelView, model: Mod
         if cause.kind != "measurement":
             continue
         for suspect in cause().suspects(view, model.fitted):
-            if suspect.local and not suspect.joint:
+            if suspect.local:
                 first = found[-1].columns.stop if found else 0
                 found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid))))
     return found

@@ -68,6 +68,22 @@ def test_the_fault_of_a_run_is_named_with_its_size(rng, run, word, shape, size):
     assert 0.0 < found[0]["gain"] < 1.0
 
 
+def test_hum_of_all_runs_is_taken_out_of_the_held_out_ones_too(rng):
+    """30 N at 50 Hz and a fifth of it at 150 Hz, of another phase in every run: the noise is left."""
+
+    def hum(name, force):
+        angle = 2.0 * np.pi * 50.0 * TIME + int(name[1:])
+        return 30.0 * (np.sin(angle) + 0.2 * np.sin(3.0 * angle))
+
+    data, registry = dataset(rng, hum), load_registry()
+    found = diagnose(parse_network(NETWORK, registry.elements), data, registry=registry).as_dict()
+    assert [cause["cause"] for cause in found["causes"]] == ["hum"]
+    told = found["causes"][0]["parameters"]
+    assert told["amplitude"]["value"] == pytest.approx(30.0, rel=0.03)
+    assert told["amplitude at 150 Hz"]["value"] == pytest.approx(6.0, rel=0.1)
+    assert found["rmse"]["after"]["held_out"] == pytest.approx(NOISE, rel=0.1)
+
+
 def test_nothing_is_said_of_sound_runs(rng):
     assert causes(dataset(rng)) == []
 
