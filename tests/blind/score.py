@@ -164,7 +164,8 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
                       "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],
-                      "named": o.named, "over_noise": o.over_noise, "seconds": round(o.seconds, 1)} for o in outcomes],
+                      "named": o.named, "gains": o.gains, "over_noise": o.over_noise, "seconds": round(o.seconds, 1)}
+                     for o in outcomes],
     }  # fmt: skip
 
 
