@@ -1,7 +1,7 @@
 """Is there structure left that no suspect explains? Tests that name nothing.
 
 Three questions to the whitened residual of the final model: does it correlate with a general set of functions of the
-motion, do repeated runs agree about it, and is there a line in its spectrum?
+motion and of single runs, do repeated runs agree about it, and is there a line in its spectrum?
 """
 
 from __future__ import annotations
@@ -60,9 +60,9 @@ def look_for_leftover(view: ModelView, columns: Columns, noise: NoiseModel, runs
 
 def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftover:
     general = {run: general_functions(view, run) for run in columns.residual}
-    names = list(next(iter(general.values())))
-    values = {run: np.array([*rows.values()])[:, view.scored[run].first :] for run, rows in general.items()}
-    rows = (columns.tangents, columns.nuisance, SparseRows.of(values))
+    single = {run: single_functions(view, run) for run in columns.residual}
+    names = [*next(iter(general.values())), *(name for functions in single.values() for name in functions)]
+    rows = (columns.tangents, columns.nuisance, SparseRows.of(_cut(view, general)), _apart(_cut(view, single)))
     normal = normal_equations(columns.residual, rows, noise, columns.jobs)
     projected = project_out(normal, columns.precision.size, columns.precision)
     scale = np.sqrt(np.maximum(projected.original, 1e-300))
@@ -73,6 +73,17 @@ def _correlation(view: ModelView, columns: Columns, noise: NoiseModel) -> Leftov
     alone = projected.scores**2 / np.maximum(np.diag(projected.spread), KEPT * projected.original + 1e-300)
     what = f"follows {names[int(np.argmax(alone))]}"
     return Leftover(score, float(np.sqrt(max(excess, 0.0) / projected.samples)), what)
+
+
+def _cut(view: ModelView, functions: Mapping[str, Signals]) -> dict[str, Array]:
+    return {run: np.array([*rows.values()])[:, view.scored[run].first :] for run, rows in functions.items()}
+
+
+def _apart(rows: Mapping[str, Array]) -> SparseRows:
+    """Rows (k, n) of every run with strengths of their own."""
+    each = len(next(iter(rows.values())))
+    places = {run: each * number + np.arange(each) for number, run in enumerate(rows)}
+    return SparseRows(rows, places, each * len(rows))
 
 
 def _without_sensor_errors(columns: Columns, noise: NoiseModel) -> Signals:
@@ -120,6 +131,16 @@ def general_functions(view: ModelView, run: str) -> dict[str, Array]:
     remembered = {f"the {name} of the last {lag:g} s": _low_pass(signal, view.step(run) / lag)
                   for lag in LAGS for name, signal in past.items()}  # fmt: skip
     return plain | remembered
+
+
+def single_functions(view: ModelView, run: str) -> dict[str, Array]:
+    """What a run may have by itself, its force, a constant and the time: (n,) by name."""
+    force = view.force(run)
+    return {
+        f"the force of run '{run}' alone": force,
+        f"a constant in run '{run}'": np.ones_like(force),
+        f"the time in run '{run}'": np.linspace(0.0, 1.0, force.size),
+    }
 
 
 def _low_pass(signal: Array, share: float) -> Array:
