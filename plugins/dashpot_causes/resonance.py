@@ -20,6 +20,7 @@ UNITS = {
 BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
 TURBULENT = (0.2, 0.8)  # damping ratios of the turbulence alone, at half of the largest speed
 LOWEST = 0.15  # of the end of the measured band
+BELOW = 3.0  # times lower than where resonances are looked for
 OVERDAMPED = 1.0  # damping ratio from which on it is relaxation
 SMALLEST_MASS = 1.01e-3  # kg
 
@@ -83,10 +84,12 @@ class Band:
         return np.geomspace(self.low, min(self.high, self.sampled), count).tolist()
 
     def shows(self, mass: float, stiffness: float, damping: float, quadratic_damping: float = 0.0) -> bool:
-        """Whether a mass on a spring swings, and not so far beyond the band that it is a mass."""
+        """Whether a mass on a spring swings, and not so far beyond the band that it is a mass, nor so far below it
+        that it stands still: its damping is one to ground, then.
+        """
         frequency = np.sqrt(stiffness / mass) / (2.0 * np.pi)
         ratio = (damping + quadratic_damping * self.speed) / (2.0 * np.sqrt(stiffness * mass))
-        return bool(frequency < self.high and ratio < OVERDAMPED)
+        return bool(self.low / BELOW < frequency < self.high and ratio < OVERDAMPED)
 
 
 def _form(form: str, element: str, mass: str, modes: Sequence[Mode], unknowns: int, band: Band) -> Suspect:

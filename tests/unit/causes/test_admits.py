@@ -55,7 +55,7 @@ def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
 
 
-# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: up to three times as much it is a resonance
+# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: up to three times as much it is a resonance, down to 0.4 Hz
 @pytest.mark.parametrize(("word", "form"), [
     ("fluid_mass", "a mass behind a spring"), ("mass", "a mass hung on a spring"),
 ])  # fmt: skip
@@ -63,6 +63,8 @@ def test_other_causes_admit_what_is_found():
     (5.0, 0.1, 0.0, True),
     (23.0, 0.9, 0.0, True),
     (25.0, 0.1, 0.0, False),
+    (0.5, 0.1, 0.0, True),
+    (0.3, 0.1, 0.0, False),
     (5.0, 1.1, 0.0, False),
     (5.0, 0.1, 4.0, False),
 ])  # fmt: skip
