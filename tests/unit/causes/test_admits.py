@@ -55,7 +55,7 @@ def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
 
 
-# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: up to three times as much it is a resonance, down to 0.4 Hz
+# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: a resonance lies between 0.4 Hz and three times as much
 @pytest.mark.parametrize(("word", "form"), [
     ("fluid_mass", "a mass behind a spring"), ("mass", "a mass hung on a spring"),
 ])  # fmt: skip
