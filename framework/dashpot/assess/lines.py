@@ -49,7 +49,7 @@ def strongest_line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Li
     best = int(np.argmax(height))
     chance = max(gamma.logsf(height[best], runs) + np.log(grid.size), UNDERFLOW)
     size = np.sqrt(2.0 * HANN * max(height[best] - runs, 0.0) / samples)
-    return Line(float(grid[best]), float(norm.isf(np.exp(min(chance, 0.0)))), float(size))
+    return Line(float(grid[best]), max(float(norm.isf(np.exp(min(chance, 0.0)))), 0.0), float(size))
 
 
 def _periodogram(values: Array, step: float, grid: Array) -> Array:

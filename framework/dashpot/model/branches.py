@@ -112,7 +112,10 @@ class BranchReader:
         return self._used(form) if "use" in form else self._element(name, form, copy)
 
     def _group(self, form: Form, kind: Literal["series", "parallel"], copy: Copy) -> Group:
+        first = len(self.problems)
         members = self.members(form, kind, copy)
+        if not members and len(self.problems) == first:
+            form.complain(kind, "expected at least one branch, got none", "write it, or leave the group out")
         form.close()
         return Group("", kind, members, form.place)
 

@@ -240,6 +240,12 @@ def test_mistakes_at_the_top_are_told_with_those_below():
         assert part in told
 
 
+@pytest.mark.parametrize("kind", ["series", "parallel"])
+def test_an_empty_group_is_refused(kind):
+    (told,) = problems(f"{{leg: {{{kind}: {{}}}}}}")
+    assert told.endswith("expected at least one branch, got none. write it, or leave the group out")
+
+
 def test_an_empty_network_is_told_what_it_lacks():
     assert problems("{}") == [
         "n.yaml:4:3: the network has no branch. add a branch, e.g. 'stiffness: {element: spring, ...}'"
