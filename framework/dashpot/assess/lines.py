@@ -33,7 +33,6 @@ def strongest_line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Li
     The periodograms of white noise are exponentially distributed, their sum over runs by a gamma distribution; as
     many lines were tried as the grid has places. Where no run is long enough to show any, both numbers are zero.
     """
-    from scipy.ndimage import median_filter
     from scipy.stats import gamma, norm
 
     runs, samples = len(white), sum(values.size for values in white.values())
@@ -43,13 +42,19 @@ def strongest_line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Li
     if grid.size == 0:
         return Line(0.0, 0.0, 0.0)
     power = np.sum([_periodogram(values, steps[run], grid) for run, values in white.items()], axis=0)
-    width = max(FEWEST_PLACES, int(LEVEL_WIDTH / min(lengths) / spacing)) | 1
-    level = median_filter(power, width) / gamma.median(runs)
-    height = power / np.maximum(level, 1e-300)
+    width = max(FEWEST_PLACES, int(LEVEL_WIDTH / min(lengths) / spacing))
+    height = power / np.maximum(_level(power, width) / gamma.median(runs), 1e-300)
     best = int(np.argmax(height))
     chance = max(gamma.logsf(height[best], runs) + np.log(grid.size), UNDERFLOW)
     size = np.sqrt(2.0 * HANN * max(height[best] - runs, 0.0) / samples)
     return Line(float(grid[best]), max(float(norm.isf(np.exp(min(chance, 0.0)))), 0.0), float(size))
+
+
+def _level(power: Array, width: int) -> Array:
+    """The median of pieces about ``width`` long, and straight lines between them."""
+    pieces = np.array_split(np.arange(power.size), max(power.size // width, 1))
+    middles, levels = zip(*((np.mean(piece), np.median(power[piece])) for piece in pieces), strict=True)
+    return np.interp(np.arange(power.size), middles, levels)
 
 
 def _periodogram(values: Array, step: float, grid: Array) -> Array:
