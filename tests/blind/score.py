@@ -144,23 +144,24 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
     hidden = [o for o in outcomes if o.kinds]
     null = [o for o in outcomes if not o.kinds]
     found = [o for o in hidden if o.strength >= LEAST_STRENGTH]
+    known = [o for o in found if not o.without]  # what has no plugin cannot be named
     return {
         "cases": len(outcomes),
         "false_alarms": [sum(bool(o.named) for o in null), len(null)],
-        "first_right": [sum(o.right for o in found), len(found)],
-        "exact": [sum(o.exact for o in found), len(found)],
+        "first_right": [sum(o.right for o in known), len(known)],
+        "exact": [sum(o.exact for o in known), len(known)],
         "family_right": [sum(o.in_family for o in found), len(found)],
-        "in_first_three": [sum(o.in_first_three for o in found), len(found)],
+        "in_first_three": [sum(o.in_first_three for o in known), len(known)],
         "confidently_wrong": [sum(o.confidently_wrong for o in found), len(found)],
         "beyond_confusions": [sum(o.beyond_confusions for o in found), len(found)],
         "by_strength": _by_strength(hidden),
         "over_noise": _quantiles([o.over_noise for o in found if o.over_noise is not None]),
         "gain_calibration": _rank_correlation([pair for o in outcomes for pair in o.gains]),
-        "named_or_rival": [sum(o.open_set for o in found), len(found)],
+        "named_or_rival": [sum(o.open_set for o in known), len(known)],
         "confusion": _confusion(outcomes),
         "over_noise_to_1.05": _share([o.over_noise <= 1.05 for o in found if o.over_noise is not None]),
         "right_after_asking": _share([o.right for o in found if o.before]),
-        "lone_right": _share([o.right for o in found if o.lone]),
+        "lone_right": _share([o.right for o in known if o.lone]),
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
                       "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],

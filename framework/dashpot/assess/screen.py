@@ -137,12 +137,11 @@ class Finding:
 class Limit:
     """The smallest effect of a cause that would have been significant with 95 % power.
 
-    ``force`` is its RMS in N, ``strength`` its size at ``place`` of the suspect's grid, which is a ``column`` of the
-    bank, and ``deviation`` the standard deviation with which these data tell that size.
+    ``force`` is its RMS in N, ``strength`` its size at the place of the suspect's grid where it shows best, a
+    ``column`` of the bank, and ``deviation`` the standard deviation with which these data tell that size.
     """
 
     candidate: Candidate
-    place: float
     strength: float
     force: float
     column: int
@@ -310,7 +309,7 @@ def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[L
         forces = strength * sizes[where][usable]
         least = int(np.argmin(forces))
         at = int(np.flatnonzero(usable)[least])
-        limit = Limit(candidate, suspect.grid[at], float(strength[least]), float(forces[least]), where.start + at,
+        limit = Limit(candidate, float(strength[least]), float(forces[least]), where.start + at,
                       float(deviations[least]))  # fmt: skip
         if candidate.name not in found or limit.force < found[candidate.name].force:
             found[candidate.name] = limit

@@ -63,7 +63,7 @@ def test_a_limit_is_raised_to_what_is_of_interest():
     tangents = SparseRows.dense({"a": np.ones((1, 1001))})
     columns = Columns(ramp, tangents, SparseRows.dense({"a": np.empty((0, 1001))}), SparseRows.dense(ramp),
                       np.empty(0), ())  # fmt: skip
-    limit = Limit(None, 0.1, 4.0, 10.0, 0, 0.5)
+    limit = Limit(None, 4.0, 10.0, 0, 0.5)
     left = 1.0 / np.sqrt(3.0)
     assert of_interest(limit, columns, 1.0 * left) == limit
     raised = of_interest(limit, columns, 16.0 * left)
