@@ -38,7 +38,7 @@ class Hum(Cause):
                 lines = _Lines([k * frequency for k in harmonics if k * frequency < highest], tuple(view.runs))
                 grid = tuple(float(k) for k in range(2 * len(lines.frequencies) * len(lines.runs)))
                 yield Suspect(f"{frequency:g} Hz", grid, lines, unchanged, joint=True, sign=0, unknowns=0,
-                              mends=True, local=True, tell=lines.tell)  # fmt: skip
+                              mends=True, local=True, quantity="amplitude", unit="N", tell=lines.tell)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -1,27 +1,31 @@
-"""Damping that changes with deflection."""
+"""Damping and relaxation that change with deflection."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch, add_to_branch
 from dashpot.text.quantity import pretty
 from dashpot_causes.stiffness_curve import hats
 
 Array = NDArray[np.float64]
+UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 KNOTS = 4
+TIMES = 5
+SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 BOUNDS = "bounds: [0.02, 50]"
+SIMPLER = ("relaxation", "viscous_damping", "delay", "moving_mass")  # a relaxing branch with a factor makes up each
 
 
 class PreloadDependentDamping(Cause):
-    """A force in proportion to velocity with a factor over deflection."""
+    """A force in proportion to velocity, or one that relaxes, with a factor over deflection."""
 
     word = "preload_dependent_damping"
     kind = "specimen"
@@ -33,22 +37,69 @@ class PreloadDependentDamping(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A factor over deflection, through few knots, on the network's dashpot, or on a further one."""
+        """A factor over deflection, through few knots, on the dashpots and Maxwell branches, or on new ones."""
         knots = tuple(np.linspace(*view.reach, KNOTS))
+        plain = [member for member in network.root.members if isinstance(member, Branch) and member.scale is None]
+        damper = next((_OnBranch(branch.name, damping) for branch in plain if (damping := _straight(branch))), _extend)
+        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper)
+        relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
+        for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
+            numbers = [_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)]
+            yield _suspect(f"{KNOTS} knots on '{family}'", knots, ("change of the factor at a knot", "1"),
+                           _Relaxing(numbers), _OnBranch(family, 1.0))  # fmt: skip
+        for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
+            found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
+            yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
+                           found, found.extend, unknowns=1, imitates=SIMPLER)  # fmt: skip
 
-        def columns(view: View, run: str) -> Array:
-            return hats(knots, view.displacement(run)) * view.velocity(run)
 
-        extend = next((_OnBranch(*found) for found in map(_plain_dashpot, network.root.members) if found), _extend)
-        yield Suspect(f"{KNOTS} knots", knots, columns, extend, joint=True, sign=0, unknowns=0)
+def _suspect(
+    form: str,
+    knots: tuple[float, ...],
+    strength: tuple[str, str],
+    force: Callable[[View, str], Array],
+    extend: Callable[[str, Sequence[Atom]], str],
+    unknowns: int = 0,
+    imitates: tuple[str, ...] = (),
+) -> Suspect:
+    """The suspect that the ``force(view, run)`` of a branch has a factor over deflection.
+
+    ``strength`` is what a strength of one is, and its SI unit.
+    """
+
+    def columns(view: View, run: str) -> Array:
+        return hats(knots, view.displacement(run)) * force(view, run)
+
+    return Suspect(form, knots, columns, extend, joint=True, sign=0, unknowns=unknowns,
+                   quantity=strength[0], unit=strength[1], imitates=imitates)  # fmt: skip
 
 
-def _plain_dashpot(member: object) -> tuple[str, float] | None:
-    """Name and damping of a straight dashpot without a factor, else None."""
-    if not isinstance(member, Branch) or member.element.word != "damper" or member.scale is not None:
-        return None
-    curve = member.curves["damping"]
-    return (member.name, curve.values[0].number) if curve.form == "constant" else None
+def _damping(view: View, run: str) -> Array:
+    return view.velocity(run)
+
+
+def _straight(branch: Branch) -> float:
+    """The damping of a straight dashpot, of another branch zero."""
+    curve = branch.curves.get("damping") if branch.element.word == "damper" else None
+    return curve.values[0].number if curve and curve.form == "constant" else 0.0
+
+
+def _numbers(branch: Branch) -> dict[str, float]:
+    return {key: branch.values[key].number for key in UNITS}
+
+
+@dataclass(frozen=True)
+class _Relaxing:
+    branches: Sequence[Mapping[str, float]]
+
+    def __call__(self, view: View, run: str) -> Array:
+        return view.respond(run, "maxwell", self.branches).sum(axis=0)
+
+    def extend(self, text: str, atoms: Sequence[Atom]) -> str:
+        strengths, factors, reference = _rising_from_zero(atoms)
+        values = {**self.branches[0], "stiffness": strengths[reference]}
+        lines = branch_lines(free_name(text, "preload_dependent_damping"), "maxwell", values, UNITS)
+        return add_branch(text, "\n".join([lines, *(f"  {line}" for line in _scale_lines(atoms, factors, reference))]))
 
 
 @dataclass(frozen=True)
@@ -65,10 +116,7 @@ class _OnBranch:
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:
-    strengths = np.array([strength for strength, _ in atoms])
-    strengths = strengths - min(0.0, strengths.min()) + 1e-3 * np.ptp(strengths) + 1e-9
-    reference = int(np.argmax(strengths))
-    factors = np.maximum(strengths / strengths[reference], SMALLEST_FACTOR)
+    strengths, factors, reference = _rising_from_zero(atoms)
     lines = [
         f"{free_name(text, 'preload_dependent_damping')}:",
         "  element: damper",
@@ -76,6 +124,14 @@ def _extend(text: str, atoms: Sequence[Atom]) -> str:
         *(f"  {line}" for line in _scale_lines(atoms, factors, reference)),
     ]
     return add_branch(text, "\n".join(lines))
+
+
+def _rising_from_zero(atoms: Sequence[Atom]) -> tuple[Array, Array, int]:
+    """Strengths without one below zero, the factors that they stand for, and the largest one's place."""
+    strengths = np.array([strength for strength, _ in atoms])
+    strengths = strengths - min(0.0, strengths.min()) + 1e-3 * np.ptp(strengths) + 1e-9
+    reference = int(np.argmax(strengths))
+    return strengths, np.maximum(strengths / strengths[reference], SMALLEST_FACTOR), reference
 
 
 def _scale_lines(atoms: Sequence[Atom], factors: Array, reference: int) -> list[str]:

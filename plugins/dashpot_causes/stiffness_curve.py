@@ -34,7 +34,7 @@ class StiffnessCurve(Cause):
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
             yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0,
-                          imitates=("end_stop",))  # fmt: skip
+                          quantity="force at a knot", unit="N", imitates=("end_stop",))  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 import dashpot
 from dashpot.assess.accepted import Rejection
-from dashpot.assess.limits import left_force, of_interest
+from dashpot.assess.limits import Limit, find_limits, left_force
 from dashpot.assess.misfits import residuals_of
 from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.signals import signal_evidence
@@ -17,6 +17,14 @@ from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting
 from dashpot.fit.floor import false_repeats
 from dashpot.fit.result import FitResult
+
+NOT_TO_BE_SEEN = {
+    "quantity": "would not show beside the numbers of the model",
+    "value": None,
+    "unit": None,
+    "force": None,
+    "left": None,
+}
 
 
 def gather_evidence(
@@ -65,20 +73,25 @@ def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
     """The smallest strength of each cause that would have been found with 95 % power, and is of practical relevance.
 
     It is told where the cause shows best. ``value`` is in its own ``unit``, ``force`` is the RMS force in N that it
-    makes, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is needed.
+    makes, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is needed. All three are None
+    where these runs would not show the largest effect there can be.
     """
     last = pursuit.last
     return [
-        {
-            **limit.candidate.told(),
-            "quantity": " as ".join(dict.fromkeys([limit.candidate.suspect.quantity, limit.candidate.suspect.form])),
-            "value": limit.strength if limit.candidate.suspect.unit else limit.force,
-            "unit": limit.candidate.suspect.unit or "N",
-            "force": limit.force,
-            "left": left_force(limit, last.columns),
-        }
-        for limit in (of_interest(known, last.columns, pursuit.least_force) for known in last.screen.limits)
+        {**candidate.told(), **(_told(limit, left_force(limit, last.columns)) if limit else NOT_TO_BE_SEEN)}
+        for candidate, limit in find_limits(last.columns, last.screen, pursuit.least_force)
     ]
+
+
+def _told(limit: Limit, left: float) -> dict[str, Any]:
+    suspect = limit.candidate.suspect
+    return {
+        "quantity": " as ".join(dict.fromkeys([suspect.quantity, suspect.form])),
+        "value": limit.size if suspect.unit else limit.force,
+        "unit": suspect.unit or "N",
+        "force": limit.force,
+        "left": left,
+    }
 
 
 def telling_measurement(cause: type[Cause], rival: type[Cause]) -> str:

@@ -65,7 +65,9 @@ class SparseRows:
 
     def combined(self, strengths: Array, run: str) -> Array:
         """The sum (n,) of the rows of a run, each times its strength (size,)."""
-        return strengths[self.places[run]] @ self.values[run]
+        here = strengths[self.places[run]]
+        acting = np.flatnonzero(here)
+        return here[acting] @ self.values[run][acting] if acting.size < here.size else here @ self.values[run]
 
     def thinned(self, kept: Places) -> SparseRows:
         """The rows at ``kept`` (in rising order) only."""
@@ -75,11 +77,14 @@ class SparseRows:
         values = {run: rows[stays[run]] for run, rows in self.values.items()}
         return SparseRows(values, {run: new[places[stays[run]]] for run, places in self.places.items()}, kept.size)
 
-    def squares(self) -> Array:
-        """The sum of squares (size,) of every row over all runs."""
-        total = np.zeros(self.size)
-        for run, values in self.values.items():
-            total[self.places[run]] += np.sum(values**2, axis=1)
+    def gram(self, chosen: Places) -> Array:
+        """The products (k, k) of the rows at ``chosen`` (k,) with one another, summed over all runs."""
+        total, new = np.zeros((chosen.size, chosen.size)), np.full(self.size, -1)
+        new[chosen] = np.arange(chosen.size)
+        for run, places in self.places.items():
+            here = np.flatnonzero(new[places] >= 0)
+            rows, at = self.values[run][here], new[places[here]]
+            total[np.ix_(at, at)] += rows @ rows.T
         return total
 
 

@@ -17,6 +17,7 @@ from dashpot.assess.noise import NoiseModel
 from dashpot.assess.projection import Projected, SparseRows, normal_equations, project_out
 from dashpot.assess.view import ModelView
 from dashpot.contract.cause import Atom, Cause, Suspect
+from dashpot.kernel.workers import spread
 from dashpot.model.sites import Site
 
 Array = NDArray[np.float64]
@@ -24,7 +25,6 @@ Places = NDArray[np.intp]
 
 FALSE_ALARMS = 0.01
 DRAWS = 400
-POWER_95 = 1.6448536269514722
 KEPT = 1e-5  # of the square of a column must be left after projection: less is a matter of numerical errors
 RIDGE = 1e-9
 COARSE = 8  # places of a grid
@@ -133,21 +133,6 @@ class Finding:
                        absorbed=self.absorbed[:, at])  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Limit:
-    """The smallest effect of a cause that would have been significant with 95 % power.
-
-    ``force`` is its RMS in N, ``strength`` its size at the place of the suspect's grid where it shows best, a
-    ``column`` of the bank, and ``deviation`` the standard deviation with which these data tell that size.
-    """
-
-    candidate: Candidate
-    strength: float
-    force: float
-    column: int
-    deviation: float
-
-
 @dataclass(frozen=True, eq=False)
 class Screen:
     """All findings, best first; a merit above ``threshold`` is significant.
@@ -157,9 +142,13 @@ class Screen:
 
     findings: tuple[Finding, ...]
     threshold: float
-    samples: int
-    limits: tuple[Limit, ...]
+    projected: Projected
     together: float = 0.0
+
+    @property
+    def samples(self) -> int:
+        """How many samples all runs have."""
+        return self.projected.samples
 
     @property
     def best(self) -> Finding | None:
@@ -167,10 +156,10 @@ class Screen:
         return self.findings[0] if self.findings and self.findings[0].merit > self.threshold else None
 
 
-def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows:
-    """The columns on every run of all candidates but those inside a network with nodes."""
-    values, places = {}, {}
-    for run in view.runs:
+def collect_bank(view: ModelView, candidates: Sequence[Candidate], jobs: int = 1) -> SparseRows:
+    """The columns on every run of all candidates but those inside a network with nodes, of ``jobs`` runs at once."""
+
+    def rows_of(run: str) -> tuple[Array, Places]:
         scored = view.scored[run]
         rows, at = [np.empty((0, scored.samples))], [np.empty(0, dtype=np.intp)]
         for candidate in (candidate for candidate in candidates if candidate.site is None):
@@ -178,7 +167,10 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate]) -> SparseRows
             alive = found.any(axis=1)
             rows.append(found if alive.all() else found[alive])
             at.append(np.flatnonzero(alive) + candidate.columns.start)
-        values[run], places[run] = np.concatenate(rows), np.concatenate(at)
+        return np.concatenate(rows), np.concatenate(at)
+
+    found = dict(zip(view.runs, spread(rows_of, view.runs, jobs=jobs), strict=True))
+    values, places = ({run: parts[number] for run, parts in found.items()} for number in (0, 1))
     return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
 
@@ -213,22 +205,27 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
-    limits = _limits(columns, projected, threshold)
-    return Screen(tuple(ordered), threshold, projected.samples, limits, _together(projected))
+    return Screen(tuple(ordered), threshold, projected, _together(projected))
 
 
 def _together(projected: Projected) -> float:
     usable = np.diag(projected.spread) > KEPT * projected.original
     if not usable.any():
         return 0.0
-    inverse, rank = _inverse(projected.spread[np.ix_(usable, usable)])
+    inverse, rank = independent(projected.spread[np.ix_(usable, usable)])
     return float(projected.scores[usable] @ inverse @ projected.scores[usable]) - rank
+
+
+def usable_columns(candidate: Candidate, projected: Projected) -> Places:
+    """The columns of a candidate of which enough is left, by their number among its own."""
+    where = candidate.columns
+    return np.flatnonzero(np.diag(projected.spread)[where] > KEPT * projected.original[where])
 
 
 def _judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding | None:
     where = candidate.columns
     s, matrix = projected.scores[where], projected.spread[where, where]
-    usable = np.flatnonzero(np.diag(matrix) > KEPT * projected.original[where])
+    usable = usable_columns(candidate, projected)
     if usable.size == 0:
         return None
     judge = _judge_joint if candidate.suspect.joint else _judge_greedy
@@ -238,7 +235,7 @@ def _judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding 
 def _judge_joint(
     candidate: Candidate, s: Array, matrix: Array, usable: Places, samples: int, absorbed: Array
 ) -> Finding | None:
-    inverse, rank = _inverse(matrix[np.ix_(usable, usable)])
+    inverse, rank = independent(matrix[np.ix_(usable, usable)])
     strengths = np.zeros(s.size)
     strengths[usable] = inverse @ s[usable]
     gain = float(s @ strengths)
@@ -268,7 +265,7 @@ def _judge_greedy(
             break
         atoms = tuple((float(b), suspect.grid[k]) for b, k in zip(strengths, chosen, strict=True))
         part = matrix[np.ix_(chosen, chosen)]
-        deviations = np.sqrt(np.maximum(np.diag(_inverse(part)[0]), 0.0))
+        deviations = np.sqrt(np.maximum(np.diag(independent(part)[0]), 0.0))
         best = Finding(candidate, atoms, gain, float(merit), strengths, chosen, deviations, absorbed[:, chosen])
     return best
 
@@ -286,34 +283,13 @@ def _solve(s: Array, matrix: Array, chosen: tuple[int, ...], sign: int) -> tuple
     return float(2.0 * s[index] @ strengths - strengths @ part @ strengths), strengths
 
 
-def _inverse(matrix: Array) -> tuple[Array, int]:
+def independent(matrix: Array) -> tuple[Array, int]:
+    """The inverse of a covariance in the directions that can be told apart, and how many these are."""
     scale = np.sqrt(np.diag(matrix))
     values, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
     keep = values > 1e-6 * values[-1]
     inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
     return inverse / np.outer(scale, scale), int(keep.sum())
-
-
-def _limits(columns: Columns, projected: Projected, threshold: float) -> tuple[Limit, ...]:
-    sizes = np.sqrt(columns.bank.squares() / projected.samples)
-    kept = np.diag(projected.spread)
-    found: dict[tuple[str, str], Limit] = {}
-    for candidate in columns.candidates:
-        where, suspect = candidate.columns, candidate.suspect
-        usable = kept[where] > KEPT * projected.original[where]
-        if suspect.joint or not usable.any():
-            continue
-        price = (1 + suspect.unknowns) * np.log(projected.samples) + threshold
-        deviations = 1.0 / np.sqrt(kept[where][usable])
-        strength = (np.sqrt(price) + POWER_95) * deviations
-        forces = strength * sizes[where][usable]
-        least = int(np.argmin(forces))
-        at = int(np.flatnonzero(usable)[least])
-        limit = Limit(candidate, float(strength[least]), float(forces[least]), where.start + at,
-                      float(deviations[least]))  # fmt: skip
-        if candidate.name not in found or limit.force < found[candidate.name].force:
-            found[candidate.name] = limit
-    return tuple(found.values())
 
 
 def _null_quantile(candidates: Sequence[Candidate], projected: Projected, seed: int) -> float:
@@ -326,7 +302,7 @@ def _null_quantile(candidates: Sequence[Candidate], projected: Projected, seed: 
     for candidate in candidates:
         where = candidate.columns
         matrix = projected.spread[where, where]
-        usable = np.flatnonzero(np.diag(matrix) > KEPT * projected.original[where])
+        usable = usable_columns(candidate, projected)
         if usable.size:
             part = matrix[np.ix_(usable, usable)]
             best = np.maximum(
@@ -337,7 +313,7 @@ def _null_quantile(candidates: Sequence[Candidate], projected: Projected, seed: 
 
 def _null_merits(suspect: Suspect, draws: Array, matrix: Array, samples: int) -> Array:
     if suspect.joint:
-        inverse, rank = _inverse(matrix)
+        inverse, rank = independent(matrix)
         return np.einsum("ij,jk,ik->i", draws, inverse, draws) - (rank + suspect.unknowns) * np.log(samples)
     admitted = np.maximum(draws, 0.0) if suspect.sign else draws
     return np.max(admitted**2 / np.diag(matrix), axis=1) - (1 + suspect.unknowns) * np.log(samples)

@@ -53,7 +53,7 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     sheet, sizes = sensor_nuisance(bench.runs, view, bench.sensors)
     bends, free = table_nuisance(bench.runs, view, model.fitted)
     nuisance, priors = stack(sheet, bends), np.concatenate([sizes, free])
-    bank = collect_bank(view, candidates)
+    bank = collect_bank(view, candidates, bench.jobs)
     if inside:
         bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
     columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates), bench.jobs)

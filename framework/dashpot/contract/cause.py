@@ -107,6 +107,7 @@ class Suspect:
     local: bool = False
     quantity: str = "strength"
     unit: str = ""
+    largest: float = np.inf
     tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
     imitates: tuple[str, ...] = ()

@@ -86,15 +86,18 @@ class Rejected(TypedDict, total=False):
 
 
 class Limit(TypedDict, total=False):
-    """The smallest effect that would have been found: of which `quantity`, `value` in the SI `unit`."""
+    """The smallest effect that would have been found: of which `quantity`, `value` in the SI `unit`.
+
+    The numbers are None where even the largest one would not have been seen; `quantity` says so.
+    """
 
     cause: str
     title: str
     quantity: str
-    value: float
-    unit: str
-    force: float  # RMS, N
-    left: float  # what a refit leaves of it, RMS, N
+    value: float | None
+    unit: str | None
+    force: float | None  # RMS, N
+    left: float | None  # what a refit leaves of it, RMS, N
 
 
 class Evidence(TypedDict, total=False):

@@ -211,7 +211,9 @@ def _parameter_row(name: str, entries: Sequence[Any]) -> dict[str, Any]:
     return {"parameter": name, "unit": shown or None} | {f"model {i}": value for i, value in enumerate(values)}
 
 
-def _in_rig_units(value: float, unit: str) -> dict[str, Any]:
+def _in_rig_units(value: float | None, unit: str | None) -> dict[str, Any]:
+    if value is None or unit is None:
+        return {"value": None, "unit": None}
     factor, name = rig_unit(unit, value)
     return {"value": value * factor, "unit": name or None}
 

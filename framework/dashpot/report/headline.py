@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,7 @@ Json = Mapping[str, Any]
 RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"}
 
 MOST = 0.9  # of an error: no longer only a part of it
+MOST_HIDDEN = 3  # causes told by name
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
@@ -101,16 +102,29 @@ def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
 
 def _limit(diagnosis: Json) -> str:
     """How small an effect the silence is about."""
-    limits = [limit for limit in diagnosis.get("limits") or () if limit.get("left")]
-    if not limits:
+    limits = diagnosis.get("limits") or ()
+    seen = [limit for limit in limits if limit.get("left")]
+    if not seen:
         return ""
-    left = quantity(max(limit["left"] for limit in limits), "N")
-    hardest = max(limits, key=lambda limit: limit["force"])
+    left = quantity(max(limit["left"] for limit in seen), "N")
+    hardest = max(seen, key=lambda limit: limit["force"])
     force, value = quantity(hardest["force"], "N"), quantity(hardest["value"], hardest["unit"])
+    hidden = [cause_title(limit) for limit in limits if limit.get("value", 0.0) is None]
+    each = "Each other" if hidden else "Each"
     return (
-        f" Each suspected cause would have been found where other numbers of the model leave {left} RMS of it or more; "
-        f"the hardest to see is {cause_title(hardest)}, from {force} RMS on ({hardest['quantity']} {value})."
+        f" {each} suspected cause would have been found where other numbers of the model leave {left} RMS of it or "
+        f"more; the hardest to see is {cause_title(hardest)}, from {force} RMS on ({hardest['quantity']} {value})."
+        f"{_hidden(hidden)}"
     )
+
+
+def _hidden(titles: Sequence[str]) -> str:
+    """The causes that these runs would not show."""
+    if not titles:
+        return ""
+    more = len(titles) - MOST_HIDDEN
+    told = [*titles[:MOST_HIDDEN], f"{more} more"] if more > 0 else [*titles]
+    return f" Beside the numbers of the model these runs would not show {join(told)}."
 
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:

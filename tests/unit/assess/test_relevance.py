@@ -8,10 +8,7 @@ import numpy as np
 import pytest
 
 from dashpot.assess.court import SMALLEST_GAIN, Court
-from dashpot.assess.limits import of_interest
 from dashpot.assess.misfits import share_of_change
-from dashpot.assess.projection import SparseRows
-from dashpot.assess.screen import Columns, Limit
 
 BEFORE = 1e6
 
@@ -55,17 +52,3 @@ def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
     before = (1.2**2 + 1.0) / 2.0
     expected = 1.0 - np.sqrt(1.0 - 0.2**2 / 2.0 / before)
     assert share_of_change("before", "after", ()) == pytest.approx(expected, rel=0.05)
-
-
-def test_a_limit_is_raised_to_what_is_of_interest():
-    """Of the effect a refit leaves what is no constant; what it seems to be scatters by its deviation."""
-    ramp = {"a": np.linspace(0.0, 2.0, 1001)[None, :]}
-    tangents = SparseRows.dense({"a": np.ones((1, 1001))})
-    columns = Columns(ramp, tangents, SparseRows.dense({"a": np.empty((0, 1001))}), SparseRows.dense(ramp),
-                      np.empty(0), ())  # fmt: skip
-    limit = Limit(None, 4.0, 10.0, 0, 0.5)
-    left = 1.0 / np.sqrt(3.0)
-    assert of_interest(limit, columns, 1.0 * left) == limit
-    raised = of_interest(limit, columns, 16.0 * left)
-    assert raised.strength == pytest.approx(16.0 + 1.645 * 0.5, rel=2e-3)
-    assert raised.force == pytest.approx(2.5 * raised.strength)

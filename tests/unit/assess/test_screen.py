@@ -164,16 +164,6 @@ def test_the_rich_residual_holds_no_column_of_the_bank():
     assert np.std(np.concatenate([left["a"], left["b"]])) == pytest.approx(1.0, rel=0.05)
 
 
-def test_limits_are_strengths_that_are_indeed_found():
-    """Effects of the size of the limit are found in at least 14 of 20 draws (95 % power: P(fewer) = 3e-4)."""
-    rng = np.random.default_rng()
-    limits = screen(columns_of(rng, np.zeros(4)), WHITE).limits
-    limit = next(limit for limit in limits if limit.candidate.cause is Made)
-    size = limit.force / np.sqrt(1.25)  # the columns have this root mean square
-    found = [screen(columns_of(rng, [0.0, 0.0, 1.1 * size, 0.0]), WHITE).best is not None for _ in range(20)]
-    assert sum(found) >= 14
-
-
 def test_the_moves_of_a_finding_are_those_of_a_refit_with_its_strengths():
     """The tangents make room for what joins them, as plain least squares of the rest would."""
     columns = columns_of(np.random.default_rng(), [0.4, 0.0, 0.0, 0.3], joint=True, sign=0)
