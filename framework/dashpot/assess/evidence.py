@@ -9,7 +9,7 @@ from typing import Any
 
 import dashpot
 from dashpot.assess.accepted import Rejection
-from dashpot.assess.limits import Limit, find_limits, left_force
+from dashpot.assess.limits import Limit, find_limits
 from dashpot.assess.misfits import residuals_of
 from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.signals import signal_evidence
@@ -73,24 +73,24 @@ def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
     """The smallest strength of each cause that would have been found with 95 % power, and is of practical relevance.
 
     It is told where the cause shows best. ``value`` is in its own ``unit``, ``force`` is the RMS force in N that it
-    makes, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is needed. All three are None
-    where these runs would not show the largest effect there can be.
+    makes, all runs weighing the same, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is
+    needed. All three are None where these runs would not show the largest effect there can be.
     """
     last = pursuit.last
     return [
-        {**candidate.told(), **(_told(limit, left_force(limit, last.columns)) if limit else NOT_TO_BE_SEEN)}
+        {**candidate.told(), **(_told(limit) if limit else NOT_TO_BE_SEEN)}
         for candidate, limit in find_limits(last.columns, last.screen, pursuit.least_force)
     ]
 
 
-def _told(limit: Limit, left: float) -> dict[str, Any]:
+def _told(limit: Limit) -> dict[str, Any]:
     suspect = limit.candidate.suspect
     return {
         "quantity": " as ".join(dict.fromkeys([suspect.quantity, suspect.form])),
         "value": limit.size if suspect.unit else limit.force,
         "unit": suspect.unit or "N",
         "force": limit.force,
-        "left": left,
+        "left": limit.left,
     }
 
 

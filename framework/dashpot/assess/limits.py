@@ -8,26 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.screen import Candidate, Columns, Screen, independent, usable_columns
-from dashpot.assess.suspicion import left_by_refit
 
 Array = NDArray[np.float64]
 
 POWER = 0.95
 QUANTILE = 1.6448536269514722  # of the normal distribution, at this power
-RIDGE = 1e-9
+SHAPES = 400
 
 
 @dataclass(frozen=True, eq=False)
 class Limit:
-    """The smallest effect of a cause that would have been found with 95 % power, where the cause shows best.
+    """The smallest effect of a cause that would have been found with 95 % power.
 
-    ``strengths`` (m,) are those of the columns of the candidate, ``force`` is the RMS in N that they make, and
-    ``scatter`` the standard deviation with which these data tell their size, as a share of it.
+    ``strengths`` (m,) are those of the columns of the candidate, ``force`` is the RMS in N that they make, ``left``
+    what a refit of the model leaves of that, all runs weighing the same, and ``scatter`` the standard deviation with
+    which these data tell their size, as a share of it.
     """
 
     candidate: Candidate
     strengths: Array
     force: float
+    left: float
     scatter: float
 
     @property
@@ -40,28 +41,30 @@ class Limit:
         """Whether the cause can be as large as that."""
         return self.size <= self.candidate.suspect.largest
 
-    def grown(self, factor: float) -> Limit:
-        """An effect that is larger by a factor, told with the same deviation."""
-        return replace(
-            self, strengths=factor * self.strengths, force=factor * self.force, scatter=self.scatter / factor
-        )
+    def of_interest(self, least_force: float) -> Limit:
+        """The limit where effects of which a refit seems to leave less than ``least_force`` (RMS, N) are not named.
+
+        The size that an effect seems to have scatters about the true one, which has to be that much larger.
+        """
+        grown = max(1.0, least_force / max(self.left, 1e-300) + QUANTILE * self.scatter)
+        return replace(self, strengths=grown * self.strengths, force=grown * self.force, left=grown * self.left,
+                       scatter=self.scatter / grown)  # fmt: skip
 
 
 def find_limits(columns: Columns, screen: Screen, least_force: float) -> list[tuple[Candidate, Limit | None]]:
     """The limit of every cause at every site, none where these runs would not show the largest effect there can be.
 
-    Effects of which a refit seems to leave less than ``least_force`` (RMS, N) are not named.
+    It is that of the form and the place of its grid that show best. Where the columns of a form act together, it is
+    the one that is enough for 95 % of their shapes. Effects below ``least_force`` are not named; see ``of_interest``.
     """
-    clearest: dict[tuple[str, str], Limit] = {}
+    found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
     for candidate in columns.candidates:
+        _, best = found.setdefault(candidate.name, (candidate, None))
         limit = _limit(candidate, columns, screen)
-        if limit and (candidate.name not in clearest or limit.force < clearest[candidate.name].force):
-            clearest[candidate.name] = limit
-    found = []
-    for name, candidate in {candidate.name: candidate for candidate in columns.candidates}.items():
-        limit = of_interest(clearest[name], columns, least_force) if name in clearest else None
-        found.append((limit.candidate, limit) if limit and limit.possible else (candidate, None))
-    return found
+        limit = limit.of_interest(least_force) if limit else None
+        if limit and limit.possible and (best is None or limit.force < best.force):
+            found[candidate.name] = (candidate, limit)
+    return list(found.values())
 
 
 def _limit(candidate: Candidate, columns: Columns, screen: Screen) -> Limit | None:
@@ -71,45 +74,39 @@ def _limit(candidate: Candidate, columns: Columns, screen: Screen) -> Limit | No
     where, usable = candidate.columns, usable_columns(candidate, screen.projected)
     if usable.size == 0:
         return None
-    forces = columns.bank.gram(where.start + usable) / screen.samples
+    forces, left = _products(columns, where.start + usable)
     told = screen.projected.spread[where, where][np.ix_(usable, usable)]
-    rank = independent(told)[1] if candidate.suspect.joint else 1
+    if candidate.suspect.joint:
+        rank, shape = independent(told)[1], _hard_shape(told, left)
+    else:
+        rank, shape = 1, np.eye(usable.size)[int(np.argmax(np.diag(told) / np.diag(forces)))]
     price = (rank + candidate.suspect.unknowns) * np.log(screen.samples) + screen.threshold
     needed = float(chndtrinc(price, rank, 1.0 - POWER))
-    direction = _clearest(told, forces) if candidate.suspect.joint else _clearest_place(told, forces)
-    direction = direction * np.sqrt(needed / (direction @ told @ direction))
+    shape = shape * np.sqrt(needed / (shape @ told @ shape))
     strengths = np.zeros(where.stop - where.start)
-    strengths[usable] = direction
-    return Limit(candidate, strengths, float(np.sqrt(direction @ forces @ direction)), float(needed**-0.5))
+    strengths[usable] = shape
+    return Limit(candidate, strengths, *(float(np.sqrt(shape @ of @ shape)) for of in (forces, left)), needed**-0.5)
 
 
-def _clearest(told: Array, forces: Array) -> Array:
-    """The strengths (m,) together of which the data tell most for the force that they make."""
-    from scipy.linalg import eigh
-
-    scale = np.sqrt(np.diag(forces))
-    inside = [matrix / np.outer(scale, scale) for matrix in (told, forces)]
-    inside[1] = inside[1] + RIDGE * np.eye(scale.size)
-    return eigh(*inside, subset_by_index=(scale.size - 1, scale.size - 1))[1][:, 0] / scale
+def _hard_shape(told: Array, left: Array) -> Array:
+    """The strengths (m,) of which only 5 % of all others tell less for the force that a refit leaves of them."""
+    shapes = np.random.default_rng(0).standard_normal((SHAPES, len(told))) / np.sqrt(np.diag(left))
+    clear = np.einsum("ij,jk,ik->i", shapes, told, shapes) / np.einsum("ij,jk,ik->i", shapes, left, shapes)
+    return shapes[np.argsort(clear)[int((1.0 - POWER) * SHAPES)]]
 
 
-def _clearest_place(told: Array, forces: Array) -> Array:
-    """As ``_clearest``, where one place acts at a time."""
-    return np.eye(len(told))[int(np.argmax(np.diag(told) / np.diag(forces)))]
+def _products(columns: Columns, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
+    """Mean products (k, k) of chosen columns of the bank, and what a refit of the model leaves of them.
 
-
-def of_interest(limit: Limit, columns: Columns, least_force: float) -> Limit:
-    """The limit where effects of which a refit seems to leave less than ``least_force`` (RMS, N) are not named.
-
-    The size that it seems to have scatters about the true one, which has to be that much larger.
+    All runs weigh the same.
     """
-    seems = least_force / max(left_force(limit, columns), 1e-300)
-    return limit.grown(max(1.0, seems + QUANTILE * limit.scatter))
-
-
-def left_force(limit: Limit, columns: Columns) -> float:
-    """The RMS in N that a refit leaves of an effect at its limit; all runs weigh the same."""
-    strengths = np.zeros(columns.bank.size)
-    strengths[limit.candidate.columns] = limit.strengths
-    effect = {run: columns.bank.combined(strengths, run) for run in columns.residual}
-    return float(np.sqrt(left_by_refit(columns.tangents, effect) / len(effect)))
+    bank, fixed = columns.bank, columns.tangents.size
+    total, new = np.zeros((fixed + chosen.size,) * 2), np.full(bank.size, -1)
+    new[chosen] = fixed + np.arange(chosen.size)
+    for run, places in bank.places.items():
+        here = np.flatnonzero(new[places] >= 0)
+        rows = np.concatenate([columns.tangents.values[run], bank.values[run][here]])
+        at = np.concatenate([np.arange(fixed), new[places[here]]])
+        total[np.ix_(at, at)] += rows @ rows.T / (rows.shape[1] * len(bank.places))
+    forces, cross = total[fixed:, fixed:], total[:fixed, fixed:]
+    return forces, forces - cross.T @ np.linalg.lstsq(total[:fixed, :fixed], cross, rcond=1e-12)[0]

@@ -77,16 +77,6 @@ class SparseRows:
         values = {run: rows[stays[run]] for run, rows in self.values.items()}
         return SparseRows(values, {run: new[places[stays[run]]] for run, places in self.places.items()}, kept.size)
 
-    def gram(self, chosen: Places) -> Array:
-        """The products (k, k) of the rows at ``chosen`` (k,) with one another, summed over all runs."""
-        total, new = np.zeros((chosen.size, chosen.size)), np.full(self.size, -1)
-        new[chosen] = np.arange(chosen.size)
-        for run, places in self.places.items():
-            here = np.flatnonzero(new[places] >= 0)
-            rows, at = self.values[run][here], new[places[here]]
-            total[np.ix_(at, at)] += rows @ rows.T
-        return total
-
 
 def normal_equations(
     residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel, jobs: int = 1

@@ -1,12 +1,11 @@
 """What is told of the smallest effect that would have been found, against effects of just that size."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from dashpot.assess.limits import Limit, find_limits, left_force, of_interest
+from dashpot.assess.limits import Limit, find_limits
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate, Columns, screen
@@ -53,24 +52,39 @@ def test_effects_are_found_from_the_limit_on(suspect, share, least, most):
     assert least <= found <= most
 
 
-def test_the_force_of_a_limit_is_what_its_columns_add():
+def test_the_force_of_a_limit_and_what_a_refit_leaves_of_it():
+    """By plain least squares; the runs weigh alike, however long they are."""
     columns = columns_of(np.random.default_rng(), np.zeros(PLACES), joint=True, sign=0)
-    limit = limit_of(columns)
-    added = np.concatenate([limit.strengths @ columns.bank.values[run] for run in "ab"])
-    assert limit.force == pytest.approx(np.sqrt(np.mean(added**2)))
-    assert left_force(limit, columns) < limit.force
+    short = {"a": slice(None), "b": slice(0, SAMPLES // 4)}
+    tangents, bank = (
+        SparseRows.dense({run: part.values[run][:, cut] for run, cut in short.items()})
+        for part in (columns.tangents, columns.bank)
+    )
+    residual = {run: columns.residual[run][cut] for run, cut in short.items()}
+    empty = SparseRows.dense({run: np.empty((0, values.size)) for run, values in residual.items()})
+    limit = limit_of(replace(columns, residual=residual, tangents=tangents, nuisance=empty, bank=bank))
+    added, design = (
+        np.concatenate([rows.values[run].T / np.sqrt(2 * residual[run].size) for run in short])
+        for rows in (bank, tangents)
+    )
+    force = added @ limit.strengths
+    assert limit.force == pytest.approx(np.linalg.norm(force))
+    assert limit.left**2 == pytest.approx(np.linalg.lstsq(design, force, rcond=None)[1][0])
 
 
-def test_together_places_show_less_force_than_any_of_them():
-    """Where columns act together the limit is that of the strengths that the data tell best."""
+def test_few_shapes_of_columns_that_act_together_are_harder_to_see():
+    """In a loud run the same force tells less: the limit has to be enough for effects that are mostly there."""
     rng = np.random.default_rng()
     columns = columns_of(rng, np.zeros(PLACES), joint=True, sign=0)
-    seen = screen(columns, WHITE)
-    limit = limit_of(columns)
+    for run, places in (("a", slice(0, 2)), ("b", slice(2, 4))):
+        columns.bank.values[run][places] = 0.0
+    seen = screen(columns, flat_noise({"a": 1.0, "b": 5.0}))
+    ((_, limit),) = find_limits(columns, seen, 0.0)
     told = limit.strengths @ seen.projected.spread @ limit.strengths / limit.force**2
-    gram = columns.bank.gram(np.arange(PLACES)) / seen.samples
-    for strengths in rng.standard_normal((50, PLACES)):
-        assert strengths @ seen.projected.spread @ strengths / (strengths @ gram @ strengths) <= told * (1.0 + 1e-9)
+    shapes = rng.standard_normal((500, PLACES))
+    forces = np.mean([np.mean((shapes @ columns.bank.values[run]) ** 2, axis=1) for run in "ab"], axis=0)
+    share = np.mean(np.einsum("ij,jk,ik->i", shapes, seen.projected.spread, shapes) / forces < told)
+    assert share < 0.12
 
 
 def test_what_the_numbers_of_the_model_make_up_for_has_no_limit():
@@ -89,15 +103,11 @@ def test_a_cause_that_would_have_to_be_larger_than_it_can_be_has_no_limit():
 
 
 def test_a_limit_is_raised_to_what_is_of_interest():
-    """Of the effect a refit leaves what is no constant; what it seems to be scatters by its deviation."""
-    ramp = {"a": np.linspace(0.0, 2.0, 1001)[None, :]}
-    tangents = SparseRows.dense({"a": np.ones((1, 1001))})
-    columns = Columns(ramp, tangents, SparseRows.dense({"a": np.empty((0, 1001))}), SparseRows.dense(ramp),
-                      np.empty(0), ())  # fmt: skip
-    limit = Limit(SimpleNamespace(columns=slice(0, 1)), np.array([4.0]), 10.0, 0.125)
-    left = 1.0 / np.sqrt(3.0)
-    assert of_interest(limit, columns, 1.0 * left).size == limit.size
-    raised = of_interest(limit, columns, 16.0 * left)
-    assert raised.size == pytest.approx(16.0 + 1.645 * 0.5, rel=2e-3)
+    """What it seems to be scatters by its deviation."""
+    limit = Limit(None, np.array([4.0]), 10.0, 5.0, 0.125)
+    assert limit.of_interest(1.0).size == limit.size
+    raised = limit.of_interest(20.0)
+    assert raised.size == pytest.approx(16.0 + 1.645 * 0.5, rel=1e-3)
     assert raised.force == pytest.approx(2.5 * raised.size)
+    assert raised.left == pytest.approx(0.5 * raised.force)
     assert raised.scatter * raised.size == pytest.approx(0.5)
