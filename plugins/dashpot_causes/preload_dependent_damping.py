@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import Branch, NetworkSpec
-from dashpot.model.patch import add_branch, add_to_branch
+from dashpot.model.patch import add_branch, add_to_branch, branch_names
 from dashpot.text.quantity import pretty
 from dashpot_causes.stiffness_curve import hats
 
@@ -40,13 +40,14 @@ class PreloadDependentDamping(Cause):
         """A factor over deflection, through few knots, on the dashpots and Maxwell branches, or on new ones."""
         knots = tuple(np.linspace(*view.reach, KNOTS))
         plain = [member for member in network.root.members if isinstance(member, Branch) and member.scale is None]
-        damper = next((_OnBranch(branch.name, damping) for branch in plain if (damping := _straight(branch))), _extend)
+        dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
+        damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
         yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper)
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
-            numbers = [_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)]
+            there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
             yield _suspect(f"{KNOTS} knots on '{family}'", knots, ("change of the factor at a knot", "1"),
-                           _Relaxing(numbers), _OnBranch(family, 1.0))  # fmt: skip
+                           there, _OnBranch(family, 1.0, there.extend))  # fmt: skip
         for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
             yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
@@ -97,21 +98,26 @@ class _Relaxing:
 
     def extend(self, text: str, atoms: Sequence[Atom]) -> str:
         strengths, factors, reference = _rising_from_zero(atoms)
-        values = {**self.branches[0], "stiffness": strengths[reference]}
+        values = {**self.branches[0], "stiffness": self.branches[0]["stiffness"] * strengths[reference]}
         lines = branch_lines(free_name(text, "preload_dependent_damping"), "maxwell", values, UNITS)
         return add_branch(text, "\n".join([lines, *(f"  {line}" for line in _scale_lines(atoms, factors, reference))]))
 
 
 @dataclass(frozen=True)
 class _OnBranch:
+    """Writes a factor on a branch, of which one is ``unit``; where the branch is gone, ``instead`` writes another."""
+
     branch: str
-    damping: float
+    unit: float
+    instead: Callable[[str, Sequence[Atom]], str]
 
     def __call__(self, text: str, atoms: Sequence[Atom]) -> str:
+        if self.branch not in branch_names(text):
+            return self.instead(text, atoms)
         strengths = np.array([strength for strength, _ in atoms])
         # the knot that changes least keeps the factor one, so that the damping found before is a good start
         reference = int(np.argmin(np.abs(strengths)))
-        factors = np.clip(1.0 + strengths / self.damping, SMALLEST_FACTOR, LARGEST_FACTOR)
+        factors = np.clip(1.0 + strengths / self.unit, SMALLEST_FACTOR, LARGEST_FACTOR)
         return add_to_branch(text, self.branch, "\n".join(_scale_lines(atoms, factors, reference)))
 
 

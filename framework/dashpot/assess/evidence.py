@@ -72,9 +72,9 @@ def history_of(fit: FitResult) -> dict[str, list[float]]:
 def detection_limits(pursuit: Pursuit) -> list[dict[str, Any]]:
     """The smallest strength of each cause that would have been found with 95 % power, and is of practical relevance.
 
-    It is told where the cause shows best. ``value`` is in its own ``unit``, ``force`` is the RMS force in N that it
-    makes, all runs weighing the same, ``left`` what a refit of the model leaves of that: elsewhere the same ``left`` is
-    needed. All three are None where these runs would not show the largest effect there can be.
+    ``value`` in its own ``unit`` and ``force``, the RMS in N that it makes, are told where the cause shows best.
+    Wherever a refit of the model leaves an RMS of ``left`` of it, all runs weighing the same, it would have been found.
+    All three are None where these runs would not show the largest effect there can be.
     """
     last = pursuit.last
     return [
@@ -90,7 +90,7 @@ def _told(limit: Limit) -> dict[str, Any]:
         "value": limit.size if suspect.unit else limit.force,
         "unit": suspect.unit or "N",
         "force": limit.force,
-        "left": limit.left,
+        "left": limit.hardest,
     }
 
 

@@ -20,15 +20,17 @@ SHAPES = 400
 class Limit:
     """The smallest effect of a cause that would have been found with 95 % power.
 
-    ``strengths`` (m,) are those of the columns of the candidate, ``force`` is the RMS in N that they make, ``left``
-    what a refit of the model leaves of that, all runs weighing the same, and ``scatter`` the standard deviation with
-    which these data tell their size, as a share of it.
+    ``strengths`` (m,) are those of the columns of the candidate where they show best, ``force`` is the RMS in N that
+    they make, ``left`` what a refit of the model leaves of that, and ``hardest`` what it has to leave at the place, or
+    of the shape, that shows worst. All runs weigh the same. ``scatter`` is the standard deviation with which these data
+    tell the size, as a share of it.
     """
 
     candidate: Candidate
     strengths: Array
     force: float
     left: float
+    hardest: float
     scatter: float
 
     @property
@@ -46,24 +48,28 @@ class Limit:
 
         The size that an effect seems to have scatters about the true one, which has to be that much larger.
         """
-        grown = max(1.0, least_force / max(self.left, 1e-300) + QUANTILE * self.scatter)
+        grown, hardest = (
+            max(1.0, least_force / max(left, 1e-300) + QUANTILE * self.scatter) for left in (self.left, self.hardest)
+        )
         return replace(self, strengths=grown * self.strengths, force=grown * self.force, left=grown * self.left,
-                       scatter=self.scatter / grown)  # fmt: skip
+                       hardest=hardest * self.hardest, scatter=self.scatter / grown)  # fmt: skip
 
 
 def find_limits(columns: Columns, screen: Screen, least_force: float) -> list[tuple[Candidate, Limit | None]]:
     """The limit of every cause at every site, none where these runs would not show the largest effect there can be.
 
-    It is that of the form and the place of its grid that show best. Where the columns of a form act together, it is
-    the one that is enough for 95 % of their shapes. Effects below ``least_force`` are not named; see ``of_interest``.
+    It is that of the form and the place of its grid that show best, but for ``hardest``, which is that of them all.
+    Of columns that act together 95 % of the shapes show better. Effects below ``least_force`` are not named; see
+    ``of_interest``.
     """
     found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
     for candidate in columns.candidates:
         _, best = found.setdefault(candidate.name, (candidate, None))
         limit = _limit(candidate, columns, screen)
         limit = limit.of_interest(least_force) if limit else None
-        if limit and limit.possible and (best is None or limit.force < best.force):
-            found[candidate.name] = (candidate, limit)
+        if limit and limit.possible:
+            best, hardest = best or limit, max(limit.hardest, best.hardest if best else 0.0)
+            found[candidate.name] = (candidate, replace(min(best, limit, key=_force), hardest=hardest))
     return list(found.values())
 
 
@@ -76,16 +82,22 @@ def _limit(candidate: Candidate, columns: Columns, screen: Screen) -> Limit | No
         return None
     forces, left = _products(columns, where.start + usable)
     told = screen.projected.spread[where, where][np.ix_(usable, usable)]
-    if candidate.suspect.joint:
-        rank, shape = independent(told)[1], _hard_shape(told, left)
-    else:
-        rank, shape = 1, np.eye(usable.size)[int(np.argmax(np.diag(told) / np.diag(forces)))]
+    rank = independent(told)[1] if candidate.suspect.joint else 1
     price = (rank + candidate.suspect.unknowns) * np.log(screen.samples) + screen.threshold
     needed = float(chndtrinc(price, rank, 1.0 - POWER))
-    shape = shape * np.sqrt(needed / (shape @ told @ shape))
+    shapes = np.eye(usable.size)
+    if candidate.suspect.joint:
+        shapes = _hard_shape(told, left)[None]
+    told, forces, left = (np.einsum("ij,jk,ik->i", shapes, of, shapes) for of in (told, forces, left))
+    at = int(np.argmax(told / forces))
     strengths = np.zeros(where.stop - where.start)
-    strengths[usable] = shape
-    return Limit(candidate, strengths, *(float(np.sqrt(shape @ of @ shape)) for of in (forces, left)), needed**-0.5)
+    strengths[usable] = np.sqrt(needed / told[at]) * shapes[at]
+    force, seen = (float(np.sqrt(needed / told[at] * of[at])) for of in (forces, left))
+    return Limit(candidate, strengths, force, seen, float(np.sqrt(needed * np.max(left / told))), needed**-0.5)
+
+
+def _force(limit: Limit) -> float:
+    return limit.force
 
 
 def _hard_shape(told: Array, left: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Damping that needs no memory: viscous, quadratic, and viscous with a level that depends on the deflection."""
+"""Damping: viscous, quadratic, and viscous or relaxing with a level that depends on the deflection."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from .form import Proportional, log_uniform
 from .motion import STEP, Motion
+from .relaxation import Maxwell, Relaxation, StretchedExponential
 
 
 def _power(velocity: np.ndarray, power: float) -> np.ndarray:
@@ -93,6 +94,27 @@ class PreloadDependent(Proportional):
 
 
 @dataclass(frozen=True)
+class Relaxing(Proportional):
+    """Force that relaxes, by a Maxwell branch or a stretched exponential, times the level of another form.
+
+    The size is a stiffness.
+    """
+
+    kind = "preload_dependent_damping"
+    unit = "N/m"
+    remembered: Relaxation
+    faded: PreloadDependent
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator) -> Self:
+        remembered = (Maxwell, StretchedExponential)[rng.integers(2)].draw(rng)
+        return cls(remembered, (Exponential, Tanh, Rational)[rng.integers(3)].draw(rng))
+
+    def shape(self, motion: Motion) -> np.ndarray:
+        return self.faded.level(motion.displacement) * self.remembered.shape(motion)
+
+
+@dataclass(frozen=True)
 class Exponential(PreloadDependent):
     """exp(-x / length); a negative length rises."""
 
@@ -142,4 +164,4 @@ def _direction(rng: np.random.Generator) -> float:
 
 VISCOUS_FORMS = (NearlyViscous, Viscous)
 QUADRATIC_FORMS = (Quadratic, NearlyQuadratic)
-PRELOAD_FORMS = (Exponential, Tanh, Rational)
+PRELOAD_FORMS = (Exponential, Tanh, Rational, Relaxing)
