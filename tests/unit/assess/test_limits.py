@@ -104,7 +104,7 @@ def test_a_cause_that_would_have_to_be_larger_than_it_can_be_has_no_limit():
 
 def test_a_limit_is_raised_to_what_is_of_interest():
     """What it seems to be scatters by its deviation."""
-    limit = Limit(None, np.array([4.0]), 10.0, 5.0, 0.125)
+    limit = Limit(None, np.array([4.0]), 10.0, 5.0, 5.0, 0.125)
     assert limit.of_interest(1.0).size == limit.size
     raised = limit.of_interest(20.0)
     assert raised.size == pytest.approx(16.0 + 1.645 * 0.5, rel=1e-3)
