@@ -12,6 +12,7 @@ from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
 from dashpot.assess.finalists import Form, form_of
+from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
@@ -203,6 +204,11 @@ class Court:
         noise = learn_noise(dict(zip(names, first, strict=True)), resolution(replace(self.bench, runs=self.held_out)))
         white = [pooled(map(noise.whiten, names, misfits)) for misfits in (first, second)]
         return white[1] < white[0]
+
+    def foresee(self, finding: Finding, look: Look) -> float:
+        """The gain on held-out runs that a finding promises; where these hardly show it, that on training runs."""
+        gain = foreseen_gain(self.bench, self.held_out, finding, look)
+        return gain if gain > self.relevance else expected_gain(look.columns, finding)
 
     def reject(self, finding: Finding, reason: str, foreseen: float | None, gain: Gain | None) -> None:
         """Note a candidate that did not hold, with the reason."""

@@ -30,7 +30,7 @@ from dashpot.assess.finalists import (
 from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
-from dashpot.assess.suspicion import Look, expected_gain
+from dashpot.assess.suspicion import Look
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.fit.refine import Outcome
 
@@ -187,7 +187,7 @@ class Pursuer:
                 continue
             gain, reason = court.examine(trial, look, explained)
             if reason:
-                court.reject(trial.finding, reason, expected_gain(look.columns, trial.finding), gain)
+                court.reject(trial.finding, reason, court.foresee(trial.finding, look), gain)
             elif any(not court.examine(other, look, explained)[1] for other in imitated(trial, rest)):
                 imitations.append(trial)
             else:
@@ -207,7 +207,7 @@ class Pursuer:
         others = (*others, *doubtful)
         chosen = court.simplify(chosen, look)
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-        foreseen, gain = expected_gain(look.columns, trial.finding), court.gain_of(look.model, chosen.model)
+        foreseen, gain = court.foresee(trial.finding, look), court.gain_of(look.model, chosen.model)
         return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
 
     def refit_finalists(self, look: Look, explained: float) -> list[Trial]:
@@ -217,7 +217,7 @@ class Pursuer:
         for finding in choose_finalists(court.admissible(look), look):
             if explained and not court.worth_a_refit(finding, look, explained):
                 reason = reasons.TOO_LITTLE.format(least=court.least_later_gain(finding, look, explained))
-                court.reject(finding, reason, expected_gain(look.columns, finding), None)
+                court.reject(finding, reason, court.foresee(finding, look), None)
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(court.try_out(finding, look, to_beat(trials, finding, look)))

@@ -12,7 +12,7 @@ from dashpot.assess.contest import Model, admitted
 from dashpot.assess.court import REFIT_MAY_DOUBLE, Court, within_form
 from dashpot.assess.finalists import TIE, choose_finalists
 from dashpot.assess.screen import Finding
-from dashpot.assess.suspicion import Look, expected_gain
+from dashpot.assess.suspicion import Look
 
 MOST_OTHERS = 2
 MOST_PLACES = 4  # of a fault of single runs: to look at each of more is too long a search
@@ -110,7 +110,7 @@ class Revision:
                 continue
             gain = self.court.gain_of(look.model, trial.model)
             if gain is None or gain.value >= 0.0:
-                return Accepted(trial.finding, trial, expected_gain(without.columns, finding), gain, (), base=model)
+                return Accepted(trial.finding, trial, self.court.foresee(finding, without), gain, (), base=model)
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
