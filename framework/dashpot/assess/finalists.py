@@ -60,6 +60,15 @@ def imitated(trial: Trial, others: Iterable[Trial]) -> list[Trial]:
     ]  # fmt: skip
 
 
+def makes_up(finding: Finding, other: Finding, more: float, explained: float) -> bool:
+    """Whether a finding can take another one's place because its many numbers make up the law of that.
+
+    ``more`` is the fall of chi square that it adds to what is ``explained`` with the other one.
+    """
+    one, two = finding.candidate, other.candidate
+    return two.cause.word in one.suspect.imitates and one.site == two.site and more < IMITATED * explained
+
+
 def in_doubt(imitation: Trial, chosen: Trial) -> bool:
     """Whether a law that another one makes up may be more than that: it leads by more than forms mostly err."""
     word = chosen.finding.candidate.cause.word

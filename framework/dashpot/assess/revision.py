@@ -10,7 +10,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Model, admitted
 from dashpot.assess.court import REFIT_MAY_DOUBLE, Court, within_form
-from dashpot.assess.finalists import TIE, choose_finalists
+from dashpot.assess.finalists import TIE, choose_finalists, makes_up
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
@@ -49,7 +49,8 @@ class Revision:
         """Drop an earlier cause that the last one made superfluous, or its opposite: that takes its place in the order.
 
         It is superfluous, too, where it explains no more than the others may be wrong by in their form. The form that
-        was dropped does not come back.
+        was dropped does not come back. Where the last one only makes up the law of the earlier one, it is the last one
+        that goes.
         """
         explained = self.first.chi_square - look.model.chi_square
         for number in range(len(accepted) - 1):
@@ -58,6 +59,14 @@ class Revision:
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             fall = model.chi_square - look.model.chi_square
             superfluous = fall < price + look.screen.threshold or within_form(fall, model.chi_square, explained)
+            last = accepted[-1]
+            if (
+                superfluous
+                and last.base
+                and makes_up(last.finding, accepted[number].finding, last.trial.gain, explained)
+            ):
+                self.court.bar(last, reasons.IMITATES)
+                return accepted[:-1], self.court.look(last.base, look.noise)
             if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
                 why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
                 self.court.bar(accepted[number], why)

@@ -4,12 +4,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from dashpot.assess.finalists import imitated, in_doubt
+from dashpot.assess.finalists import imitated, in_doubt, makes_up
 
 
 def trial(word, gain, numbers, imitates=(), failure=""):
     suspect = SimpleNamespace(imitates=imitates)
-    candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect)
+    candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect, site=None)
     finding = SimpleNamespace(candidate=candidate)
     return SimpleNamespace(
         finding=finding, model=SimpleNamespace(numbers=numbers), gain=gain, merit=gain - 12.0 * numbers, failure=failure
@@ -40,3 +40,11 @@ def test_an_imitation_that_leads_by_more_than_forms_mostly_err_is_a_rival(gain, 
     sliders = trial("friction", gain, 13, ("amplitude_softening",))
     assert in_doubt(sliders, trial("amplitude_softening", 10_000.0, 12)) is told
     assert not in_doubt(sliders, trial("relaxation", 10_000.0, 12))
+
+
+@pytest.mark.parametrize(("more", "only_made_up"), [(15.0, True), (25.0, False)])
+def test_an_imitation_does_not_take_the_place_of_a_law_for_little_more(more, only_made_up):
+    sliders, law = (trial(word, 0.0, 13, words).finding for word, words in (
+        ("friction", ("amplitude_softening",)), ("amplitude_softening", ())))  # fmt: skip
+    assert makes_up(sliders, law, more, 1000.0) is only_made_up
+    assert not makes_up(law, sliders, more, 1000.0)
