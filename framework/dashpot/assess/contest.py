@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -170,7 +171,8 @@ class Bench:
         for share in SHARES:
             part = finding.scaled(share)
             point = model.coordinates.allowed(model.point + model.coordinates.unit * part.moves)[0]
-            starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
+            with suppress(InputError):  # a small share may be less than an element admits
+                starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
         runs = [mended(run, model.mends) for run in self.runs]
         networks = [compile_network(start) for _, start in starts]
         objective = Objective(networks[0], runs, self.jobs, self._beside_sensors(noise).whiten)

@@ -163,7 +163,7 @@ class Diagnosis:
             "accepted": True,
             "branch": named.branch,
             "evidence": named.evidence,
-            "expected_gain": named.steps[0].expected_gain,
+            "expected_gain": named.expected_gain,
             "gain": named.gain.value if named.gain else None,
             "gain_interval": list(named.gain.interval) if named.gain else None,
             "parameters": named.parameters(),

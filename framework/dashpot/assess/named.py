@@ -54,6 +54,11 @@ class NamedCause:
         return next(iter(self.slots)).partition(".")[0] if self.slots else None
 
     @property
+    def expected_gain(self) -> float:
+        """What was foreseen of the gain, each step before its refit."""
+        return 1.0 - prod(1.0 - step.expected_gain for step in self.steps)
+
+    @property
     def evidence(self) -> str:
         """How it shows, and by how much the fit is better with it."""
         forms = ", then ".join(step.finding.candidate.suspect.form for step in self.steps)

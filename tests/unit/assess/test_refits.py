@@ -58,6 +58,16 @@ def test_a_spring_that_joins_a_table_takes_its_force_over_from_it(rng):
     assert stiffness == pytest.approx(40e3, rel=0.3)
 
 
+def test_a_weak_effect_is_refitted_though_a_tenth_of_it_is_less_than_an_element_admits(rng):
+    bench, _ = bench_of(softening, rng)
+    look = look_at(bench, fitted(bench, TABLE), [REGISTRY.causes["softening"]], None, 0)
+    least = REGISTRY.elements["softening"].declares.parameters["stiffness"].bounds[0]
+    weak = look.screen.best.scaled(5.0 * least / look.screen.best.strengths[0])
+    trial = try_finding(bench, look.model, weak, look.noise, look.screen.samples)
+    assert trial.failure == ""
+    assert trial.gain > 0.0
+
+
 def test_a_number_at_its_end_absorbs_nothing_and_starts_anew_from_the_file(rng):
     """Negative damping drives the damper to the end of its range."""
     bench, _ = bench_of(lambda x, v: 200e3 * x - 40.0 * v, rng)
