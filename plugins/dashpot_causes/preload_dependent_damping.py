@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,10 +40,12 @@ class PreloadDependentDamping(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A factor over deflection, through few knots, on the dashpots and Maxwell branches, or on new ones."""
         knots = tuple(np.linspace(*view.reach, KNOTS))
-        plain = [member for member in network.root.members if isinstance(member, Branch) and member.scale is None]
+        branches = [member for member in network.root.members if isinstance(member, Branch)]
+        plain = [branch for branch in branches if branch.scale is None]
         dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
-        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper)
+        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper,
+                       sign=0 if any(branch.element.word == "damper" for branch in branches) else 1)  # fmt: skip
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
@@ -51,7 +54,7 @@ class PreloadDependentDamping(Cause):
         for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
             yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
-                           found, found.extend, unknowns=1, imitates=SIMPLER)  # fmt: skip
+                           found, found.extend, sign=1, unknowns=1, imitates=SIMPLER)  # fmt: skip
 
 
 def _suspect(
@@ -60,6 +63,7 @@ def _suspect(
     strength: tuple[str, str],
     force: Callable[[View, str], Array],
     extend: Callable[[str, Sequence[Atom]], str],
+    sign: Literal[0, 1] = 0,
     unknowns: int = 0,
     imitates: tuple[str, ...] = (),
 ) -> Suspect:
@@ -71,7 +75,7 @@ def _suspect(
     def columns(view: View, run: str) -> Array:
         return hats(knots, view.displacement(run)) * force(view, run)
 
-    return Suspect(form, knots, columns, extend, joint=True, sign=0, unknowns=unknowns,
+    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns,
                    quantity=strength[0], unit=strength[1], imitates=imitates)  # fmt: skip
 
 

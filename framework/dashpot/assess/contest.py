@@ -173,12 +173,15 @@ class Bench:
             point = model.coordinates.allowed(model.point + model.coordinates.unit * part.moves)[0]
             with suppress(InputError):  # a small share may be less than an element admits
                 starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
-        runs = [mended(run, model.mends) for run in self.runs]
-        networks = [compile_network(start) for _, start in starts]
-        objective = Objective(networks[0], runs, self.jobs, self._beside_sensors(noise).whiten)
-        losses = objective.losses(np.array([network.start for network in networks]))
-        declared, start = starts[int(np.argmin(losses))]
+        declared, start = starts[self.nearest([start for _, start in starts], noise, model.mends)]
         return self.fit(declared, start, noise, model.mends, beat)
+
+    def nearest(self, starts: Sequence[NetworkSpec], noise: NoiseModel | None, mends: Sequence[Mend]) -> int:
+        """Which of several starts for the same network misses the runs least."""
+        runs, networks = [mended(run, mends) for run in self.runs], [compile_network(start) for start in starts]
+        whiten = self._beside_sensors(noise).whiten if noise else None
+        losses = Objective(networks[0], runs, self.jobs, whiten).losses(np.array([each.start for each in networks]))
+        return int(np.argmin(losses))
 
     def revive(self, model: Model, noise: NoiseModel) -> Model:
         """The model, or a better one: numbers that what was missing had driven to an end of their range start anew.

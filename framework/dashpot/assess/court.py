@@ -87,14 +87,20 @@ class Court:
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
-        """The first model with the patches of some causes, refitted from the present numbers."""
+        """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
+
+        Present numbers that wandered with a cause that is gone may be worse than those of the first model or those with
+        which a cause was accepted.
+        """
         text = first.declared.text
         for entry in kept:
             text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
         declared = parse_network(text, self.bench.elements, first.declared.file)
         known = [entry.finding for entry in kept]
         mends = [mend for mend in model.mends if any(mend.finding is finding for finding in known)]
-        return self.bench.fit(declared, self.bench.start_from(declared, model.fitted), noise, mends)
+        earlier = [first.fitted, *(entry.trial.model.fitted for entry in kept)]
+        starts = [self.bench.start_from(declared, numbers) for numbers in (model.fitted, *earlier)]
+        return self.bench.fit(declared, starts[self.bench.nearest(starts, noise, mends)], noise, mends)
 
     def examine(self, trial: Trial, look: Look, explained: float) -> tuple[Gain | None, str]:
         """The gain of a trial on held-out runs, and why it may not be accepted, or an empty text."""

@@ -87,7 +87,7 @@ def _limit(candidate: Candidate, columns: Columns, screen: Screen) -> Limit | No
     needed = float(chndtrinc(price, rank, 1.0 - POWER))
     shapes = np.eye(usable.size)
     if candidate.suspect.joint:
-        shapes = _hard_shape(told, left)[None]
+        shapes = _hard_shape(told, left, candidate.suspect.sign)[None]
     told, forces, left = (np.einsum("ij,jk,ik->i", shapes, of, shapes) for of in (told, forces, left))
     at = int(np.argmax(told / forces))
     strengths = np.zeros(where.stop - where.start)
@@ -100,9 +100,10 @@ def _force(limit: Limit) -> float:
     return limit.force
 
 
-def _hard_shape(told: Array, left: Array) -> Array:
+def _hard_shape(told: Array, left: Array, sign: int) -> Array:
     """The strengths (m,) of which only 5 % of all others tell less for the force that a refit leaves of them."""
     shapes = np.random.default_rng(0).standard_normal((SHAPES, len(told))) / np.sqrt(np.diag(left))
+    shapes = np.abs(shapes) if sign else shapes
     clear = np.einsum("ij,jk,ik->i", shapes, told, shapes) / np.einsum("ij,jk,ik->i", shapes, left, shapes)
     return shapes[np.argsort(clear)[int((1.0 - POWER) * SHAPES)]]
 

@@ -170,7 +170,7 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate], jobs: int = 1
         return np.concatenate(rows), np.concatenate(at)
 
     found = dict(zip(view.runs, spread(rows_of, view.runs, jobs=jobs), strict=True))
-    values, places = ({run: parts[number] for run, parts in found.items()} for number in (0, 1))
+    values, places = {run: rows for run, (rows, _) in found.items()}, {run: at for run, (_, at) in found.items()}
     return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
 
@@ -238,12 +238,24 @@ def _judge_joint(
     inverse, rank = independent(matrix[np.ix_(usable, usable)])
     strengths = np.zeros(s.size)
     strengths[usable] = inverse @ s[usable]
-    gain = float(s @ strengths)
+    if candidate.suspect.sign and (strengths < 0.0).any():
+        strengths[usable] = _positive(s[usable], matrix[np.ix_(usable, usable)])
+        rank = int(np.count_nonzero(strengths))
+    gain = float(2.0 * s @ strengths - strengths @ matrix @ strengths)
     atoms = tuple(zip(strengths.tolist(), candidate.suspect.grid, strict=True))
     merit = gain - (rank + candidate.suspect.unknowns) * np.log(samples)
     deviations = np.zeros(s.size)
     deviations[usable] = np.sqrt(np.maximum(np.diag(inverse), 0.0))
     return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)), deviations, absorbed)
+
+
+def _positive(s: Array, matrix: Array) -> Array:
+    """The strengths (m,) of one sign that explain most."""
+    from scipy.optimize import nnls
+
+    scale = np.sqrt(np.diag(matrix))
+    root = np.linalg.cholesky(matrix / np.outer(scale, scale) + RIDGE * np.eye(scale.size))
+    return nnls(root.T, np.linalg.solve(root, s / scale))[0] / scale
 
 
 def _judge_greedy(

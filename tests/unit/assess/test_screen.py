@@ -63,6 +63,16 @@ def test_the_gain_of_a_joint_suspect_is_that_of_least_squares():
     assert found.gain == pytest.approx(fall_of_chi_square(columns, [0, 1, 2, 3]), rel=1e-6)
 
 
+def test_joint_strengths_of_one_sign_are_those_of_least_squares_within_it():
+    """A place whose true strength has the other sign is left out."""
+    rng = np.random.default_rng()
+    columns = columns_of(rng, [0.3, -0.2, 0.1, 0.3], joint=True, sign=1)
+    found = next(f for f in screen(columns, WHITE).findings if f.candidate.cause is Made)
+    assert found.strengths[1] == 0.0
+    assert np.all(found.strengths >= 0.0)
+    assert found.gain == pytest.approx(fall_of_chi_square(columns, [0, 2, 3]), rel=1e-6)
+
+
 def test_single_places_are_found_with_their_strength():
     """A hidden place of the grid wins over the others and over the other cause."""
     found = screen(columns_of(np.random.default_rng(), [0.0, 0.0, 0.5, 0.0]), WHITE).best
