@@ -209,7 +209,12 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
         f"Seeds {found['seed']} to {last}; `{found['command']}`{repeats} A diagnosis took {found['seconds']:.0f} s in "
         "the median, on two cores that did other work at the same time."
     )
-    yield written.table(("what is counted", "cases", "95 % interval"), list(_rates(found)))
+    yield written.table(("what is counted", "cases", "95 % interval"), [*_rates(found), *_by_strength(found)])
+    if (correlation := found.get("gain_calibration")) is not None:
+        yield f"Gains foreseen before the refit and those that came have a rank correlation of {correlation:.2f}."
+    if mistaken := list(_mistaken(found["confusion"])):
+        yield "Beside the diagonal of the confusion matrix, effects that a refit of the model absorbs among them:"
+        yield written.table(("hidden", "named first instead", "cases"), mistaken)
     yield written.table(
         ("seed", "model that was diagnosed", "hidden", "effect over noise", "verdict", "named"),
         [
@@ -247,13 +252,31 @@ RATES = {
 
 
 def _rates(found: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    for key, words in RATES.items():
+        if found.get(key, (0, 0))[1]:
+            yield _rate(words, *found[key])
+
+
+def _by_strength(found: Mapping[str, Any]) -> Iterator[tuple[str, str, str]]:
+    """The first name, where a refit of the network leaves so much of the effects, over the noise."""
+    for band, (count, of) in found["by_strength"].items() if "first_right" in found else ():
+        if of:
+            yield _rate(f"the first name is a hidden effect of which a refit leaves {band} of the noise", count, of)
+
+
+def _rate(words: str, count: int, of: int) -> tuple[str, str, str]:
     from scipy.stats import binomtest
 
-    for key, words in RATES.items():
-        count, of = found.get(key, (0, 0))
-        if of:
-            low, high = binomtest(count, of).proportion_ci(method="exact")
-            yield words, f"{count} of {of}", f"{low:.0%} to {high:.0%}"
+    low, high = binomtest(count, of).proportion_ci(method="exact")
+    return words, f"{count} of {of}", f"{low:.0%} to {high:.0%}"
+
+
+def _mistaken(confusion: Mapping[str, Mapping[str, int]]) -> Iterator[tuple[str, str, str]]:
+    """What is beside the diagonal of the confusion matrix."""
+    for hidden, named in sorted(confusion.items()):
+        for word, count in sorted(named.items()):
+            if word not in hidden.split("+") and not (hidden == "null" and word == "nothing_missing"):
+                yield _words([hidden]), word.replace("_", " "), str(count)
 
 
 def benchmarks() -> Iterator[str]:
