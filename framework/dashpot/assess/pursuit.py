@@ -28,7 +28,7 @@ from dashpot.assess.finalists import (
     to_beat,
 )
 from dashpot.assess.gain import Gain
-from dashpot.assess.misfits import balanced, plainly_strong
+from dashpot.assess.misfits import balanced, plainly_strong, share_of_change
 from dashpot.assess.revision import Revision
 from dashpot.assess.suspicion import Look
 from dashpot.assess.unseen import Jury, known_directions
@@ -93,12 +93,13 @@ class Pursuer:
         while len(accepted) < most:
             self.tried += len(look.screen.findings)
             explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
-            winner = self.best_trial(look, max(explained, 0.0))
-            if winner is None:
+            winners = self.best_trial(look, max(explained, 0.0))
+            if not winners:
                 break
-            self.watch(f"accepted {winner.finding.candidate.cause.word}", (len(accepted) + 1) / MOST_CAUSES)
-            look = self.court.look(winner.trial.model, look.noise)
-            accepted, look = revision.revise([*accepted, winner], look)
+            words = " and ".join(winner.finding.candidate.cause.word for winner in winners)
+            self.watch(f"accepted {words}", (len(accepted) + len(winners)) / MOST_CAUSES)
+            look = self.court.look(winners[-1].trial.model, look.noise)
+            accepted, look = revision.revise([*accepted, *winners], look)
         return accepted, look
 
     def another_way(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
@@ -150,14 +151,16 @@ class Pursuer:
     ) -> tuple[list[Accepted], Look, list[Model]]:
         """The gain of every cause in plain error; one that gains nothing on held-out runs goes, the last one first.
 
-        The first cause has to hold there, a further one to gain what is of interest at all; faults of the held-out runs
-        themselves come last.
+        The first cause has to hold there, a further one to gain what is of interest at all, be it as the last of all;
+        faults of the held-out runs themselves come last.
         """
         court = self.court
         ladder = self.polish_ladder(first.model, accepted, look)
         faults = self.faults_of_held_out(look, ladder[-1], bool(accepted))
         gains = [court.gain_beside(faults, before, after) for before, after in pairwise(ladder)]
-        useless = [number for number, gain in enumerate(gains) if gain is not None and gain.value <= court.relevance]
+        for number in self.useless(gains):
+            gains[number] = self.gain_of_last(number, accepted, look, ladder) or gains[number]
+        useless = self.useless(gains)
         if useless == [0] and court.holds(first.model, accepted[0].trial.model, gains[0]):
             useless = []
         if not useless:
@@ -169,6 +172,21 @@ class Pursuer:
         model = court.rebuild(kept, look.model, first.model, look.noise)
         return self.settle_gains(kept, court.look(model, look.noise), first)
 
+    def useless(self, gains: Sequence[Gain | None]) -> list[int]:
+        """The numbers of the gains that are too small to be of interest."""
+        return [number for number, gain in enumerate(gains) if gain is not None and gain.value <= self.court.relevance]
+
+    def gain_of_last(
+        self, number: int, accepted: Sequence[Accepted], look: Look, ladder: Sequence[Model]
+    ) -> Gain | None:
+        """The gain of a cause beside all others, if it is of interest."""
+        others = [*accepted[:number], *accepted[number + 1 :]]
+        if not others:
+            return None
+        without = self.court.rebuild(others, look.model, ladder[0], None)
+        gain = self.court.gain_of(without, ladder[len(accepted)])
+        return gain if gain and gain.value > self.court.relevance else None
+
     def polish_ladder(self, first: Model, accepted: Sequence[Accepted], last: Look) -> list[Model]:
         """The first model and the one after each cause, all fitted to the plain error, so that their gains compare."""
         self.watch("final refits", 0.0)
@@ -176,10 +194,11 @@ class Pursuer:
         steps = [first, *models, last.model] if accepted else [first]
         return [self.court.bench.fit(step.declared, step.fitted, None, step.mends) for step in steps]
 
-    def best_trial(self, look: Look, explained: float) -> Accepted | None:
-        """The best finalist that holds on runs that took no part, or None."""
+    def best_trial(self, look: Look, explained: float) -> list[Accepted]:
+        """The best finalist that holds on runs that took no part, else two that hold together, else none."""
         court, trials = self.court, self.refit_finalists(look, explained)
         imitations: list[Trial] = []
+        unsupported: list[Trial] = []
         while trials:
             trial, *rest = ranked = sorted(trials, key=lambda trial: -trial.merit)
             if trial.model.outcome is Outcome.LEFT_BEHIND:
@@ -188,12 +207,30 @@ class Pursuer:
             gain, reason = court.examine(trial, look, explained)
             if reason:
                 court.reject(trial.finding, reason, court.foresee(trial.finding, look), gain)
+                unsupported += [trial] * (reason == reasons.NOT_SUPPORTED)
             elif any(not court.examine(other, look, explained)[1] for other in imitated(trial, rest)):
                 imitations.append(trial)
             else:
-                return self.accept(ranked, imitations, gain, look)
+                return [self.accept(ranked, imitations, gain, look)]
             trials = rest
-        return None
+        return self.best_pair(unsupported[0], look, explained) if unsupported else []
+
+    def best_pair(self, trial: Trial, look: Look, explained: float) -> list[Accepted]:
+        """A trial that does not hold alone and the best one beside it, if together they make unseen runs better.
+
+        Where two causes are hidden, the numbers of the model may stand in for one of them all the worse on unseen runs,
+        once the other one is taken out.
+        """
+        court, beside = self.court, self.court.look(trial.model, look.noise)
+        explained += trial.gain
+        ranked = sorted(self.refit_finalists(beside, explained), key=lambda other: -other.merit)
+        for number, other in enumerate(ranked):
+            gain = court.gain_of(look.model, other.model)
+            change = share_of_change(beside.model, other.model, court.bench.runs)
+            if gain is not None and not court.objection(other, gain, change, beside, explained):
+                first = Accepted(trial.finding, trial, court.foresee(trial.finding, look), None, (), base=look.model)
+                return [first, self.accept(ranked[number:], (), gain, beside)]
+        return []
 
     def accept(self, ranked: Sequence[Trial], imitations: Sequence[Trial], gain: Gain | None, look: Look) -> Accepted:
         """The first of the ``ranked`` trials, which holds and has this gain, or a simpler one alike; its rivals."""

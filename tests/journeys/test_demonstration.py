@@ -1,0 +1,27 @@
+"""The demonstration finds what its specimen really does, and blames no sensor."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+import dashpot as dp
+from dashpot import load_registry
+
+SLIDING = {"friction", "amplitude_softening", "load_dependent_friction"}
+RELAXING = {"relaxation", "preload_dependent_damping"}
+
+
+@pytest.mark.slow
+def test_sliding_and_relaxing_rubber_are_named_and_no_fault_of_the_measurement(tmp_path):
+    """The laws of the virtual tire are those of no element: Iwan's sliders, a stretched exponential with a level."""
+    seed = int(os.environ.get("DEMO_SEED") or int.from_bytes(os.urandom(2), "little"))
+    print(f"seed {seed}: DEMO_SEED={seed} repeats it")
+    data = load_registry().specimens["test_tire"]().measure(tmp_path, seed)
+    found = dp.diagnose("kelvin_voigt", dp.load_dataset(data), jobs=2).as_dict()
+    named = {cause["cause"] for cause in found["causes"]}
+    assert named & SLIDING
+    assert named & RELAXING
+    assert named <= SLIDING | RELAXING
+    assert found["rmse"]["after"]["held_out"] < 1.3 * found["noise_floor"]["value"]
