@@ -22,7 +22,8 @@ TIMES = 5
 SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 BOUNDS = "bounds: [0.02, 50]"
-SIMPLER = ("relaxation", "viscous_damping", "delay", "moving_mass")  # a relaxing branch with a factor makes up each
+# a relaxing branch with a factor makes up each of these
+SIMPLER = ("relaxation", "viscous_damping", "delay", "moving_mass", "friction", "amplitude_softening", "creep")
 
 
 class PreloadDependentDamping(Cause):
