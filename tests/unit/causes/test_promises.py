@@ -101,8 +101,10 @@ def test_the_cure_adds_what_the_columns_show(suspect):
     middle = len(suspect.grid) // 2
     atoms = [(size, suspect.grid[middle])]
     if suspect.joint:
-        # one knot of many: a monotone cubic through all of them is not the sum of those through one each
-        atoms = [(size if number == middle else 0.0, place) for number, place in enumerate(suspect.grid)]
+        # one knot of many: a monotone cubic through all of them is not the sum of those through one each; where none
+        # may be zero, the others keep a twentieth
+        least = 0.05 * size if suspect.sign else 0.0
+        atoms = [(size if number == middle else least, place) for number, place in enumerate(suspect.grid)]
     extended = parse_network(suspect.extend(NETWORK, atoms), REGISTRY.elements)
     places = [suspect.grid.index(place) for _, place in atoms]
     for run in VIEW.runs:
