@@ -81,7 +81,7 @@ def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
     chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
     best: dict[tuple[str, str], Trial] = {}
     for other in near:
-        if not idles(other, chosen):
+        if not idles(other, chosen) and not contains(other, chosen):
             best.setdefault(other.finding.candidate.name, other)
     best.pop(chosen.finding.candidate.name)
     return chosen, tuple(best.values())
@@ -112,6 +112,12 @@ def idles(other: Trial, chosen: Trial) -> bool:
     site = other.finding.candidate.site
     same = site is not None and site == chosen.finding.candidate.site
     return same and other.model.numbers > chosen.model.numbers and other.merit <= chosen.merit
+
+
+def contains(other: Trial, chosen: Trial) -> bool:
+    """Whether a trial makes up the law of the chosen one with more numbers, and is hardly better for them."""
+    makes_it_up = chosen.finding.candidate.cause.word in other.finding.candidate.suspect.imitates
+    return makes_it_up and other.model.numbers > chosen.model.numbers and not in_doubt(other, chosen)
 
 
 def tie_width(trial: Trial) -> float:

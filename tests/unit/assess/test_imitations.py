@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from dashpot.assess.finalists import imitated, in_doubt, makes_up
+from dashpot.assess.finalists import imitated, in_doubt, makes_up, settle_ties
 
 
 def trial(word, gain, numbers, imitates=(), failure=""):
@@ -48,3 +48,14 @@ def test_an_imitation_does_not_take_the_place_of_a_law_for_little_more(more, onl
         ("friction", ("amplitude_softening",)), ("amplitude_softening", ())))  # fmt: skip
     assert makes_up(sliders, law, more, 1000.0) is only_made_up
     assert not makes_up(law, sliders, more, 1000.0)
+
+
+@pytest.mark.parametrize(("more", "rivals"), [(2.0, 0), (40.0, 0), (80.0, 1)])
+def test_a_law_that_contains_another_one_is_its_rival_only_where_it_leads(more, rivals):
+    """Of 10 000 that both explain the larger one explains a little more, by two numbers at a price of 12 each."""
+    plain, larger = trial("relaxation", 1e4, 3), trial("preload_dependent_damping", 1e4 + more, 5, ("relaxation",))
+    for each in (plain, larger):
+        each.finding.candidate.name = (each.finding.candidate.cause.word, "")
+    chosen, others = settle_ties([plain, larger])
+    assert chosen is plain
+    assert len(others) == rivals
