@@ -17,10 +17,11 @@ def foreseen_gain(bench: Bench, held_out: Sequence[ScoredRun], finding: Finding,
     """1 - RMSE after / RMSE before on held-out runs, if the finding is true and the model's numbers make room for it.
 
     Nothing but the motion of these runs and the size of their present error is used. What acts in single runs only, or
-    inside a network, is foreseen for the training runs.
+    inside a network, is foreseen for the training runs; so is all beside sensors that may err, in every run otherwise.
     """
     candidate = finding.candidate
-    if not held_out or candidate.suspect.local or candidate.site is not None:
+    erring = any(bench.sensors.get(run.name) for run in held_out)
+    if not held_out or erring or candidate.suspect.local or candidate.site is not None:
         return expected_gain(look.columns, finding)
     residual, tangents = replace(bench, runs=held_out, unseen=()).linearise(look.model)
     view, squares, after = bench.view(look.model), 0.0, 0.0
