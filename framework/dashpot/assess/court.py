@@ -203,7 +203,7 @@ class Court:
         """Whether held-out runs get better; where coloured noise hides it, whether they do once it is made white."""
         if gain is None or gain.value > 0.0:
             return True
-        if gain.value < -HARMLESS:
+        if gain.value < -HARMLESS or not self.held_out:
             return False
         first, second = misfits_of(before, self.held_out), misfits_of(after, self.held_out)
         names = [run.name for run in self.held_out]

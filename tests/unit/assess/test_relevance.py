@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from dashpot.assess.court import SMALLEST_GAIN, Court
+from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import share_of_change
 
 BEFORE = 1e6
@@ -52,3 +53,11 @@ def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
     before = (1.2**2 + 1.0) / 2.0
     expected = 1.0 - np.sqrt(1.0 - 0.2**2 / 2.0 / before)
     assert share_of_change("before", "after", ()) == pytest.approx(expected, rel=0.05)
+
+
+def test_a_fault_that_gains_nothing_on_pieces_of_the_only_runs_does_not_hold():
+    """Without held-out runs there is nothing else to judge it by."""
+    court = Court(None, (), (), 0)
+    assert court.holds(None, None, None)
+    assert court.holds(None, None, Gain(0.01, (0.0, 0.02)))
+    assert not court.holds(None, None, Gain(-0.01, (-0.02, 0.0)))
