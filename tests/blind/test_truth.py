@@ -426,6 +426,14 @@ def test_two_effects_are_both_hidden_and_the_late_channel_delays_both(tmp_path):
     assert [effect.kind for effect in truth.effects] == ["friction", "delay"]
 
 
+def test_an_effect_that_no_run_shows_is_drawn_again_or_refused(tmp_path):
+    """A stop beyond 25 mm, and one sweep that goes to 22 mm."""
+    drawn = draw_case(140500045, "polynomial", design="one_sweep", folder=tmp_path).label.open("drawn").effects[0]
+    assert max(drawn.rms["a2_p20"], drawn.rms["a2_p20_b"]) > 0.0
+    with pytest.raises(ValueError, match="expected one that shows in the runs of 'one_sweep', got 'end_stop'"):
+        draw_case(1, "polynomial", "end_stop", form="Hertz", design="one_sweep")
+
+
 @pytest.mark.parametrize(
     ("asked", "said"),
     [

@@ -15,7 +15,7 @@ from .design import DESIGNS, Plan
 from .effects import FAULTS, FORMS, KINDS_OF_BASE
 from .fault import Fault
 from .folder import write_dataset
-from .form import Forces, Form, log_uniform
+from .form import DoesNotShow, Forces, Form, log_uniform
 from .label import Hidden, SealedLabel, Truth
 from .motion import Motion, at_samples
 from .noise import Noise
@@ -24,6 +24,7 @@ from .sensor import DATA_SHEET, EXACT, Channel, draw_channels
 NULL = "null"
 NULL_SHARE = 0.2
 WEAKEST, STRONGEST, RATIO = 0.1, 10.0, 10.0
+MOST_DRAWS = 50  # of forms that do not show in a design
 DISPLACEMENT_NOISE = 2e-6
 
 
@@ -57,7 +58,7 @@ def draw_case(
     its data sheet, which the dataset then states; further: a run behind those of the design, the same specimen on it;
     folder: where to write, or None (temporary).
     An axle has one design and exact channels. Everything random comes from `seed`. Raises ValueError where a word is
-    unknown.
+    unknown, and where the runs of a design show no form of a kind; a form that they do not show is drawn again.
     """
     _check(base, kind, form, design)
     rng, place = np.random.default_rng([seed, 0]), folder or Path(tempfile.mkdtemp(prefix="blind-"))
@@ -66,11 +67,18 @@ def draw_case(
         truth = draw_axle(seed, kinds, _draw_strengths(kinds, strength, rng), rng, place)
         return Case(seed, place, SealedLabel(truth))
     specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
-    forms = [_draw_form(word, form, rng, len(plans)) for word in _draw_kinds(base, kind, rng)]
-    strengths = _draw_strengths(forms, strength, rng)
+    runs = len(plans)
     plans = (*plans, further) if further else plans
-    bench = _Bench(plans, specimen)
-    effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
+    for _ in range(MOST_DRAWS):
+        forms = [_draw_form(word, form, rng, runs) for word in _draw_kinds(base, kind, rng)]
+        strengths, bench = _draw_strengths(forms, strength, rng), _Bench(plans, specimen)
+        try:
+            effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
+            break
+        except DoesNotShow:
+            continue
+    else:
+        raise DoesNotShow(f"kind: expected one that shows in the runs of '{design}', got '{kind}'")
     channels = draw_channels(len(plans), np.random.default_rng([seed, 2])) if sensors else (EXACT,) * len(plans)
     measured, noise_rms = bench.measure(noise, channels, np.random.default_rng([seed, 1]))
     write_dataset(place, f"blind case {seed}", measured, DATA_SHEET if sensors else None)

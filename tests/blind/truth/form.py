@@ -24,6 +24,10 @@ def alternating_rms(forces: Sequence[np.ndarray]) -> float:
     return float(np.sqrt(np.mean(np.concatenate([force - force.mean() for force in sampled]) ** 2)))
 
 
+class DoesNotShow(ValueError):
+    """A form that adds no force in any of the dynamic runs, such as a stop that none of them reaches."""
+
+
 class Form(ABC):
     """One functional form of one effect.
 
@@ -40,7 +44,10 @@ class Form(ABC):
 
     @abstractmethod
     def at_rms(self, motions: list[Motion], carried: Forces, dynamic: list[bool], rms: float) -> tuple[float, Forces]:
-        """The size, and the force added to each run, at which the dynamic runs reach `rms` [N] on top of `carried`."""
+        """The size, and the force added to each run, at which the dynamic runs reach `rms` [N] on top of `carried`.
+
+        Raises DoesNotShow where none of these runs shows it.
+        """
 
 
 class Proportional(Form):
@@ -52,5 +59,8 @@ class Proportional(Form):
 
     def at_rms(self, motions: list[Motion], carried: Forces, dynamic: list[bool], rms: float) -> tuple[float, Forces]:
         shapes = [self.shape(motion) for motion in motions]
-        size = rms / alternating_rms([shape for shape, counts in zip(shapes, dynamic, strict=True) if counts])
+        shown = alternating_rms([shape for shape, counts in zip(shapes, dynamic, strict=True) if counts])
+        if shown == 0.0:
+            raise DoesNotShow(f"{self} does not show in the dynamic runs")
+        size = rms / shown
         return size, [size * shape for shape in shapes]
