@@ -14,6 +14,7 @@ Array = NDArray[np.float64]
 POWER = 0.95
 QUANTILE = 1.6448536269514722  # of the normal distribution, at this power
 SHAPES = 400
+ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,4 +123,7 @@ def _products(columns: Columns, chosen: NDArray[np.intp]) -> tuple[Array, Array]
         at = np.concatenate([np.arange(fixed), new[places[here]]])
         total[np.ix_(at, at)] += rows @ rows.T / (rows.shape[1] * len(bank.places))
     forces, cross = total[fixed:, fixed:], total[:fixed, fixed:]
-    return forces, forces - cross.T @ np.linalg.lstsq(total[:fixed, :fixed], cross, rcond=1e-12)[0]
+    left = forces - cross.T @ np.linalg.lstsq(total[:fixed, :fixed], cross, rcond=1e-12)[0]
+    # rounding may leave less than nothing of a column that the numbers of the model can follow
+    np.fill_diagonal(left, np.maximum(np.diag(left), ROUNDING * np.diag(forces)))
+    return forces, left
