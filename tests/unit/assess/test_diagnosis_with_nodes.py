@@ -61,13 +61,6 @@ REGISTRY = load_registry()
 NAMES = ("first", "second", "third")
 
 
-@pytest.fixture
-def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
-
-
 def diagnosed(text, data, heard=None):
     return diagnose(parse_network(text, REGISTRY.elements), data, registry=REGISTRY, progress=heard)
 

@@ -13,13 +13,6 @@ LENGTHS = {"slow": 12000, "first": 5000, "second": 5000}
 STEPS = dict.fromkeys(LENGTHS, STEP)
 
 
-@pytest.fixture
-def rng() -> np.random.Generator:
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
-
-
 def hum(rng: np.random.Generator, samples: int, frequency: float, size: float) -> np.ndarray:
     phase = rng.uniform(0.0, 2.0 * np.pi)
     return np.sqrt(2.0) * size * np.sin(2.0 * np.pi * frequency * STEP * np.arange(samples) + phase)

@@ -42,13 +42,6 @@ def causes(data):
     return diagnose(parse_network(NETWORK, registry.elements), data, registry=registry).as_dict()["causes"]
 
 
-@pytest.fixture
-def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
-
-
 @pytest.mark.parametrize("run", ["r2", "r5"], ids=["fitted", "held_out"])
 @pytest.mark.parametrize("word, shape, size", [
     ("offset", lambda force: 10.0 + 0.0 * force, 10.0),

@@ -32,13 +32,6 @@ def bench_of(force, rng):
     return Bench(setting.train, REGISTRY.elements, {}), setting.held_out
 
 
-@pytest.fixture
-def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
-
-
 def softening(x, v):
     """A spring that loses a fifth of 200 N/mm while the mean square of its velocity warms it, by explicit steps."""
     warmth = np.zeros(x.size)

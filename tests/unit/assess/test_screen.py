@@ -4,24 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from unit.assess.rig import Made
 
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate, Columns, rich_residual, screen
-from dashpot.contract.cause import Cause, Suspect
+from dashpot.contract.cause import Suspect
 
 SAMPLES = 4000
 WHITE = flat_noise({"a": 1.0, "b": 1.0})
-
-
-class Made(Cause):
-    """A cause for tests."""
-
-    word, kind, about, shows = "made", "specimen", "made for a test", "in no way"
-
-    def suspects(self, view, network):
-        """None of its own."""
-        return ()
 
 
 class Other(Made):

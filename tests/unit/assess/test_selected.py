@@ -1,7 +1,6 @@
 """The noise of short runs with many suspects: unharmed where nothing is hidden, and what is hidden is taken out."""
 
 import numpy as np
-import pytest
 
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.projection import SparseRows
@@ -9,13 +8,6 @@ from dashpot.assess.screen import Columns
 from dashpot.assess.selected import selected_residual
 
 SAMPLES, MANY = 2000, 400
-
-
-@pytest.fixture
-def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
 
 
 def slow(rng, count):

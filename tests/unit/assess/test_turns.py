@@ -1,8 +1,6 @@
 """A cause that no held-out run shows is judged by runs that do, in turns."""
 
-import numpy as np
-import pytest
-from unit.assess.rig import REGISTRY, fitted, sweep
+from unit.assess.rig import REGISTRY, STOPPED_AT, fitted, stopped, sweep
 
 from dashpot.assess.contest import Bench, try_finding
 from dashpot.assess.suspicion import look_at
@@ -20,21 +18,8 @@ branches:
 FAR = ("far", "far_too")
 
 
-@pytest.fixture
-def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
-    print(f"seed {seed}")
-    return np.random.default_rng(seed)
-
-
-def stopped(x, v):
-    """A spring and a damper that meet a buffer of 20 N/mm beyond 18 mm."""
-    return 200e3 * x + 250.0 * v + 20e3 * np.maximum(x - 18e-3, 0.0)
-
-
 def bench_with_a_stop(rng):
-    places = {"near": (4e-3, 10e-3), "small": (2e-3, 8e-3), "far": (6e-3, 16e-3), "far_too": (5e-3, 17e-3)}
-    runs = [sweep(name, a, p, rng, stopped) for name, (a, p) in places.items()]
+    runs = [sweep(name, a, p, rng, stopped) for name, (a, p) in STOPPED_AT.items()]
     judge = sweep("judge", 3e-3, 10e-3, rng, stopped, held_out=True)
     setting = prepare(Dataset("made", (*runs, judge)))
     return Bench(setting.train, REGISTRY.elements, {}, unseen=setting.held_out)
