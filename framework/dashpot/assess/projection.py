@@ -69,14 +69,6 @@ class SparseRows:
         acting = np.flatnonzero(here)
         return here[acting] @ self.values[run][acting] if acting.size < here.size else here @ self.values[run]
 
-    def thinned(self, kept: Places) -> SparseRows:
-        """The rows at ``kept`` (in rising order) only."""
-        new = np.full(self.size, -1)
-        new[kept] = np.arange(kept.size)
-        stays = {run: new[places] >= 0 for run, places in self.places.items()}
-        values = {run: rows[stays[run]] for run, rows in self.values.items()}
-        return SparseRows(values, {run: new[places[stays[run]]] for run, places in self.places.items()}, kept.size)
-
 
 def normal_equations(
     residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel, jobs: int = 1

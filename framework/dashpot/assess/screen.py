@@ -27,7 +27,6 @@ FALSE_ALARMS = 0.01
 DRAWS = 400
 KEPT = 1e-5  # of the square of a column must be left after projection: less is a matter of numerical errors
 RIDGE = 1e-9
-COARSE = 8  # places of a grid
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,27 +173,14 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate], jobs: int = 1
     return SparseRows(values, places, candidates[-1].columns.stop if candidates else 0)
 
 
-def thinned(columns: Columns) -> Columns:
-    """The columns with every second place of fine grids only, of which neighbours are nearly alike, for no verdict."""
-    return replace(columns, bank=columns.bank.thinned(_every_second(columns.candidates)), candidates=())
-
-
 def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
     """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden."""
+    from scipy.linalg import solve
+
     normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
     scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
     matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
-    return columns.less(np.linalg.lstsq(matrix, normal.right / scale, rcond=1e-12)[0] / scale)
-
-
-def _every_second(candidates: Sequence[Candidate]) -> Places:
-    # columns that act together, those of single runs and coarse grids have no neighbours that are alike
-    chosen = [np.arange(one.columns.start, one.columns.stop, 2 if _is_fine(one.suspect) else 1) for one in candidates]
-    return np.concatenate(chosen) if chosen else np.empty(0, dtype=np.intp)
-
-
-def _is_fine(suspect: Suspect) -> bool:
-    return not suspect.joint and not suspect.local and len(suspect.grid) > COARSE
+    return columns.less(solve(matrix, normal.right / scale, assume_a="pos") / scale)
 
 
 def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:

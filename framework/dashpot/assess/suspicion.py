@@ -15,7 +15,7 @@ from dashpot.assess.mend import mended
 from dashpot.assess.noise import NoiseModel, flat_noise, learn_noise
 from dashpot.assess.nuisance import sensor_nuisance, table_nuisance
 from dashpot.assess.projection import SparseRows, side_by_side, stack
-from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen, thinned
+from dashpot.assess.screen import Candidate, Columns, Finding, Screen, collect_bank, rich_residual, screen
 from dashpot.assess.seat import Seat, seats_of
 from dashpot.assess.selected import selected_residual
 from dashpot.assess.view import ModelView, view_of
@@ -26,8 +26,8 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
-NOISE_ROUNDS = 2
-INNER_ROUNDS = 4
+FIRST_ROUNDS, LATER_ROUNDS = 2, 1
+INNER_ROUNDS = 2  # times as many inside a network with nodes
 RESOLUTION = 1e-5  # of the deviation of the force
 
 
@@ -45,6 +45,7 @@ class Look:
 
 def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: NoiseModel | None, seed: int) -> Look:
     """Learn the noise, refit the model under it, screen all suspects."""
+    rounds = LATER_ROUNDS if noise else FIRST_ROUNDS
     noise = noise or first_noise(bench, model)
     model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
@@ -57,21 +58,13 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     if inside:
         bank = side_by_side(bank, inside.bank(candidates, bench.jobs, bench.watch))
     columns = Columns(residual, SparseRows.dense(tangents), nuisance, bank, priors, tuple(candidates), bench.jobs)
-    noise = noise_beside(columns, noise, resolution(bench), bool(inside))
+    residual_of, times = (selected_residual, INNER_ROUNDS) if inside else (rich_residual, 1)
+    for _ in range(times * rounds):
+        noise = learn_noise(residual_of(columns, noise), resolution(bench))
     model = bench.fit(model.declared, model.fitted, noise, model.mends)
     view, residual, tangents = linear_view(bench, model)
     columns = replace(columns, residual=residual, tangents=SparseRows.dense(tangents))
     return Look(model, noise, view, columns, screen(columns, noise, seed), unavailable)
-
-
-def noise_beside(columns: Columns, noise: NoiseModel, smallest: Mapping[str, float], inside: bool) -> NoiseModel:
-    """The noise of each run beside all suspects; beside those that show, where there are many, ``inside`` a network."""
-    residual_of, seen, rounds = (
-        (selected_residual, columns, INNER_ROUNDS) if inside else (rich_residual, thinned(columns), NOISE_ROUNDS)
-    )
-    for _ in range(rounds):
-        noise = learn_noise(residual_of(seen, noise), smallest)
-    return noise
 
 
 def first_noise(bench: Bench, model: Model) -> NoiseModel:

@@ -16,7 +16,7 @@ from dashpot.assess.mend import Mend, make_mend
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.nuisance import sensor_nuisance
 from dashpot.assess.projection import SparseRows, normal_equations, stack
-from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen, thinned
+from dashpot.assess.screen import Candidate, Columns, Finding, collect_bank, rich_residual, screen
 from dashpot.assess.suspicion import first_noise, resolution
 from dashpot.assess.view import ModelView, view_of
 from dashpot.contract.cause import Cause
@@ -42,9 +42,8 @@ class Jury:
         if columns is None:
             return None
         noise = first_noise(self.bench, model)
-        thin = thinned(columns)
         for _ in range(NOISE_ROUNDS):
-            noise = learn_noise(rich_residual(thin, noise), resolution(self.bench))
+            noise = learn_noise(rich_residual(columns, noise), resolution(self.bench))
         finding = screen(columns, noise, self.seed).best
         if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
             return None
