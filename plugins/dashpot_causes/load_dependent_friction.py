@@ -20,7 +20,7 @@ PLACES = 7
 KNOTS = 5  # of the factor over the reach
 FACTORS = (0.06, 0.4)
 BOUNDS = "[0.02, 1.5]"
-SLACK = 0.1
+BACK = 0.4  # of how far the factor goes one way it may come back: at the ends of the reach little is known of it
 CHANGES = 0.9  # friction that changes by less does not depend on the load
 
 
@@ -64,11 +64,12 @@ class _Scaled:
         return tuple(np.linspace(*ends, KNOTS).tolist())
 
     def admits(self, found: Mapping[str, float]) -> bool:
-        """Whether the factor goes one way all along, and far enough."""
+        """Whether the factor goes mostly one way, and far enough."""
         factors = [found.get(f"scale[{number}]", 1.0) for number in range(KNOTS)]
         rising = factors if self.rising else factors[::-1]
-        one_way = all(low < high + SLACK * max(factors) for low, high in pairwise(rising))
-        return one_way and rising[0] < CHANGES * rising[-1]
+        steps = [high - low for low, high in pairwise(rising)]
+        up, down = sum(step for step in steps if step > 0.0), sum(-step for step in steps if step < 0.0)
+        return down <= BACK * up and rising[0] < CHANGES * rising[-1]
 
     def __call__(self, view: View, run: str) -> Array:
         plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])

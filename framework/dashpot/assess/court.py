@@ -11,12 +11,12 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, form_of
+from dashpot.assess.finalists import Form, form_of, substitutes
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
-from dashpot.assess.screen import Finding
+from dashpot.assess.screen import Finding, less_one_place
 from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
@@ -84,7 +84,22 @@ class Court:
         if trial.finding.candidate.suspect.joint or len(atoms) < 2:
             return trial
         simpler = self.try_out(trial.finding.without_last(), look)
-        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
+        if simpler.merit > trial.merit:
+            return self.simplify(simpler, look)
+        return self.left_to_another(trial, look) or trial
+
+    def left_to_another(self, trial: Trial, look: Look) -> Trial | None:
+        """The trial less one place, if another cause makes up that place with fewer numbers; it is found as the next.
+
+        A Maxwell branch that relaxes faster than the runs can show is a dashpot.
+        """
+        for other in substitutes(look.screen.findings, trial.finding):
+            less = self.try_out(less_one_place(trial.finding, other, look.screen.projected), look)
+            beside = replace(other, absorbed=np.zeros((less.model.point.size, len(other.atoms))))
+            more = try_finding(self.bench, less.model, beside, look.noise, look.screen.samples)
+            if not (less.failure or more.failure) and less.merit + more.merit > trial.merit:
+                return less
+        return None
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.

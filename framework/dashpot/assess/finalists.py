@@ -52,10 +52,9 @@ def alike(trial: Trial, ranked: Sequence[Trial]) -> list[Trial]:
 
 def imitated(trial: Trial, others: Iterable[Trial]) -> list[Trial]:
     """The trials whose law another one makes up, though they come as near with fewer numbers."""
-    words = trial.finding.candidate.suspect.imitates
     return [
         other for other in others
-        if other.finding.candidate.cause.word in words and not other.failure
+        if imitates(trial.finding, other.finding) and not other.failure
         and other.model.numbers < trial.model.numbers and other.gain > (1.0 - IMITATED) * trial.gain
     ]  # fmt: skip
 
@@ -65,15 +64,14 @@ def makes_up(finding: Finding, other: Finding, more: float, explained: float) ->
 
     ``more`` is the fall of chi square that it adds to what is ``explained`` with the other one.
     """
-    one, two = finding.candidate, other.candidate
-    return two.cause.word in one.suspect.imitates and one.site == two.site and more < IMITATED * explained
+    same_site = finding.candidate.site == other.candidate.site
+    return imitates(finding, other) and same_site and more < IMITATED * explained
 
 
 def in_doubt(imitation: Trial, chosen: Trial) -> bool:
     """Whether a law that another one makes up may be more than that: it leads by more than forms mostly err."""
-    word = chosen.finding.candidate.cause.word
     leads = (1.0 - DOUBTFUL) * imitation.gain > chosen.gain and imitation.merit > chosen.merit + TIE
-    return leads and word in imitation.finding.candidate.suspect.imitates
+    return leads and imitates(imitation.finding, chosen.finding)
 
 
 def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
@@ -99,12 +97,28 @@ def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
 def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
     """The chi square from which on the refit of a finding comes near the best trial so far.
 
-    A law that this one may imitate is refitted to its end.
+    Of two laws one of which may imitate the other both are refitted to their end.
     """
     best = max(trials, key=lambda trial: trial.merit, default=None)
-    if best is None or best.failure or finding.candidate.cause.word in best.finding.candidate.suspect.imitates:
+    if best is None or best.failure or imitates(finding, best.finding) or imitates(best.finding, finding):
         return np.inf
     return look.model.chi_square - best.merit + tie_width(best)
+
+
+def substitutes(findings: Iterable[Finding], finding: Finding) -> list[Finding]:
+    """Findings of causes that one is confused with, each of fewer numbers than a place of that one takes."""
+    suspect, words = finding.candidate.suspect, finding.candidate.cause.confused_with
+    return [
+        other for other in findings
+        if other.candidate.cause.word in words and other.candidate.site == finding.candidate.site
+        and other.candidate.suspect.local == suspect.local and not other.candidate.suspect.joint
+        and len(other.atoms) * (1 + other.candidate.suspect.unknowns) < 1 + suspect.unknowns
+    ]  # fmt: skip
+
+
+def imitates(finding: Finding, other: Finding) -> bool:
+    """Whether a finding may make up the law of another one."""
+    return other.candidate.cause.word in finding.candidate.suspect.imitates
 
 
 def idles(other: Trial, chosen: Trial) -> bool:
@@ -115,9 +129,9 @@ def idles(other: Trial, chosen: Trial) -> bool:
 
 
 def contains(other: Trial, chosen: Trial) -> bool:
-    """Whether a trial makes up the law of the chosen one with more numbers, and is hardly better for them."""
-    makes_it_up = chosen.finding.candidate.cause.word in other.finding.candidate.suspect.imitates
-    return makes_it_up and other.model.numbers > chosen.model.numbers and not in_doubt(other, chosen)
+    """Whether a trial makes up the law of the chosen one with more numbers, and hardly fits better for them."""
+    hardly_better = (1.0 - DOUBTFUL) * other.gain <= chosen.gain
+    return imitates(other.finding, chosen.finding) and other.model.numbers > chosen.model.numbers and hardly_better
 
 
 def tie_width(trial: Trial) -> float:

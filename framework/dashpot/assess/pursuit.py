@@ -89,7 +89,7 @@ class Pursuer:
         self, accepted: list[Accepted], look: Look, first: Look, most: int = MOST_CAUSES
     ) -> tuple[list[Accepted], Look]:
         """Add causes to those that are accepted, as long as there are any that hold, and no more than ``most``."""
-        revision = Revision(self.court, first.model)
+        revision = Revision(self.court, first.model, self.best_trial)
         while len(accepted) < most:
             self.tried += len(look.screen.findings)
             explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
@@ -121,16 +121,17 @@ class Pursuer:
         self.court.rejected.extend(other.court.rejected)
         return instead, seen
 
-    def faults_of_held_out(self, look: Look, last: Model, named: bool) -> list[Accepted]:
+    def faults_of_held_out(self, look: Look, last: Model, explained: float) -> list[Accepted]:
         """Faults of held-out runs as further causes, each with the last model less all faults so far.
 
-        They have to make these runs better for certain, and by as much as any cause after the first; where causes are
-        ``named`` already, by more than the forms of these may be wrong.
+        They have to make these runs better for certain, by as much as any cause after the first, and by more than what
+        is ``explained`` already (the fall of chi square) may be wrong by in its form.
         """
         court, found = self.court, []
         if not court.held_out:
             return []
-        least = FORM_ERROR if named else max(court.relevance, SMALLEST_LATER_GAIN)
+        least = max(court.relevance, SMALLEST_LATER_GAIN)
+        expected = explained * sum(run.samples for run in court.held_out) / look.screen.samples
         directions = known_directions(court.bench, look.model, look.noise)
         jury = Jury(replace(court.bench, runs=court.held_out, unseen=()), directions, court.causes, court.seed)
         for _ in court.held_out:
@@ -141,6 +142,8 @@ class Pursuer:
             model = replace(last, mends=(*last.mends, plainly_strong(mend, last, court.held_out)))
             gain = court.gain_of(last, model)
             if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
+                break
+            if gain.value < FORM_ERROR and finding.gain < BEYOND_FORM * expected:
                 break
             found.append(Accepted(finding, Trial(finding, model, finding.gain, finding.merit), gain.value, gain, ()))
             last = model
@@ -156,7 +159,8 @@ class Pursuer:
         """
         court = self.court
         ladder = self.polish_ladder(first.model, accepted, look)
-        faults = self.faults_of_held_out(look, ladder[-1], bool(accepted))
+        explained = max(first.model.chi_square - look.model.chi_square, 0.0) if accepted else 0.0
+        faults = self.faults_of_held_out(look, ladder[-1], explained)
         gains = [court.gain_beside(faults, before, after) for before, after in pairwise(ladder)]
         for number in self.useless(gains):
             gains[number] = self.gain_of_last(number, accepted, look, ladder) or gains[number]

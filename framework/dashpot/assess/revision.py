@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,10 +22,14 @@ MOST_EXCHANGED = 3  # beside more causes than these an exchange is too long a se
 
 @dataclass(frozen=True, eq=False)
 class Revision:
-    """Revises accepted causes before a court; ``first`` is the model without any of them."""
+    """Revises accepted causes before a court; ``first`` is the model without any of them.
+
+    ``contest(look, explained)`` accepts the best of all that a look has found beside what is explained, or nothing.
+    """
 
     court: Court
     first: Model
+    contest: Callable[[Look, float], Sequence[Accepted]]
 
     def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """The causes that stay, or others in their places, and a look at the model with them."""
@@ -40,7 +45,7 @@ class Revision:
             mends = [mend.keeping(rest.finding, others) if mend.finding is entry.finding else mend
                      for mend in look.model.mends]  # fmt: skip
             model = self.court.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
-            instead = self.better_than(entry, model, look)
+            instead = self.better_than(entry, model, look, [rest])
             if instead is not None:
                 return [*accepted[:-1], rest, instead], self.court.look(instead.trial.model, look.noise)
         return accepted, look
@@ -100,7 +105,7 @@ class Revision:
         for entry in older:
             kept = [other for other in accepted if other is not entry]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
-            instead = self.better_than(entry, model, look)
+            instead = self.better_than(entry, model, look, kept)
             if instead is not None:
                 self.court.swap(entry, reasons.BETTER_BESIDE_THE_LATER)
                 weak = instead.trial.gain < newest.trial.gain
@@ -108,18 +113,24 @@ class Revision:
                 return self.exchange(changed, self.court.look(instead.trial.model, look.noise), instead)
         return accepted, look
 
-    def better_than(self, entry: Accepted, model: Model, look: Look) -> Accepted | None:
-        """Another cause that explains more than an accepted one beside all others, which are the ``model``, or None."""
+    def better_than(self, entry: Accepted, model: Model, look: Look, kept: Sequence[Accepted]) -> Accepted | None:
+        """Another cause that explains more than an accepted one beside those that are ``kept``, the ``model``, or None.
+
+        Where there is one, the best of all takes the place, with its rivals.
+        """
         without = self.court.look(model, look.noise)
         for finding in self.others_than(entry, without, model.chi_square - look.model.chi_square):
             beside = replace(look, model=model)
             trial = self.court.simplify(self.court.try_out(finding, beside), beside)
-            price = (trial.model.numbers - look.model.numbers) * np.log(look.screen.samples)
-            if trial.failure or trial.model.chi_square + price + TIE > look.model.chi_square:
+            if trial.failure or not leads(trial.model, look):
                 continue
             gain = self.court.gain_of(look.model, trial.model)
             if gain is None or gain.value >= 0.0:
-                return Accepted(trial.finding, trial, self.court.foresee(finding, without), gain, (), base=model)
+                found = Accepted(trial.finding, trial, self.court.foresee(finding, without), gain, (), base=model)
+                explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
+                winners = [one for one in self.contest(without, explained) if leads(one.trial.model, look)]
+                named = {one.finding.candidate.name for one in winners}
+                return winners[0] if len(winners) == 1 and entry.finding.candidate.name not in named else found
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
@@ -127,3 +138,9 @@ class Revision:
         name = entry.finding.candidate.name
         found = choose_finalists(self.court.admissible(look, exchange=True), look)
         return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
+
+
+def leads(model: Model, look: Look) -> bool:
+    """Whether a model fits better than the one of a look, for more than its numbers cost and a tie."""
+    price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
+    return model.chi_square + price + TIE <= look.model.chi_square

@@ -31,7 +31,7 @@ class Scripted(Revision):
 
     better = {}
 
-    def better_than(self, entry, model, look):
+    def better_than(self, entry, model, look, kept):
         word = self.better.get((entry.word, *model))
         return accepted(word) if word else None
 
@@ -45,7 +45,7 @@ def exchange(monkeypatch):
     def run(words, better):
         monkeypatch.setattr(Scripted, "better", better)
         court = Court()
-        found, _ = Scripted(court, None).exchange([accepted(word) for word in words], court.look("last", None))
+        found, _ = Scripted(court, None, None).exchange([accepted(word) for word in words], court.look("last", None))
         return [entry.word for entry in found], court.barred
 
     return run
@@ -97,7 +97,7 @@ class InParts(Revision):
 
     missed = {}
 
-    def better_than(self, entry, model, look):
+    def better_than(self, entry, model, look, kept):
         word = self.missed.get(model)
         return accepted(word) if word else None
 
@@ -108,7 +108,7 @@ def parts(monkeypatch, places, missed):
     mend = SimpleNamespace(finding=finding, keeping=lambda rest, kept: SimpleNamespace(places=rest.places))
     court = Court()
     look = court.look(SimpleNamespace(declared=None, fitted=None, mends=(mend,)), None)
-    found, _ = InParts(court, None).part([Accepted(finding, None, 0.0, None, ())], look)
+    found, _ = InParts(court, None, None).part([Accepted(finding, None, 0.0, None, ())], look)
     return [getattr(entry, "word", None) or entry.finding.places for entry in found]
 
 
@@ -122,3 +122,65 @@ def test_a_fault_of_one_run_of_several_gives_way_to_another_cause(monkeypatch):
 def test_a_fault_that_nothing_explains_better_stays_whole(monkeypatch):
     assert parts(monkeypatch, ("first", "second"), {}) == [("first", "second")]
     assert parts(monkeypatch, ("first",), {(): "gain"}) == [("first",)]
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A look, of which only how well its model fits counts."""
+
+    model: SimpleNamespace
+    noise = None
+    screen = SimpleNamespace(samples=1000)
+
+
+class Contested(Court):
+    """Every finding comes down to the chi square in its name."""
+
+    def try_out(self, finding, look):
+        return trial(finding)
+
+    def simplify(self, found, look):
+        return found
+
+    def gain_of(self, before, after):
+        return None
+
+    def foresee(self, finding, look):
+        return 0.0
+
+
+class Single(Revision):
+    """A single finding is looked at before the contest."""
+
+    def others_than(self, entry, look, fall):
+        return [named("friction", 150.0)]
+
+
+def named(word, chi_square):
+    return SimpleNamespace(chi_square=chi_square, candidate=SimpleNamespace(name=(word, "")))
+
+
+def trial(finding):
+    return SimpleNamespace(finding=finding, failure="", model=SimpleNamespace(numbers=5, chi_square=finding.chi_square))
+
+
+@pytest.mark.parametrize(
+    ("winner", "instead"),
+    [
+        (("velocity_dependent_friction", 120.0), "velocity_dependent_friction"),
+        (("velocity_dependent_friction", 195.0), "friction"),
+        (("drift", 100.0), "friction"),
+        (None, "friction"),
+    ],
+)
+def test_the_best_of_all_takes_the_place_with_its_rivals(winner, instead):
+    """What wins the contest has to lead, and to be another cause than the one that gives way."""
+    found = named(*winner) if winner else None
+    winners = [Accepted(found, trial(found), 0.0, None, ("a rival",))] if winner else []
+    model = SimpleNamespace(numbers=5, chi_square=300.0)
+    revision = Single(Contested(), None, lambda look, explained: winners)
+    look = Fitted(SimpleNamespace(numbers=5, chi_square=200.0))
+    entry = SimpleNamespace(finding=named("drift", 0.0))
+    better = revision.better_than(entry, model, look, [])
+    assert better.finding.candidate.name == (instead, "")
+    assert better.rivals == (("a rival",) if winner and instead == winner[0] else ())
