@@ -23,14 +23,14 @@ TIME = np.arange(3000) * 1e-3
 NOISE = 5.0
 
 
-def dataset(rng, fault=lambda name, force: 0.0):
-    """Eight sweeps of a straight spring and dashpot; r1 and r5 are held out."""
+def dataset(rng, fault=lambda name, force: 0.0, hidden=lambda x: 0.0):
+    """Eight sweeps of a straight spring and dashpot, and what is hidden in it; r1 and r5 are held out."""
     runs = []
     for number in range(8):
         amplitude, preload = (1e-3, 3e-3)[number % 2], (5e-3, 10e-3)[number // 4]
         phase = 2.0 * np.pi * (TIME + 2.0 * TIME**2)
         x = preload + amplitude * np.sin(phase)
-        force = 2e5 * x + 400.0 * np.gradient(x, 1e-3)
+        force = 2e5 * x + 400.0 * np.gradient(x, 1e-3) + hidden(x)
         force = force + fault(f"r{number}", force) + NOISE * rng.standard_normal(x.size)
         channels = {"displacement": x, "force": force}
         runs.append(Run(f"r{number}", "sweep", TIME, channels, group=f"r{number}", held_out=number in (1, 5)))
@@ -100,6 +100,14 @@ def test_an_error_that_the_data_sheet_admits_is_no_finding(rng):
 
     assert told(2.0) == []
     assert [cause["cause"] for cause in told(40.0)] == ["offset"]
+
+
+@pytest.mark.parametrize(("stop", "named"), [(6e3, ["end_stop", "offset"]), (300e3, ["end_stop"])])
+def test_a_fault_of_a_held_out_run_has_to_be_more_than_the_form_of_a_named_cause_may_err(rng, stop, named):
+    """An offset of 0.4 of the noise beside a stop that makes 1 or 50 times as much as it."""
+
+    data = dataset(rng, lambda name, _: 2.0 * (name == "r5"), lambda x: stop * np.maximum(x - 11e-3, 0.0))
+    assert [cause["cause"] for cause in causes(data)] == named
 
 
 def test_crossed_strengths_gain_nothing_from_noise(rng):

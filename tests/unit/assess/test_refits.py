@@ -1,5 +1,7 @@
 """Refits of extended networks: where they begin, and what becomes of numbers at an end of their range."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
@@ -112,3 +114,58 @@ class SimpleModel(str):
     """A name that passes for a model without mends."""
 
     mends = ()
+
+
+SPRING = """\
+format: dashpot-network/1
+name: straight
+branches:
+  stiffness: {element: spring, stiffness: {start: 150 N/mm}}
+"""
+
+
+def relaxing(damping):
+    """A spring of 200 N/mm, one of 60 N/mm that relaxes within 30 ms, by explicit steps, and a damper."""
+
+    def force(x, v):
+        spring = np.zeros(x.size)
+        for k in range(1, x.size):
+            spring[k] = spring[k - 1] + 60e3 * (x[k] - x[k - 1]) - STEP / 30e-3 * spring[k - 1]
+        return 200e3 * x + spring + damping * v
+
+    return force
+
+
+@pytest.mark.parametrize("damping", [150.0, 0.0])
+def test_a_branch_that_relaxes_too_fast_to_show_is_left_to_a_dashpot(rng, damping):
+    """Two Maxwell branches would fit as well as one and a dashpot, with one number more."""
+    bench, held_out = bench_of(relaxing(damping), rng)
+    causes = [REGISTRY.causes[word] for word in ("relaxation", "viscous_damping")]
+    court = Court(bench, held_out, causes, 0)
+    look = court.look(fitted(bench, SPRING), None)
+    best = look.screen.best
+    trial = court.try_out(best, look)
+    assert best.candidate.cause.word == "relaxation"
+    simple = court.simplify(trial, look)
+    assert len(simple.finding.atoms) == 1
+    times = [slot.value.number for slot in simple.model.fitted.slots() if slot.path.endswith("relaxation_time")]
+    assert len(times) == 1
+    after = court.look(simple.model, look.noise)
+    assert (after.screen.best is not None) is (damping > 0.0)
+
+
+def test_a_refit_that_falls_short_of_what_was_foreseen_starts_from_all_places(rng, monkeypatch):
+    """The first refit is made to stop where it stands."""
+    bench, _ = bench_of(softening, rng)
+    look = look_at(bench, fitted(bench, TABLE), [REGISTRY.causes["softening"]], None, 0)
+    starts, refit = [], Bench.fit
+
+    def stalls(self, declared, start, noise, mends=(), beat=np.inf):
+        starts.append(start)
+        found = refit(self, declared, start, noise, mends, beat)
+        return replace(found, chi_square=look.model.chi_square) if len(starts) == 1 else found
+
+    monkeypatch.setattr(Bench, "fit", stalls)
+    found = bench.extend(look.model, look.screen.best, look.noise)
+    assert len(starts) > 2
+    assert look.model.chi_square - found.chi_square > 0.8 * look.screen.best.gain

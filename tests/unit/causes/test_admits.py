@@ -25,11 +25,13 @@ def test_friction_that_depends_on_velocity_falls_with_it(breakaway, admitted):
     ((0.2, 0.3, 0.6, 0.8, 1.0), True, False),
     ((0.05, 0.05, 0.1, 0.95, 1.0), True, False),
     ((1.0, 0.9, 0.7, 0.5, 0.3), False, True),
+    ((0.02, 0.28, 0.74, 1.17, 1.0), True, False),
+    ((1.0, 1.2, 0.8, 0.3, 0.1), False, True),
     ((1.0, 1.2, 1.4, 1.0, 0.8), False, False),
     ((0.2, 0.6, 1.0, 0.5, 0.9), False, False),
     ((0.96, 0.97, 0.98, 0.99, 1.0), False, False),
 ])  # fmt: skip
-def test_friction_that_depends_on_the_load_goes_one_way(factors, rising, falling):
+def test_friction_that_depends_on_the_load_goes_mostly_one_way(factors, rising, falling):
     found = {f"scale[{number}]": factor for number, factor in enumerate(factors)}
     assert suspect("load_dependent_friction", "dahl growing with deflection").admits(found) is rising
     assert suspect("load_dependent_friction", "dahl falling with deflection").admits(found) is falling
