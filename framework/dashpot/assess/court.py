@@ -120,8 +120,12 @@ class Court:
     def examine(self, trial: Trial, look: Look, explained: float) -> tuple[Gain | None, str]:
         """The gain of a trial on held-out runs, and why it may not be accepted, or an empty text."""
         gain = self.gain_of(look.model, trial.model)
-        change = share_of_change(look.model, trial.model, self.bench.runs)
+        change = self.share_of_change(look.model, trial.model)
         return gain, self.objection(trial, gain, change, look, explained)
+
+    def share_of_change(self, before: Model, after: Model) -> float:
+        """What the change from one model to another makes of the plain error on the training runs."""
+        return share_of_change(before, after, self.bench.runs, self.bench.sensors)
 
     def objection(self, trial: Trial, gain: Gain | None, change: float, look: Look, explained: float) -> str:
         """Why a trial may not be accepted, or an empty text.

@@ -14,6 +14,8 @@ from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
+DEVIATIONS = 3.0  # of what a sheet says an error may have
+
 
 @dataclass(frozen=True, eq=False)
 class _Shapes:
@@ -52,6 +54,25 @@ def less_sensor_errors(
     """Misfits (samples,) of runs less all that errors of the kinds in their sheets could have made, of any size."""
     return [_less_errors(misfit, _error_rows(run, sensors.get(run.name, {})))
             for misfit, run in zip(misfits, runs, strict=True)]  # fmt: skip
+
+
+def beyond_sensors(
+    misfits: Sequence[Array], runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
+) -> list[Array]:
+    """Misfits (samples,) of runs less what errors of the sizes in their sheets could have made of them."""
+    return [_less_admitted(misfit, _error_rows(run, sensors.get(run.name, {})))
+            for misfit, run in zip(misfits, runs, strict=True)]  # fmt: skip
+
+
+def _less_admitted(misfit: Array, rows: Array) -> Array:
+    """Each row is what an error of one standard deviation makes."""
+    from scipy.optimize import lsq_linear
+
+    if not rows.size:
+        return misfit
+    directions, triangle = np.linalg.qr(rows.T)
+    sizes = lsq_linear(triangle, directions.T @ misfit, bounds=(-DEVIATIONS, DEVIATIONS)).x
+    return misfit - sizes @ rows
 
 
 def _less_errors(misfit: Array, rows: Array) -> Array:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Model
+from dashpot.assess.erring import beyond_sensors
 from dashpot.assess.gain import crossed
 from dashpot.assess.mend import Mend, mended, shape_rows
 from dashpot.fit.objective import Objective
@@ -45,11 +46,17 @@ def crossed_misfits(model: Model, runs: Sequence[ScoredRun], mends: Sequence[Men
     return found
 
 
-def share_of_change(before: Model, after: Model, runs: Sequence[ScoredRun]) -> float:
-    """The share by which the error falls if the difference of two models is no error of the second."""
+def share_of_change(
+    before: Model, after: Model, runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
+) -> float:
+    """The share by which the error falls if the difference of two models is no error of the second.
+
+    What the data sheets of ``sensors`` admit is neither an error nor a difference.
+    """
     first, second = misfits_of(before, runs), misfits_of(after, runs)
-    changed = balanced([one - other for one, other in zip(first, second, strict=True)])
-    return float(1.0 - np.sqrt(max(1.0 - (changed / max(balanced(first), 1e-300)) ** 2, 0.0)))
+    changes = [one - other for one, other in zip(first, second, strict=True)]
+    changed, error = (balanced(beyond_sensors(signals, runs, sensors)) for signals in (changes, first))
+    return float(1.0 - np.sqrt(max(1.0 - (changed / max(error, 1e-300)) ** 2, 0.0)))
 
 
 def pooled(signals: Iterable[Array]) -> float:

@@ -16,6 +16,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
+from dashpot.assess.erring import beyond_sensors
 from dashpot.assess.finalists import (
     TIE,
     alike,
@@ -28,7 +29,7 @@ from dashpot.assess.finalists import (
     to_beat,
 )
 from dashpot.assess.gain import Gain
-from dashpot.assess.misfits import balanced, plainly_strong, share_of_change
+from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.suspicion import Look
 from dashpot.assess.unseen import Jury, known_directions
@@ -80,7 +81,9 @@ class Pursuer:
             kept = [entry for entry in accepted if entry.base and entry is not opposite[-1]]
             look = court.look(court.rebuild(kept, look.model, first.model, look.noise), look.noise)
             accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)
-        least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * balanced(look.columns.residual.values()))
+        left = [look.columns.residual[run.name] for run in court.bench.runs]
+        error = balanced(beyond_sensors(left, court.bench.runs, court.bench.sensors))
+        least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * error)
         named = {entry.finding.candidate.name for entry in accepted}
         rejected = tuple(one for one in court.rejected if (one.cause, one.place or "") not in named)
         return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)
@@ -230,7 +233,7 @@ class Pursuer:
         ranked = sorted(self.refit_finalists(beside, explained), key=lambda other: -other.merit)
         for number, other in enumerate(ranked):
             gain = court.gain_of(look.model, other.model)
-            change = share_of_change(beside.model, other.model, court.bench.runs)
+            change = court.share_of_change(beside.model, other.model)
             if gain is not None and not court.objection(other, gain, change, beside, explained):
                 first = Accepted(trial.finding, trial, court.foresee(trial.finding, look), None, (), base=look.model)
                 return [first, self.accept(ranked[number:], (), gain, beside)]

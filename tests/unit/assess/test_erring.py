@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dashpot.assess.erring import beside_sensors, less_sensor_errors
+from dashpot.assess.erring import beside_sensors, beyond_sensors, less_sensor_errors
 from dashpot.assess.noise import ORDER, flat_noise
 
 STEP, SAMPLES, WARM_UP, NOISE = 1e-3, 300, 50, 4.0
@@ -53,6 +53,15 @@ def test_what_errors_of_the_sensor_could_have_made_is_taken_out_of_a_misfit_and_
     assert np.sum((other - without) ** 2) < 37.0 * NOISE**2
 
 
+@pytest.mark.parametrize(("deviations", "left"), [(2.0, 0.0), (-10.0, -7.0)])
+def test_of_an_error_only_what_the_data_sheet_admits_is_taken_out(run, deviations, left):
+    """Three standard deviations."""
+    misfit = np.full(run.samples, deviations * SHEET["zero"])
+    (beyond,) = beyond_sensors([misfit], [run], {"a": {"zero": SHEET["zero"]}})
+    assert beyond == pytest.approx(np.full(run.samples, left * SHEET["zero"]), abs=1e-6)
+
+
 def test_without_a_data_sheet_a_misfit_stays_as_it_is(run):
     misfit = np.random.default_rng().normal(0.0, 5.0, run.samples)
-    assert np.array_equal(less_sensor_errors([misfit], [run], {})[0], misfit)
+    for taken_out in (less_sensor_errors, beyond_sensors):
+        assert np.array_equal(taken_out([misfit], [run], {})[0], misfit)

@@ -4,7 +4,6 @@ from types import SimpleNamespace
 
 import pytest
 
-from dashpot.assess import pursuit
 from dashpot.assess.gain import Gain
 from dashpot.assess.pursuit import Pursuer
 
@@ -33,6 +32,9 @@ class Court:
         assert before is FIRST
         return Gain(GAINS[after], (GAINS[after], GAINS[after]))
 
+    def share_of_change(self, before, after):
+        return 0.5
+
     def objection(self, trial, gain, change, look, explained):
         self.asked = (*self.asked, (trial.model, explained))
         return "" if gain.value > self.relevance else "does not make the held-out runs better"
@@ -40,7 +42,6 @@ class Court:
 
 @pytest.fixture
 def pursuer(monkeypatch):
-    monkeypatch.setattr(pursuit, "share_of_change", lambda before, after, runs: 0.5)
     monkeypatch.setattr(Pursuer, "accept", lambda self, ranked, imitations, gain, look: (ranked[0].model, gain.value))
     return Pursuer(Court(), lambda what, done: None)
 

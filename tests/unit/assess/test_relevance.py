@@ -12,6 +12,7 @@ from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import share_of_change
 
 BEFORE = 1e6
+RUNS = [SimpleNamespace(name="a", force=np.zeros(2), drive=SimpleNamespace(dt=1e-3), first=0, samples=2)]
 
 
 def refusal(fall: float, **relevance: float) -> str:
@@ -41,8 +42,8 @@ def test_the_change_is_what_a_cause_makes_of_the_plain_error(monkeypatch):
     noise, effect = rng.standard_normal((2, 100_000))
     misfits = {"before": noise + 0.2 * effect, "after": noise}
     monkeypatch.setattr("dashpot.assess.misfits.misfits_of", lambda model, runs: [misfits[model]])
-    assert share_of_change("before", "after", ()) == pytest.approx(1.0 - 1.04**-0.5, rel=0.05)
-    assert share_of_change("before", "before", ()) == 0.0
+    assert share_of_change("before", "after", RUNS, {}) == pytest.approx(1.0 - 1.04**-0.5, rel=0.05)
+    assert share_of_change("before", "before", RUNS, {}) == 0.0
 
 
 def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
@@ -52,7 +53,7 @@ def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
     monkeypatch.setattr("dashpot.assess.misfits.misfits_of", lambda model, runs: misfits[model])
     before = (1.2**2 + 1.0) / 2.0
     expected = 1.0 - np.sqrt(1.0 - 0.2**2 / 2.0 / before)
-    assert share_of_change("before", "after", ()) == pytest.approx(expected, rel=0.05)
+    assert share_of_change("before", "after", [*RUNS, *RUNS], {}) == pytest.approx(expected, rel=0.05)
 
 
 def test_a_fault_that_gains_nothing_on_pieces_of_the_only_runs_does_not_hold():
