@@ -33,7 +33,6 @@ STEPS = 30
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
-FALLS_SHORT = 0.2  # of the fall of chi square that was foreseen
 AT_END = 1e-3  # of a range
 DWINDLED = 0.03  # of the number in the file, where what is searched is a logarithm: zero is infinitely far
 REACH = 10.0  # so many times as much as in its last step a refit may still gain
@@ -166,8 +165,7 @@ class Bench:
         """The model with the patch of a finding, refitted; see ``fit``.
 
         It starts where chi square is smallest among the model's own numbers beside the patch and some places on the way
-        that the screen foresees, on which patch and numbers move together: to first order it leads downhill. A refit
-        that falls short of what was foreseen may have lost its way: then it starts from all of these places.
+        that the screen foresees, on which patch and numbers move together: to first order it leads downhill.
         """
         starts = [self._extended(model, finding, model.fitted)]
         for share in SHARES:
@@ -175,13 +173,8 @@ class Bench:
             point = model.coordinates.allowed(model.point + model.coordinates.unit * part.moves)[0]
             with suppress(InputError):  # a small share may be less than an element admits
                 starts.append(self._extended(model, part, with_point(model.fitted, model.coordinates, point)))
-        nearest = self.nearest([start for _, start in starts], noise, model.mends)
-        found = self.fit(*starts[nearest], noise, model.mends, beat)
-        foreseen = model.chi_square - finding.gain
-        if foreseen > beat or found.chi_square <= foreseen + FALLS_SHORT * finding.gain:
-            return found
-        others = [self.fit(*start, noise, model.mends, beat) for start in starts if start is not starts[nearest]]
-        return min([found, *others], key=lambda one: one.chi_square if np.isfinite(one.chi_square) else np.inf)
+        declared, start = starts[self.nearest([start for _, start in starts], noise, model.mends)]
+        return self.fit(declared, start, noise, model.mends, beat)
 
     def nearest(self, starts: Sequence[NetworkSpec], noise: NoiseModel | None, mends: Sequence[Mend]) -> int:
         """Which of several starts for the same network misses the runs least."""

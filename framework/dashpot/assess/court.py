@@ -17,7 +17,7 @@ from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding, less_one_place
-from dashpot.assess.suspicion import Look, expected_gain, look_at, resolution
+from dashpot.assess.suspicion import Look, expected_gain, glance_at, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
 from dashpot.fit.scored import ScoredRun
@@ -58,6 +58,10 @@ class Court:
     def look(self, model: Model, noise: NoiseModel | None) -> Look:
         """What is left of a model, and every suspect against it."""
         return look_at(self.bench, model, self.causes, noise, self.seed)
+
+    def glance(self, model: Model, look: Look) -> Look:
+        """Every suspect against another model, by the noise and the columns of a look."""
+        return glance_at(self.bench, model, look, self.seed)
 
     def admissible(self, look: Look, exchange: bool = False) -> list[Finding]:
         """What a look has found to be added, or to be put in exchange."""

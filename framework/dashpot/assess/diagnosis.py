@@ -18,6 +18,7 @@ from dashpot.assess.pursuit import Pursuit
 from dashpot.assess.telling import Telling
 from dashpot.assess.triage.examine import Triage
 from dashpot.assess.triage.fault import Fault
+from dashpot.assess.verdict import stands_in
 from dashpot.contract.cause import Cause
 from dashpot.fit.api import Setting
 from dashpot.fit.result import Errors, FitResult, floor_of
@@ -169,6 +170,7 @@ class Diagnosis:
             "parameters": named.parameters(),
             "indistinguishable_from": list(named.rivals),
             "alternatives": [other.told() for other in named.alternatives],
+            "stands_in": named.name in stands_in(self.pursuit.accepted),
             "next_measurement": telling[0] if telling else None,
         }
 

@@ -134,6 +134,6 @@ def contains(other: Trial, chosen: Trial) -> bool:
     return imitates(other.finding, chosen.finding) and other.model.numbers > chosen.model.numbers and hardly_better
 
 
-def tie_width(trial: Trial) -> float:
+def tie_width(trial: Trial | Finding) -> float:
     """How near two merits may be without saying which cause it is."""
     return max(TIE, TIE_SHARE * trial.gain)

@@ -38,6 +38,11 @@ class NamedCause:
         return self.steps[0].finding.candidate.site
 
     @property
+    def name(self) -> tuple[str, str]:
+        """The word of the cause, and the words of the site."""
+        return self.steps[0].finding.candidate.name
+
+    @property
     def title(self) -> str:
         """What it is, and where."""
         return self.steps[0].finding.candidate.title

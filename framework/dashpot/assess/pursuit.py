@@ -107,7 +107,7 @@ class Pursuer:
 
     def another_way(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """What is found without a cause that was accepted twice, if it is better: two of a kind may imitate others."""
-        twice = _twice(accepted)
+        twice = needed_twice(accepted)
         if not twice:
             return accepted, look
         forms = {form_of(finding) for finding in first.screen.findings if finding.candidate.name in twice}
@@ -116,7 +116,7 @@ class Pursuer:
         instead, seen = other.pursue([], first, first, len(accepted))
         self.tried += other.tried
         price = (seen.model.numbers - look.model.numbers) * np.log(look.screen.samples)
-        if _twice(instead) or seen.model.chi_square + price + TIE > look.model.chi_square:
+        if needed_twice(instead) or seen.model.chi_square + price + TIE > look.model.chi_square:
             return accepted, look
         for entry in (entry for entry in accepted if entry.finding.candidate.name in twice):
             self.court.bar(entry, reasons.BETTER_WITHOUT)
@@ -141,14 +141,15 @@ class Pursuer:
             fault = jury.faulty(replace(look.model, mends=last.mends))
             if fault is None:
                 break
-            finding, mend = fault
+            finding, mend, rivals = fault
             model = replace(last, mends=(*last.mends, plainly_strong(mend, last, court.held_out)))
             gain = court.gain_of(last, model)
             if gain is None or gain.interval[0] <= 0.0 or gain.value < least:
                 break
             if gain.value < FORM_ERROR and finding.gain < BEYOND_FORM * expected:
                 break
-            found.append(Accepted(finding, Trial(finding, model, finding.gain, finding.merit), gain.value, gain, ()))
+            trial = Trial(finding, model, finding.gain, finding.merit)
+            found.append(Accepted(finding, trial, gain.value, gain, rivals))
             last = model
         return found
 
@@ -274,7 +275,7 @@ def _why_not(trial: Trial, level: Sequence[Trial], imitations: Sequence[Trial]) 
     return reasons.LOSES_ON_HELD_OUT if trial in level else reasons.EXPLAINS_LESS
 
 
-def _twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
+def needed_twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
     """Names that were accepted again, for more than a form may be wrong by."""
     falls: dict[tuple[str, str], list[float]] = {}
     for entry in accepted:

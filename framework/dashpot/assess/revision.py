@@ -118,17 +118,17 @@ class Revision:
 
         Where there is one, the best of all takes the place, with its rivals.
         """
-        without = self.court.look(model, look.noise)
-        for finding in self.others_than(entry, without, model.chi_square - look.model.chi_square):
-            beside = replace(look, model=model)
-            trial = self.court.simplify(self.court.try_out(finding, beside), beside)
-            if trial.failure or not leads(trial.model, look):
+        glance = self.court.glance(model, look)
+        for finding in self.others_than(entry, glance, model.chi_square - look.model.chi_square):
+            trial = self.court.try_out(finding, glance)
+            if trial.failure or trial.model.chi_square + TIE > look.model.chi_square:
                 continue
+            trial = self.court.simplify(trial, glance)
             gain = self.court.gain_of(look.model, trial.model)
-            if gain is None or gain.value >= 0.0:
-                found = Accepted(trial.finding, trial, self.court.foresee(finding, without), gain, (), base=model)
+            if leads(trial.model, look) and (gain is None or gain.value >= 0.0):
+                found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
-                winners = [one for one in self.contest(without, explained) if leads(one.trial.model, look)]
+                winners = [one for one in self.contest(glance, explained) if leads(one.trial.model, look)]
                 named = {one.finding.candidate.name for one in winners}
                 return winners[0] if len(winners) == 1 and entry.finding.candidate.name not in named else found
         return None

@@ -67,6 +67,13 @@ def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: No
     return Look(model, noise, view, columns, screen(columns, noise, seed), unavailable)
 
 
+def glance_at(bench: Bench, model: Model, look: Look, seed: int) -> Look:
+    """A look at a model that differs little from another one: noise and columns of suspects are taken from there."""
+    view, residual, tangents = linear_view(bench, model)
+    columns = replace(look.columns, residual=residual, tangents=SparseRows.dense(tangents))
+    return replace(look, model=model, view=view, columns=columns, screen=screen(columns, look.noise, seed))
+
+
 def first_noise(bench: Bench, model: Model) -> NoiseModel:
     """White noise as large as the misfit of each run."""
     network = compile_network(model.fitted)

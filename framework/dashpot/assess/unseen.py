@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.contest import Bench, Model
+from dashpot.assess.finalists import tie_width
 from dashpot.assess.mend import Mend, make_mend
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.nuisance import sensor_nuisance
@@ -36,18 +37,21 @@ class Jury:
     causes: Sequence[type[Cause]]
     seed: int
 
-    def faulty(self, model: Model) -> tuple[Finding, Mend] | None:
-        """The most significant fault of single runs that is also worth a word, or None."""
+    def faulty(self, model: Model) -> tuple[Finding, Mend, tuple[str, ...]] | None:
+        """The most significant fault of single runs that is also worth a word, and words of those alike; or None."""
         columns, view = self._columns(model)
         if columns is None:
             return None
         noise = first_noise(self.bench, model)
         for _ in range(NOISE_ROUNDS):
             noise = learn_noise(rich_residual(columns, noise), resolution(self.bench))
-        finding = screen(columns, noise, self.seed).best
+        seen = screen(columns, noise, self.seed)
+        finding = seen.best
         if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
             return None
-        return finding, make_mend(view, finding)
+        near = [one for one in seen.findings if one.merit > finding.merit - tie_width(finding)]
+        words = dict.fromkeys(one.candidate.cause.word for one in near)
+        return finding, make_mend(view, finding), tuple(word for word in words if word != finding.candidate.cause.word)
 
     def _columns(self, model: Model) -> tuple[Columns | None, ModelView]:
         residual, tangents = self.bench.linearise(model)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dashpot.assess.accepted import Accepted
 from dashpot.assess.leftover import Leftover
-from dashpot.assess.pursuit import Pursuit
+from dashpot.assess.pursuit import Pursuit, needed_twice
 from dashpot.assess.triage.fault import Fault
 
 
@@ -13,12 +14,19 @@ def give_verdict(faults: Sequence[Fault], pursuit: Pursuit, leftover: Leftover) 
     """One of the verdict words of the result file.
 
     ``bad_data`` where triage found faults of the measurement; ``ambiguous`` when an accepted cause has a rival that
-    fits alike; ``partly_explained`` and ``unexplained`` when structure is left that no suspect explains.
+    fits alike; ``partly_explained`` and ``unexplained`` when structure is left that no suspect explains, the former
+    also where a cause in the specimen was needed twice: its law is hardly the one that is hidden.
     """
     if faults:
         return "bad_data"
     if any(entry.rivals for entry in pursuit.accepted):
         return "ambiguous"
     if pursuit.accepted:
-        return "partly_explained" if leftover.notable(pursuit.explained) else "explained"
+        incomplete = leftover.notable(pursuit.explained) or bool(stands_in(pursuit.accepted))
+        return "partly_explained" if incomplete else "explained"
     return "unexplained" if leftover.notable() else "nothing_missing"
+
+
+def stands_in(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
+    """The names of causes in the specimen that were needed twice, and so may stand in for one that nothing knows."""
+    return needed_twice([entry for entry in accepted if entry.finding.candidate.cause.kind == "specimen"])

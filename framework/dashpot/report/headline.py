@@ -134,7 +134,13 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
     share = percent(errors.gain) if errors.gain and errors.gain > MOST else f"only {percent(errors.gain)}"
     named = f"{share} of it is {_named(causes)}" if causes else "it is only partly explained"
-    return f"{error_phrase(errors)}; {named}; {left}{_leftover(diagnosis)}."
+    return f"{error_phrase(errors)}; {named}; {left}{_stands_in(causes)}{_leftover(diagnosis)}."
+
+
+def _stands_in(causes: list[Json]) -> str:
+    """Which causes may not be what is hidden, though they explain it."""
+    titles = [cause_title(cause) for cause in causes if cause.get("stands_in")]
+    return f"; {join(titles)} had to be added twice, so the law that is hidden may be another one" if titles else ""
 
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:

@@ -1,6 +1,6 @@
 """A cause that gives way to another one beside a later cause; what was put in may let others give way in turn."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import pytest
@@ -135,6 +135,9 @@ class Fitted:
 
 class Contested(Court):
     """Every finding comes down to the chi square in its name."""
+
+    def glance(self, model, look):
+        return replace(look, model=model)
 
     def try_out(self, finding, look):
         return trial(finding)

@@ -80,7 +80,7 @@ def test_hum_of_all_runs_is_taken_out_of_the_held_out_ones_too(rng):
 def test_what_no_known_cause_explains_in_a_run_is_said_of_that_run(rng):
     registry = load_registry()
     robbed = replace(registry, causes={word: cause for word, cause in registry.causes.items() if word != "gain"})
-    data = dataset(rng, lambda name, force: 0.05 * (force - np.mean(force)) if name == "r2" else 0.0)
+    data = dataset(rng, lambda name, force: 0.1 * (force - np.mean(force)) if name == "r2" else 0.0)
     found = diagnose(parse_network(NETWORK, registry.elements), data, registry=robbed).as_dict()
     assert (found["verdict"], found["causes"]) == ("unexplained", [])
     assert "run 'r2'" in found["leftover"]["what"]

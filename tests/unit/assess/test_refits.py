@@ -1,7 +1,5 @@
 """Refits of extended networks: where they begin, and what becomes of numbers at an end of their range."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
@@ -152,20 +150,3 @@ def test_a_branch_that_relaxes_too_fast_to_show_is_left_to_a_dashpot(rng, dampin
     assert len(times) == 1
     after = court.look(simple.model, look.noise)
     assert (after.screen.best is not None) is (damping > 0.0)
-
-
-def test_a_refit_that_falls_short_of_what_was_foreseen_starts_from_all_places(rng, monkeypatch):
-    """The first refit is made to stop where it stands."""
-    bench, _ = bench_of(softening, rng)
-    look = look_at(bench, fitted(bench, TABLE), [REGISTRY.causes["softening"]], None, 0)
-    starts, refit = [], Bench.fit
-
-    def stalls(self, declared, start, noise, mends=(), beat=np.inf):
-        starts.append(start)
-        found = refit(self, declared, start, noise, mends, beat)
-        return replace(found, chi_square=look.model.chi_square) if len(starts) == 1 else found
-
-    monkeypatch.setattr(Bench, "fit", stalls)
-    found = bench.extend(look.model, look.screen.best, look.noise)
-    assert len(starts) > 2
-    assert look.model.chi_square - found.chi_square > 0.8 * look.screen.best.gain

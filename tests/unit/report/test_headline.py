@@ -174,3 +174,9 @@ def test_the_same_cause_at_another_place_is_a_rival():
     cause = friction(place=SUSPENSION, indistinguishable_from=["friction"], alternatives=[other])
     said = headline(diagnosis(verdict="ambiguous", causes=[cause]))
     assert f"dry friction of 41 N [38, 44] {SUSPENSION} and dry friction {BAR} explain it alike" in said
+
+
+def test_a_cause_that_was_needed_twice_may_not_be_the_one_that_is_hidden():
+    said = headline(diagnosis(verdict="partly_explained", causes=[friction(stands_in=True)]))
+    assert "; dry friction had to be added twice, so the law that is hidden may be another one" in said
+    assert "twice" not in headline(diagnosis(verdict="partly_explained", causes=[friction(stands_in=False)]))
