@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import product
 
 from dashpot.contract.cause import Cause, Pair, Suspect, View, added_branch
@@ -13,6 +13,7 @@ SHORTEST = (1e-3, 4e-3, 1.5e-2)  # of the stroke
 LONGEST = (0.3, 1.0, 3.0)
 MIDDLE = (0.01, 0.04, 0.15, 0.6)  # of the stroke
 EXPONENTS = (0.5, 0.8)
+SPREAD = 15.0  # longest over shortest yield travel
 WIDE = (0.35, 1.3)  # a larger exponent is that of one contact
 
 
@@ -35,11 +36,21 @@ class AmplitudeSoftening(Cause):
         stroke = view.stroke
         spans = [{"shortest": short * stroke, "longest": long * stroke} for short, long in product(SHORTEST, LONGEST)]
         bells = [{"travel": share * stroke, "exponent": power} for share, power in product(MIDDLE, EXPONENTS)]
-        yield _spread("iwan", spans, {})
+        yield _spread("iwan", spans, admits=is_spread)
         yield _spread("kraus", bells, {"exponent": WIDE})
 
 
-def _spread(element: str, spreads: Sequence[Mapping[str, float]], bounds: Mapping[str, Pair]) -> Suspect:
+def is_spread(numbers: Mapping[str, float]) -> bool:
+    """Whether the yield travels reach over more than a single contact does, which is dry friction."""
+    return numbers["longest"] > SPREAD * numbers["shortest"]
+
+
+def _spread(
+    element: str,
+    spreads: Sequence[Mapping[str, float]],
+    bounds: Mapping[str, Pair] | None = None,
+    admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
+) -> Suspect:
     return added_branch(
         element,
         "amplitude_softening",
@@ -47,5 +58,6 @@ def _spread(element: str, spreads: Sequence[Mapping[str, float]], bounds: Mappin
         lambda stiffness, place: {"stiffness": stiffness, **spreads[int(place)]},
         UNITS,
         unknowns=2,
-        bounds=bounds,
+        bounds=bounds or {},
+        admits=admits,
     )

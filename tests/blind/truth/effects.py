@@ -43,12 +43,13 @@ FORMS: dict[str, tuple[type[Form], ...]] = {
 
 FAULTS = fault.FORMS
 
-# What the refit of a base would swallow cannot be hidden in it: a damper in a damper, a curve in a free table.
-_ANYWHERE = ("clearance", "resonance", "moving_mass", "delay", *FAULTS)
+# What the refit of a base would swallow cannot be hidden in it: a damper in a damper, a curve in a free table. Nor can
+# play take away stiffness that a shock absorber does not have.
+_ANYWHERE = ("resonance", "moving_mass", "delay", *FAULTS)
 _AGING = ("softening", "bedding_in", "creep")
 _LOSSES = ("friction", "relaxation", "velocity_dependent_friction")
 _VALVES = ("quadratic_damping", "asymmetric_damping", "power_law_damping")
-_TIRE = (*_ANYWHERE, *_AGING, *_VALVES)
+_TIRE = ("clearance", *_ANYWHERE, *_AGING, *_VALVES)
 _SIMPLE_TIRE = (*_TIRE, *_LOSSES, "amplitude_softening", "load_dependent_friction", "preload_dependent_damping")
 
 KINDS_OF_BASE: dict[str, tuple[str, ...]] = {

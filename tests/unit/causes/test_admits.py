@@ -37,6 +37,12 @@ def test_friction_that_depends_on_the_load_goes_mostly_one_way(factors, rising, 
     assert suspect("load_dependent_friction", "dahl falling with deflection").admits(found) is falling
 
 
+@pytest.mark.parametrize(("longest", "admitted"), [(1e-3, False), (3e-3, True)])
+def test_softening_with_amplitude_reaches_over_more_than_one_contact(longest, admitted):
+    found = {"stiffness": 1e4, "shortest": 0.1e-3, "longest": longest}
+    assert suspect("amplitude_softening", "iwan").admits(found) is admitted
+
+
 @pytest.mark.parametrize(("longest", "admitted"), [(0.2e-3, True), (1.0e-3, True), (5.0e-3, False)])
 def test_sliders_spread_over_decades_are_no_dry_contact(longest, admitted):
     found = {"limit": 20.0, "stiffness": 20.0 / 0.1e-3, "limit_2": 100.0, "stiffness_2": 100.0 / longest}
