@@ -46,6 +46,18 @@ def test_the_change_is_what_a_cause_makes_of_the_plain_error(monkeypatch):
     assert share_of_change("before", "before", RUNS, {}) == 0.0
 
 
+@pytest.mark.parametrize(("effect", "share"), [
+    (np.array([3.0, -3.0]), 1.0 - np.sqrt(1.0 - 3.0**2 / 5.0**2)),
+    (np.array([12.0, 12.0]), 1.0 - np.sqrt(1.0 - 12.0**2 / (20.0**2 + 5.0**2))),
+])  # fmt: skip
+def test_what_a_data_sheet_admits_does_not_hide_a_change_nor_shrink_one(effect, share, monkeypatch):
+    """An offset of 20 N, of which the sheet admits 30 N, beside an error of 5 N."""
+    before = np.array([25.0, 15.0])
+    misfits = {"before": [before], "after": [before - effect]}
+    monkeypatch.setattr("dashpot.assess.misfits.misfits_of", lambda model, runs: misfits[model])
+    assert share_of_change("before", "after", RUNS, {"a": {"zero": 10.0}}) == pytest.approx(share)
+
+
 def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
     rng = np.random.default_rng()
     short, long = rng.standard_normal(20_000), rng.standard_normal(60_000)
