@@ -538,6 +538,22 @@ def test_a_blind_axle_has_its_effect_at_its_strength(seed, tmp_path):
     assert not re.search("friction|strength|null", (tmp_path / "dataset.yaml").read_text())
 
 
+def test_two_effects_in_an_axle_are_both_there(seed, tmp_path):
+    """By the difference of its forces from those without: an offset, and a law between the ends of a part."""
+    truth = draw_case(seed, "axle", "offset+friction", 2.0, folder=tmp_path / "two").label.open("something")
+    draw_case(seed, "axle", "null", folder=tmp_path / "none")
+    offset, friction = truth.effects
+
+    def changes(run, channel):
+        with_them, without = (np.load(tmp_path / kind / f"{run}.npz") for kind in ("two", "none"))
+        return with_them[channel] - without[channel]
+
+    name, _, end = offset.parameters["place"].partition("@")
+    assert np.mean(changes(name, f"F{end.removeprefix('platform_')[0]}")) == pytest.approx(offset.size, rel=0.3)
+    run = max(friction.rms, key=friction.rms.get)
+    assert max(np.std(changes(run, channel)) for channel in ("Fl", "Fr")) > 0.5 * friction.rms[run]
+
+
 def test_a_run_that_was_asked_for_comes_on_top_of_the_others(tmp_path, seed):
     """The specimen, its effect and the noise of the other runs stay as they are."""
     time = np.arange(0.0, 2.0, 2e-3)

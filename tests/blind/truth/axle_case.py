@@ -70,8 +70,11 @@ def draw_axle(seed: int, kinds: list[str], strengths: list[float], rng: np.rando
     tangents = np.stack([_flat(move) for move in moves], axis=1)
     forces, effects = bare, []
     for kind, strength in zip(kinds, strengths, strict=True):
-        hide = _inside if kind in INNER else _in_channel
-        form, place, size, after = hide(kind, numbers, forces, strength * noise.rms, rng)
+        aim = strength * noise.rms
+        if kind in INNER:
+            form, place, size, after = _inside(kind, numbers, bare, forces, aim, rng)
+        else:
+            form, place, size, after = _in_channel(kind, forces, aim, rng)
         added = _flat([new - old for new, old in zip(after, forces, strict=True)])
         left = added - tangents @ np.linalg.lstsq(tangents, added, rcond=None)[0]
         rms = {drive.name: _rms(new - old) for drive, new, old in zip(DRIVES, after, forces, strict=True)}
@@ -91,22 +94,25 @@ def _simulate(numbers: Numbers, drive: Drive, inner: Inner | None = None) -> np.
 
 
 def _inside(
-    kind: str, numbers: Numbers, forces: Forces, aim: float, rng: np.random.Generator
+    kind: str, numbers: Numbers, bare: Forces, forces: Forces, aim: float, rng: np.random.Generator
 ) -> tuple[str, str, float, Forces]:
-    """Form, place and size of a law that changes the forces by ``aim`` [N], and the forces with it."""
+    """Form, place and size of a law that changes the bare forces by ``aim`` [N], and the forces with that change.
+
+    Two laws are so weak that neither feels the other.
+    """
     law, size = draw_inner(kind, rng), 1.0
     for _ in range(ROUNDS):
-        after = [_simulate(numbers, drive, law.sized(size)) for drive in DRIVES]
-        reached = _rms(_flat([new - old for new, old in zip(after, forces, strict=True)]))
+        changes = [
+            _simulate(numbers, drive, law.sized(size)) - force for drive, force in zip(DRIVES, bare, strict=True)
+        ]
+        reached = _rms(_flat(changes))
         if abs(reached / aim - 1.0) < 0.01:
             break
         size *= aim / reached
-    return law.form, law.place, size, after
+    return law.form, law.place, size, [force + change for force, change in zip(forces, changes, strict=True)]
 
 
-def _in_channel(
-    kind: str, numbers: Numbers, forces: Forces, aim: float, rng: np.random.Generator
-) -> tuple[str, str, float, Forces]:
+def _in_channel(kind: str, forces: Forces, aim: float, rng: np.random.Generator) -> tuple[str, str, float, Forces]:
     """The same for a fault of one channel in one run, or for a delay of all."""
     run, end = int(rng.integers(len(DRIVES))), int(rng.integers(2))
     place = "" if kind == "delay" else f"{DRIVES[run].name}@{ENDS[end]}"
