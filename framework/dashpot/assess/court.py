@@ -42,7 +42,7 @@ class Court:
 
     ``relevance`` is the share by which a cause has to make the training error smaller to be of interest; ``groups``
     says by run which runs repeat one another. Forms that are ``barred`` do not come back, those that were ``exchanged``
-    only in exchange for another one.
+    only in exchange for another one, ``imitations`` of a form when that is gone.
     """
 
     bench: Bench
@@ -53,6 +53,7 @@ class Court:
     groups: Mapping[str, str] = field(default_factory=dict)
     rejected: list[Rejection] = field(default_factory=list)
     barred: set[Form] = field(default_factory=set)
+    imitations: dict[Form, set[Form]] = field(default_factory=dict)
     exchanged: set[Form] = field(default_factory=set)
 
     def look(self, model: Model, noise: NoiseModel | None) -> Look:
@@ -72,6 +73,15 @@ class Court:
         """Take back what was accepted, for good."""
         self.reject(entry.finding, reason, None, None)
         self.barred.add(form_of(entry.finding))
+
+    def bar_imitation(self, entry: Accepted, of: Accepted) -> None:
+        """Take back what only makes up the law of another one that was accepted."""
+        self.bar(entry, reasons.IMITATES)
+        self.imitations.setdefault(form_of(of.finding), set()).add(form_of(entry.finding))
+
+    def readmit_imitations(self, entry: Accepted) -> None:
+        """What was taken back because it imitates a cause that is gone itself may come again."""
+        self.barred -= self.imitations.pop(form_of(entry.finding), set())
 
     def swap(self, entry: Accepted, reason: str) -> None:
         """Take back what was accepted, in exchange for another cause."""

@@ -78,6 +78,7 @@ class Pursuer:
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
             court.bar(opposite[-1], reasons.OPPOSITE)
+            court.readmit_imitations(opposite[-1])
             kept = [entry for entry in accepted if entry.base and entry is not opposite[-1]]
             look = court.look(court.rebuild(kept, look.model, first.model, look.noise), look.noise)
             accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)

@@ -70,7 +70,7 @@ class Revision:
                 and last.base
                 and makes_up(last.finding, accepted[number].finding, last.trial.gain, explained)
             ):
-                self.court.bar(last, reasons.IMITATES)
+                self.court.bar_imitation(last, accepted[number])
                 return accepted[:-1], self.court.look(last.base, look.noise)
             if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
                 why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from dashpot.assess.court import Court
 from dashpot.assess.finalists import imitated, in_doubt, makes_up, settle_ties
 
 
@@ -59,3 +60,19 @@ def test_a_law_that_contains_another_one_is_its_rival_only_where_it_leads(more, 
     chosen, others = settle_ties([plain, larger])
     assert chosen is plain
     assert len(others) == rivals
+
+
+def test_an_imitation_comes_again_when_what_it_imitates_is_gone():
+    def entry(word):
+        candidate = SimpleNamespace(
+            name=(word, ""), suspect=SimpleNamespace(form="a form"), cause=SimpleNamespace(word=word), site=None
+        )
+        return SimpleNamespace(finding=SimpleNamespace(candidate=candidate))
+
+    court, friction, stribeck = Court(None, (), (), 0), entry("friction"), entry("velocity_dependent_friction")
+    court.bar_imitation(stribeck, friction)
+    assert court.barred == {("velocity_dependent_friction", "", "a form")}
+    court.readmit_imitations(stribeck)
+    assert court.barred == {("velocity_dependent_friction", "", "a form")}
+    court.readmit_imitations(friction)
+    assert not court.barred
