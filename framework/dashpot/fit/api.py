@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
 OWN_METHOD = "gauss_newton"
-POLISH_STEPS = 40
+POLISH_STEPS = 120
 
 
 def silent(*_: Any, **__: Any) -> None:
