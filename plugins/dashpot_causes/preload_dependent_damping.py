@@ -46,7 +46,8 @@ class PreloadDependentDamping(Cause):
         dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
         yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper,
-                       sign=0 if any(branch.element.word == "damper" for branch in branches) else 1)  # fmt: skip
+                       sign=0 if any(branch.element.word == "damper" for branch in branches) else 1,
+                       imitates=("viscous_damping",))  # fmt: skip
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])

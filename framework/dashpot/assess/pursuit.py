@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -93,7 +94,7 @@ class Pursuer:
         self, accepted: list[Accepted], look: Look, first: Look, most: int = MOST_CAUSES
     ) -> tuple[list[Accepted], Look]:
         """Add causes to those that are accepted, as long as there are any that hold, and no more than ``most``."""
-        revision = Revision(self.court, first.model, self.best_trial)
+        revision = Revision(self.court, first.model, partial(self.best_trial, exchange=True))
         while len(accepted) < most:
             self.tried += len(look.screen.findings)
             explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
@@ -203,9 +204,12 @@ class Pursuer:
         steps = [first, *models, last.model] if accepted else [first]
         return [self.court.bench.fit(step.declared, step.fitted, None, step.mends) for step in steps]
 
-    def best_trial(self, look: Look, explained: float) -> list[Accepted]:
-        """The best finalist that holds on runs that took no part, else two that hold together, else none."""
-        court, trials = self.court, self.refit_finalists(look, explained)
+    def best_trial(self, look: Look, explained: float, exchange: bool = False) -> list[Accepted]:
+        """The best finalist that holds on runs that took no part, else two that hold together, else none.
+
+        In ``exchange`` for another cause those may come back that were themselves exchanged.
+        """
+        court, trials = self.court, self.refit_finalists(look, explained, exchange)
         imitations: list[Trial] = []
         unsupported: list[Trial] = []
         while trials:
@@ -256,11 +260,11 @@ class Pursuer:
         foreseen, gain = court.foresee(trial.finding, look), court.gain_of(look.model, chosen.model)
         return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
 
-    def refit_finalists(self, look: Look, explained: float) -> list[Trial]:
+    def refit_finalists(self, look: Look, explained: float, exchange: bool = False) -> list[Trial]:
         """The best findings of a look as refitted models; later causes only where they may be worth a name."""
         court = self.court
         trials: list[Trial] = []
-        for finding in choose_finalists(court.admissible(look), look):
+        for finding in choose_finalists(court.admissible(look, exchange), look):
             if explained and not court.worth_a_refit(finding, look, explained):
                 reason = reasons.TOO_LITTLE.format(least=court.least_later_gain(finding, look, explained))
                 court.reject(finding, reason, court.foresee(finding, look), None)

@@ -47,7 +47,7 @@ def pursuer(monkeypatch):
 
 
 def pair_of(pursuer, monkeypatch, trials):
-    monkeypatch.setattr(Pursuer, "refit_finalists", lambda self, look, explained: trials)
+    monkeypatch.setattr(Pursuer, "refit_finalists", lambda self, look, explained, exchange=False: trials)
     return pursuer.best_pair(trial("curve", 40.0), SimpleNamespace(model=FIRST, noise=None), 100.0)
 
 
