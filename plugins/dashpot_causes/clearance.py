@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 PLACES = 9
 SLIDING = np.array([0.005, 0.03, 0.15])  # of the stroke: how far the spring behind the play gives before it slides
 PLAIN = 0.01  # of the stroke: friction behind less play cannot be told from friction
+BEYOND = 1.05  # times that: play that a refit leaves at its least is none
 
 
 class Clearance(Cause):
@@ -41,12 +42,18 @@ class Clearance(Cause):
         low, high = view.reach
         if low < 0.0 < high:
             yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
-        loose = tuple(gap for gap in gaps[:-1] if gap > PLAIN * view.stroke)
+        least = PLAIN * view.stroke
+        loose = tuple(gap for gap in gaps[:-1] if gap > least)
         for travel in SLIDING * view.stroke:
             yield added_branch("loose_friction", "clearance", loose, _loose(travel), {**units, "limit": "N"},
-                               bounds={"gap": (PLAIN * view.stroke, view.stroke)})  # fmt: skip
+                               bounds={"gap": (least, view.stroke)},
+                               admits=lambda found: all(gap > BEYOND * least for gap in _gaps(found)))  # fmt: skip
         lost = _Lost(gaps[::2])
         yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
+
+
+def _gaps(found: Mapping[str, float]) -> list[float]:
+    return [number for name, number in found.items() if name.startswith("gap")]
 
 
 def _loose(travel: float) -> Callable[[float, float], Mapping[str, float]]:

@@ -87,3 +87,10 @@ def test_a_resonance_swings_within_reach_of_what_was_driven(word, form, frequenc
 def test_a_mass_on_its_mounting_resonates_beyond_that(frequency, admitted):
     found = {"mass": 3.0, "stiffness": 3.0 * (2.0 * math.pi * frequency) ** 2, "damping": 1.0}
     assert suspect("moving_mass", "a mass on its mounting").admits(found) is admitted
+
+
+@pytest.mark.parametrize(("gaps", "admitted"), [((0.2e-3,), False), ((0.5e-3,), True), ((0.5e-3, 0.2e-3), False)])
+def test_friction_behind_play_that_a_refit_leaves_at_its_least_is_no_clearance(gaps, admitted):
+    """The stroke is 20 mm, a hundredth of it the least play that is looked for."""
+    found = {f"gap_{number}" if number > 1 else "gap": gap for number, gap in enumerate(gaps, 1)}
+    assert suspect("clearance", "loose_friction").admits(found) is admitted
