@@ -105,7 +105,6 @@ def test_an_error_that_the_data_sheet_admits_is_no_finding(rng):
 @pytest.mark.parametrize(("stop", "named"), [(6e3, ["end_stop", "offset"]), (300e3, ["end_stop"])])
 def test_a_fault_of_a_held_out_run_has_to_be_more_than_the_form_of_a_named_cause_may_err(rng, stop, named):
     """An offset of 0.4 of the noise beside a stop that makes 1 or 50 times as much as it."""
-
     data = dataset(rng, lambda name, _: 2.0 * (name == "r5"), lambda x: stop * np.maximum(x - 11e-3, 0.0))
     assert [cause["cause"] for cause in causes(data)] == named
 
