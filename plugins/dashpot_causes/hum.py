@@ -12,7 +12,7 @@ from dashpot.contract.cause import Cause, Suspect, View, unchanged
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
-MAINS = {50.0: (1, 3), 60.0: (1, 3), 100.0: (1,), 120.0: (1,)}  # with the harmonics that come along
+MAINS = ((50.0,), (50.0, 150.0), (60.0,), (60.0, 180.0), (100.0,), (120.0,))  # Hz, some with a third harmonic
 HIGHEST = 0.4  # of the sampling rate
 
 
@@ -31,14 +31,14 @@ class Hum(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Sine and cosine of a frequency of the mains, and of its third harmonic, in every run."""
+        """Sine and cosine of a frequency of the mains, alone or with its third harmonic, in every run."""
         highest = HIGHEST / max(view.step(run) for run in view.runs)
-        for frequency, harmonics in MAINS.items():
-            if frequency < highest:
-                lines = _Lines([k * frequency for k in harmonics if k * frequency < highest], tuple(view.runs))
-                grid = tuple(float(k) for k in range(2 * len(lines.frequencies) * len(lines.runs)))
-                yield Suspect(f"{frequency:g} Hz", grid, lines, unchanged, joint=True, sign=0, unknowns=0,
-                              mends=True, local=True, quantity="amplitude", unit="N", tell=lines.tell)  # fmt: skip
+        for frequencies in (mains for mains in MAINS if max(mains) < highest):
+            lines = _Lines(frequencies, tuple(view.runs))
+            grid = tuple(float(k) for k in range(2 * len(frequencies) * len(lines.runs)))
+            yield Suspect(" and ".join(f"{frequency:g} Hz" for frequency in frequencies), grid, lines, unchanged,
+                          joint=True, sign=0, unknowns=0, mends=True, local=True, quantity="amplitude", unit="N",
+                          tell=lines.tell)  # fmt: skip
 
 
 @dataclass(frozen=True)

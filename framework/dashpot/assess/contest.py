@@ -35,6 +35,7 @@ TOLERANCE = 1e-5
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
 AT_END = 1e-3  # of a range
 DWINDLED = 0.03  # of the number in the file, where what is searched is a logarithm: zero is infinitely far
+ASTRAY = 3.0  # times the number in the file, or a third of it
 REACH = 10.0  # so many times as much as in its last step a refit may still gain
 
 
@@ -71,10 +72,23 @@ class Model:
     @property
     def revived(self) -> dict[str, Value]:
         """The numbers that are at an end of their range by path, as they stand in the file."""
+        return self._as_in_file(self.at_end)
+
+    @property
+    def astray(self) -> dict[str, Value]:
+        """The numbers far from those of the file by path, as they stand there: what is missing may have driven them."""
+        file = {slot.path: slot.value.number for slot in self.declared.slots()}
+        numbers = zip(self.coordinates.paths, self.coordinates.log, self.coordinates.numbers(self.point), strict=True)
+        far = [
+            log and path in file and not 1.0 / ASTRAY < number / file[path] < ASTRAY for path, log, number in numbers
+        ]
+        return self._as_in_file(self.at_end | np.array(far, dtype=bool))
+
+    def _as_in_file(self, chosen: NDArray[np.bool_]) -> dict[str, Value]:
         file = {slot.path: slot.value.number for slot in self.declared.slots()}
         slots = {slot.path: slot.value for slot in self.fitted.slots()}
-        ended = [path for path, ends in zip(self.coordinates.paths, self.at_end, strict=True) if ends and path in file]
-        return {path: replace(slots[path], number=file[path]) for path in ended}
+        paths = [path for path, wanted in zip(self.coordinates.paths, chosen, strict=True) if wanted and path in file]
+        return {path: replace(slots[path], number=file[path]) for path in paths}
 
     @property
     def values(self) -> Array:
@@ -191,10 +205,17 @@ class Bench:
         numbers = model.revived
         if not numbers:
             return model
+        back = self.put_back(model, numbers, noise)
+        other = self.fit(model.declared, back.fitted, noise, back.mends)
+        return other if other.chi_square < model.chi_square else model
+
+    def put_back(self, model: Model, numbers: Mapping[str, Value], noise: NoiseModel) -> Model:
+        """The model with some numbers of its file, fitted by all others."""
         held = model.fitted.with_values({path: value.as_role("fixed") for path, value in numbers.items()})
         around = self.fit(model.declared, held, noise, model.mends)
-        other = self.fit(model.declared, around.fitted.with_values(numbers), noise, around.mends)
-        return other if other.chi_square < model.chi_square else model
+        fitted = around.fitted.with_values(numbers)
+        coordinates = search_coordinates(fitted)
+        return replace(around, fitted=fitted, coordinates=coordinates, point=coordinates.start)
 
     def _extended(self, model: Model, finding: Finding, numbers: NetworkSpec) -> tuple[NetworkSpec, NetworkSpec]:
         text = finding.candidate.suspect.extend(model.declared.text, finding.atoms)
@@ -244,6 +265,8 @@ def try_finding(
     if suspect.mends and suspect.sign and np.any(model.mends[-1].strengths <= 0.0):
         failure = "the refit turned its sign, which makes no sense for this cause"
     if not suspect.admits(_new_numbers(base, model, model)):
+        if len(finding.atoms) > 1 and not suspect.joint:
+            return try_finding(bench, base, finding.without_last(), noise, samples, beat)
         failure = "what the refit found is not what the cause says, or its opposite"
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 

@@ -11,16 +11,17 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, form_of, substitutes
+from dashpot.assess.finalists import Form, form_of
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
-from dashpot.assess.screen import Finding, less_one_place
+from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, glance_at, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
 from dashpot.fit.scored import ScoredRun
+from dashpot.model.network import Value
 from dashpot.model.reading import parse_network
 
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
@@ -92,28 +93,23 @@ class Court:
         """A finding as a refitted model; its refit may stop where it will not come down to a chi square to ``beat``."""
         return try_finding(self.bench, look.model, finding, look.noise, look.screen.samples, beat)
 
+    def put_back(self, look: Look, numbers: Mapping[str, Value]) -> Look:
+        """Every suspect against the model of a look with some numbers as they stand in its file."""
+        return self.glance(self.bench.put_back(look.model, numbers, look.noise), look)
+
+    def try_out_from(self, finding: Finding, back: Look, look: Look, beat: float) -> Trial:
+        """A finding of a look with other numbers as a refitted model, measured by the model of ``look``."""
+        trial = self.try_out(finding, back, beat)
+        gain = look.model.chi_square - trial.model.chi_square
+        return replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
+
     def simplify(self, trial: Trial, look: Look) -> Trial:
         """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
         atoms = trial.finding.atoms
         if trial.finding.candidate.suspect.joint or len(atoms) < 2:
             return trial
         simpler = self.try_out(trial.finding.without_last(), look)
-        if simpler.merit > trial.merit:
-            return self.simplify(simpler, look)
-        return self.left_to_another(trial, look) or trial
-
-    def left_to_another(self, trial: Trial, look: Look) -> Trial | None:
-        """The trial less one place, if another cause makes up that place with fewer numbers; it is found as the next.
-
-        A Maxwell branch that relaxes faster than the runs can show is a dashpot.
-        """
-        for other in substitutes(look.screen.findings, trial.finding):
-            less = self.try_out(less_one_place(trial.finding, other, look.screen.projected), look)
-            beside = replace(other, absorbed=np.zeros((less.model.point.size, len(other.atoms))))
-            more = try_finding(self.bench, less.model, beside, look.noise, look.screen.samples)
-            if not (less.failure or more.failure) and less.merit + more.merit > trial.merit:
-                return less
-        return None
+        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.

@@ -105,17 +105,6 @@ def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
     return look.model.chi_square - best.merit + tie_width(best)
 
 
-def substitutes(findings: Iterable[Finding], finding: Finding) -> list[Finding]:
-    """Findings of causes that one is confused with, each of fewer numbers than a place of that one takes."""
-    suspect, words = finding.candidate.suspect, finding.candidate.cause.confused_with
-    return [
-        other for other in findings
-        if other.candidate.cause.word in words and other.candidate.site == finding.candidate.site
-        and other.candidate.suspect.local == suspect.local and not other.candidate.suspect.joint
-        and len(other.atoms) * (1 + other.candidate.suspect.unknowns) < 1 + suspect.unknowns
-    ]  # fmt: skip
-
-
 def imitates(finding: Finding, other: Finding) -> bool:
     """Whether a finding may make up the law of another one."""
     return other.candidate.cause.word in finding.candidate.suspect.imitates

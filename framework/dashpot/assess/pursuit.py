@@ -32,6 +32,7 @@ from dashpot.assess.finalists import (
 from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
+from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 from dashpot.assess.unseen import Jury, known_directions
 from dashpot.fit.refine import Outcome
@@ -257,7 +258,7 @@ class Pursuer:
         others = (*others, *doubtful)
         chosen = court.simplify(chosen, look)
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-        foreseen, gain = court.foresee(trial.finding, look), court.gain_of(look.model, chosen.model)
+        foreseen, gain = court.foresee(finding_of(trial, look), look), court.gain_of(look.model, chosen.model)
         return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
 
     def refit_finalists(self, look: Look, explained: float, exchange: bool = False) -> list[Trial]:
@@ -271,13 +272,37 @@ class Pursuer:
                 continue
             self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
             trials.append(court.try_out(finding, look, to_beat(trials, finding, look)))
-        return trials
+        return trials if explained or exchange else self.refit_put_back(trials, look)
+
+    def refit_put_back(self, trials: list[Trial], look: Look) -> list[Trial]:
+        """The best trial of each form, from the present numbers or with those that went astray put back first.
+
+        Numbers that a strong effect has driven far away do not always find their way back beside its cause, and do not
+        let the screen see it.
+        """
+        court, astray = self.court, look.model.astray
+        best = {form_of(trial.finding): trial for trial in trials}
+        if not (trials and astray):
+            return trials
+        back = court.put_back(look, astray)
+        for finding in choose_finalists(court.admissible(back), back):
+            self.watch(f"refit with {' '.join(finding.candidate.name).strip()}", 0.0)
+            trial = court.try_out_from(finding, back, look, to_beat(list(best.values()), finding, look))
+            form = form_of(finding)
+            best[form] = max(trial, best.get(form, trial), key=lambda each: each.merit)
+        return list(best.values())
 
 
 def _why_not(trial: Trial, level: Sequence[Trial], imitations: Sequence[Trial]) -> str:
     if trial in imitations:
         return reasons.IMITATES
     return reasons.LOSES_ON_HELD_OUT if trial in level else reasons.EXPLAINS_LESS
+
+
+def finding_of(trial: Trial, look: Look) -> Finding:
+    """What a look says of the form of a trial, or the finding of the trial itself if that is none of the look."""
+    form = form_of(trial.finding)
+    return next((found for found in look.screen.findings if form_of(found) == form), trial.finding)
 
 
 def needed_twice(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:

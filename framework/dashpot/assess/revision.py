@@ -33,7 +33,10 @@ class Revision:
 
     def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """The causes that stay, or others in their places, and a look at the model with them."""
-        return self.exchange(*self.prune(*self.reconsider(*self.part(accepted, look))))
+        accepted, look = self.part(accepted, look)
+        settled, look = self.reconsider(accepted, look)
+        newest = next((entry for entry in settled if not any(entry is other for other in accepted)), None)
+        return self.exchange(*self.prune(settled, look), newest)
 
     def part(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Put another cause in the place of the last one in one run of several, if it is a fault of single runs."""
@@ -53,9 +56,9 @@ class Revision:
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Drop an earlier cause that the last one made superfluous, or its opposite: that takes its place in the order.
 
-        It is superfluous, too, where it explains no more than the others may be wrong by in their form. The form that
-        was dropped does not come back. Where the last one only makes up the law of the earlier one, it is the last one
-        that goes.
+        It is superfluous, too, where it explains no more than the others may be wrong by in their form, unless one of
+        these would no longer be what it says. The form that was dropped does not come back. Where the last one only
+        makes up the law of the earlier one, it is the last one that goes.
         """
         explained = self.first.chi_square - look.model.chi_square
         for number in range(len(accepted) - 1):
@@ -63,7 +66,8 @@ class Revision:
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
             price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
             fall = model.chi_square - look.model.chi_square
-            superfluous = fall < price + look.screen.threshold or within_form(fall, model.chi_square, explained)
+            little = fall < price + look.screen.threshold or within_form(fall, model.chi_square, explained)
+            superfluous = little and all(admitted(other.trial, other.base, model) for other in kept)
             last = accepted[-1]
             if (
                 superfluous
@@ -100,7 +104,7 @@ class Revision:
         Without a newest one it is the last; what was put in is the newest to the others. Where it explains less than
         the newest one did, it comes last.
         """
-        newest = newest or accepted[-1]
+        newest = newest if any(entry is newest for entry in accepted) else accepted[-1]
         older = [entry for entry in accepted if entry is not newest] if len(accepted) <= MOST_EXCHANGED else []
         for entry in older:
             kept = [other for other in accepted if other is not entry]
@@ -114,21 +118,21 @@ class Revision:
         return accepted, look
 
     def better_than(self, entry: Accepted, model: Model, look: Look, kept: Sequence[Accepted]) -> Accepted | None:
-        """Another cause that explains more than an accepted one beside those that are ``kept``, the ``model``, or None.
+        """Another cause that does better than an accepted one beside those that are ``kept``, the ``model``, or None.
 
         Where there is one, the best of all takes the place, with its rivals.
         """
         glance = self.court.glance(model, look)
         for finding in self.others_than(entry, glance, model.chi_square - look.model.chi_square):
             trial = self.court.try_out(finding, glance)
-            if trial.failure or trial.model.chi_square + TIE > look.model.chi_square:
+            if trial.failure:
                 continue
             trial = self.court.simplify(trial, glance)
             gain = self.court.gain_of(look.model, trial.model)
-            if leads(trial.model, look) and (gain is None or gain.value >= 0.0):
+            if succeeds(trial.model, look) and (gain is None or gain.value >= -self.court.relevance):
                 found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
-                winners = [one for one in self.contest(glance, explained) if leads(one.trial.model, look)]
+                winners = [one for one in self.contest(glance, explained) if succeeds(one.trial.model, look)]
                 named = {one.finding.candidate.name for one in winners}
                 return winners[0] if len(winners) == 1 and entry.finding.candidate.name not in named else found
         return None
@@ -140,7 +144,8 @@ class Revision:
         return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
 
 
-def leads(model: Model, look: Look) -> bool:
-    """Whether a model fits better than the one of a look, for more than its numbers cost and a tie."""
+def succeeds(model: Model, look: Look) -> bool:
+    """Whether a model fits better than that of a look, by more than its numbers cost and a tie, or ties with fewer."""
     price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
-    return model.chi_square + price + TIE <= look.model.chi_square
+    lead = look.model.chi_square - model.chi_square - price
+    return lead >= (-TIE if model.numbers < look.model.numbers else TIE)

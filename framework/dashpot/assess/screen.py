@@ -194,18 +194,6 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
     return Screen(tuple(ordered), threshold, projected, _together(projected))
 
 
-def less_one_place(finding: Finding, other: Finding, projected: Projected) -> Finding:
-    """The finding without the place that another one makes up best."""
-    ways = [finding.keeping(k for k in range(len(finding.atoms)) if k != left) for left in range(len(finding.atoms))]
-
-    def explained(way: Finding) -> float:
-        at = np.array([one.candidate.columns.start + k for one in (way, other) for k in one.chosen])
-        part, scores = projected.spread[np.ix_(at, at)], projected.scores[at]
-        return float(scores @ independent(part)[0] @ scores)
-
-    return max(ways, key=explained)
-
-
 def _together(projected: Projected) -> float:
     usable = np.diag(projected.spread) > KEPT * projected.original
     if not usable.any():
