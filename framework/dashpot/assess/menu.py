@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
@@ -16,24 +16,85 @@ Array = NDArray[np.float64]
 
 PERIODS = 5.0
 SAMPLES_PER_PERIOD = 40.0
-LONGEST_TRIANGLE = 120.0  # s
+SAMPLES_PER_STROKE = 1000
+LONGEST = 120.0  # s
 SHARES = (0.15, 0.5, 0.85)  # of the reach
 LADDER = (0.1, 0.33, 1.0)  # of the largest amplitude
 BEYOND = (1.0, 2.0, 5.0)  # of the end of the measured band
 
 
-@dataclass(frozen=True, eq=False)
-class Proposal:
-    """A run that could be made: ``words`` say it, ``displacement`` (n,) m every ``dt`` s is its motion."""
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep of an ``amplitude`` about a ``centre`` in m from ``start`` to ``stop`` in Hz within ``seconds``."""
 
-    words: str
-    displacement: Array
-    dt: float
+    amplitude: float
+    centre: float
+    start: float
+    stop: float
+    seconds: float
+
+    @property
+    def words(self) -> str:
+        """What to drive."""
+        return (
+            f"a sweep of {pretty(self.amplitude, 'm', 2)} about {pretty(self.centre, 'm', 3)} "
+            f"from {self.start:.2g} to {self.stop:.2g} Hz in {self.seconds:.2g} s"
+        )
+
+    @property
+    def dt(self) -> float:
+        """The sample time in s."""
+        return 1.0 / (SAMPLES_PER_PERIOD * self.stop)
+
+    @property
+    def displacement(self) -> Array:
+        """The motion (n,) in m every ``dt`` s; it fades in over a period."""
+        time = np.arange(int(self.seconds / self.dt)) * self.dt
+        angle = 2.0 * np.pi * (self.start * time + 0.5 * (self.stop - self.start) / self.seconds * time**2)
+        return self.centre + self.amplitude * np.minimum(time * self.start, 1.0) * np.sin(angle)
+
+    def longer(self, times: int) -> Sweep:
+        """The same, so many times as slow."""
+        return replace(self, seconds=times * self.seconds)
+
+
+@dataclass(frozen=True)
+class Triangle:
+    """Triangles between ``low`` and ``high`` in m at a ``speed`` in m/s."""
+
+    low: float
+    high: float
+    speed: float
+    count: int = 1
+
+    @property
+    def words(self) -> str:
+        """What to drive."""
+        what = "a triangle" if self.count == 1 else f"{self.count} triangles"
+        return f"{what} over {pretty(self.high - self.low, 'm', 3)} at {pretty(self.speed, 'm/s', 2)}"
 
     @property
     def seconds(self) -> float:
         """How long it takes."""
-        return float(self.dt * self.displacement.size)
+        return 2.0 * self.count * (self.high - self.low) / self.speed
+
+    @property
+    def dt(self) -> float:
+        """The sample time in s."""
+        return (self.high - self.low) / self.speed / SAMPLES_PER_STROKE
+
+    @property
+    def displacement(self) -> Array:
+        """The motion (n,) in m every ``dt`` s."""
+        stroke = np.arange(2 * SAMPLES_PER_STROKE * self.count + 1) / SAMPLES_PER_STROKE
+        return self.low + (self.high - self.low) * (1.0 - np.abs(stroke % 2.0 - 1.0))
+
+    def longer(self, times: int) -> Triangle:
+        """The same, so many times in succession."""
+        return replace(self, count=times * self.count)
+
+
+Proposal = Sweep | Triangle
 
 
 def runs_to_choose_from(view: ModelView) -> Iterator[Proposal]:
@@ -49,26 +110,8 @@ def runs_to_choose_from(view: ModelView) -> Iterator[Proposal]:
         centre = float(np.clip(low + share * (high - low), low + amplitude, high - amplitude))
         stop = beyond * top
         if 2.0 * np.pi * stop * amplitude <= 1.5 * view.speed:
-            yield _sweep(amplitude, centre, 0.1 * top, stop)
+            yield Sweep(amplitude, centre, 0.1 * top, stop, PERIODS / (0.1 * top))
     for speed in (1e-3, 1e-2, 1e-1):
-        if 2.0 * (high - low) / (speed * view.speed) < LONGEST_TRIANGLE:
-            yield _triangle(low, high, speed * view.speed)
-
-
-def _sweep(amplitude: float, centre: float, start: float, stop: float) -> Proposal:
-    dt = 1.0 / (SAMPLES_PER_PERIOD * stop)
-    duration = PERIODS / start
-    time = np.arange(int(duration / dt)) * dt
-    angle = 2.0 * np.pi * (start * time + 0.5 * (stop - start) / duration * time**2)
-    words = (
-        f"a sweep of {pretty(amplitude, 'm', 2)} about {pretty(centre, 'm', 3)} from {start:.2g} to {stop:.2g} Hz "
-        f"in {duration:.2g} s"
-    )
-    return Proposal(words, centre + amplitude * np.minimum(time * start, 1.0) * np.sin(angle), dt)
-
-
-def _triangle(low: float, high: float, speed: float) -> Proposal:
-    half = (high - low) / speed
-    dt = half / 1000.0
-    x = high - np.abs(np.linspace(-1.0, 1.0, 2001)) * (high - low)
-    return Proposal(f"a triangle over {pretty(high - low, 'm', 3)} at {pretty(speed, 'm/s', 2)}", x, dt)
+        triangle = Triangle(low, high, speed * view.speed)
+        if triangle.seconds < LONGEST:
+            yield triangle
