@@ -11,7 +11,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, form_of
+from dashpot.assess.finalists import TIE, Form, form_of, parts_of
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -110,6 +110,21 @@ class Court:
             return trial
         simpler = self.try_out(trial.finding.without_last(), look)
         return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
+
+    def taken_apart(self, trial: Trial, look: Look) -> Trial | None:
+        """The stronger one of two causes whose laws a trial makes up, if both explain more without more numbers.
+
+        The weaker one is found as the next.
+        """
+        parts = parts_of(trial.finding, look.screen.findings)
+        if len({part.candidate.name for part in parts}) < 2:
+            return None
+        alone = self.try_out(parts[0], look)
+        beside = self.glance(alone.model, look)
+        rest = parts_of(trial.finding, beside.screen.findings, parts[0])
+        both = self.try_out(rest[0], beside) if rest else alone
+        better = both.model.chi_square + TIE <= trial.model.chi_square and both.model.numbers <= trial.model.numbers
+        return alone if better and not (alone.failure or both.failure) else None
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.

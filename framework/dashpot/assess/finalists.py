@@ -105,6 +105,15 @@ def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
     return look.model.chi_square - best.merit + tie_width(best)
 
 
+def parts_of(finding: Finding, findings: Iterable[Finding], less: Finding | None = None) -> list[Finding]:
+    """The findings at the site of another one of the causes whose laws that makes up, less one of these causes."""
+    return [
+        other for other in findings
+        if imitates(finding, other) and other.candidate.site == finding.candidate.site
+        and not (less and other.candidate.name == less.candidate.name)
+    ]  # fmt: skip
+
+
 def imitates(finding: Finding, other: Finding) -> bool:
     """Whether a finding may make up the law of another one."""
     return other.candidate.cause.word in finding.candidate.suspect.imitates

@@ -255,10 +255,11 @@ class Pursuer:
         doubtful = tuple(other for other in imitations if in_doubt(other, chosen))
         for other in (other for other in (*ranked, *imitations) if other not in (*near, *doubtful)):
             court.reject(other.finding, _why_not(other, level, imitations), None, None)
-        others = (*others, *doubtful)
-        chosen = court.simplify(chosen, look)
+        part = court.taken_apart(chosen, look)
+        chosen, others = (part, ()) if part else (court.simplify(chosen, look), (*others, *doubtful))
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
-        foreseen, gain = court.foresee(finding_of(trial, look), look), court.gain_of(look.model, chosen.model)
+        foreseen = court.foresee(chosen.finding if part else finding_of(trial, look), look)
+        gain = court.gain_of(look.model, chosen.model)
         return Accepted(chosen.finding, chosen, foreseen, gain, rivals, others, look.model, simpler(chosen, ranked))
 
     def refit_finalists(self, look: Look, explained: float, exchange: bool = False) -> list[Trial]:
