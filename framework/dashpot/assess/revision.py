@@ -49,7 +49,7 @@ class Revision:
                      for mend in look.model.mends]  # fmt: skip
             model = self.court.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
             instead = self.better_than(entry, model, look, [rest])
-            if instead is not None:
+            if instead is not None and instead.finding.candidate.suspect.local:
                 return [*accepted[:-1], rest, instead], self.court.look(instead.trial.model, look.noise)
         return accepted, look
 
@@ -133,8 +133,7 @@ class Revision:
                 found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
                 winners = [one for one in self.contest(glance, explained) if succeeds(one.trial.model, look)]
-                named = {one.finding.candidate.name for one in winners}
-                return winners[0] if len(winners) == 1 and entry.finding.candidate.name not in named else found
+                return winners[0] if len(winners) == 1 else found
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
