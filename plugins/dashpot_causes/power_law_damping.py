@@ -12,13 +12,13 @@ from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 from dashpot_causes.levelling import levelling_force
-from dashpot_causes.powers import NEARLY_TWO, reference_speed
+from dashpot_causes.powers import NEARLY_ONE, NEARLY_TWO, reference_speed
 
 Array = NDArray[np.float64]
 UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
-BOUNDS = ((0.2, 0.9), (1.1, NEARLY_TWO[0]), (NEARLY_TWO[1], 4.0))
+BOUNDS = ((0.2, NEARLY_ONE[0]), (NEARLY_ONE[1], NEARLY_TWO[0]), (NEARLY_TWO[1], 4.0))
 AT_END = 0.01  # of the exponent
 LEVELLING, LEVELS = (0.02, 0.5), 5  # of the speed: where a digressive damper becomes level
 
@@ -57,10 +57,11 @@ class PowerLawDamping(Cause):
             ]
             return add_branch(text, "\n".join(lines))
 
-        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N", admits=is_not_quadratic)
+        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N", admits=is_broken_power)
         yield levelling_force(view, "power_law_damping", LEVELLING, LEVELS, (0.75, 4.0))
 
 
-def is_not_quadratic(numbers: Mapping[str, float]) -> bool:
-    """Whether a refit has not driven the exponent to where quadratic damping begins."""
-    return all(abs(numbers.get("exponent", 1.0) - end) > AT_END for end in NEARLY_TWO)
+def is_broken_power(numbers: Mapping[str, float]) -> bool:
+    """Whether a refit has not driven the exponent to where viscous or quadratic damping begins."""
+    exponent = numbers.get("exponent", 0.5)
+    return all(abs(exponent - end) > AT_END for end in (*NEARLY_ONE, *NEARLY_TWO))

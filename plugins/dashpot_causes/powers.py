@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dashpot.contract.cause import View
 
+NEARLY_ONE = (0.9, 1.1)  # exponents that count as viscous
 NEARLY_TWO = (1.7, 2.3)  # powers that still stand for turbulent flow
 SHARE = 0.3  # of the largest speed
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.powers import NEARLY_ONE, reference_speed
 
 
 class ViscousDamping(Cause):
@@ -21,7 +22,7 @@ class ViscousDamping(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """One dashpot in parallel."""
+        """One dashpot in parallel; one with a power of the velocity near to one."""
         yield added_branch(
             "damper",
             "viscous_damping",
@@ -29,4 +30,15 @@ class ViscousDamping(Cause):
             lambda damping, _: {"damping": damping},
             {"damping": "N*s/m"},
             unknowns=0,
+        )
+        reference = reference_speed(view)
+        yield added_branch(
+            "power_law_damper",
+            "viscous_damping",
+            (1.0,),
+            lambda force, power: {"force": force, "exponent": power, "reference": reference},
+            {"force": "N", "exponent": "1", "reference": "m/s"},
+            fixed=("reference",),
+            bounds={"exponent": NEARLY_ONE},
+            form="a power near to one",
         )

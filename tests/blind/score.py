@@ -9,6 +9,7 @@ from typing import Any
 
 NULL = "null"
 LEAST_STRENGTH = 0.1  # weaker effects a refit of the base absorbs
+LEAST_SHARE = 0.1  # of the strongest of two
 BINS = (0.03, 0.1, 0.3, 1.0, 3.0, 30.0)  # of the strength that a refit of the base leaves, over the noise
 
 # causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic
@@ -104,8 +105,12 @@ class Outcome:
 
     @property
     def exact(self) -> bool:
-        """Whether exactly the hidden effects were named; those that a refit of the base absorbs may be missing."""
-        due = {effect.kind for effect in self.truth.effects if effect.strength_left >= LEAST_STRENGTH}
+        """Whether exactly the hidden effects were named.
+
+        Those may be missing that a refit of the base absorbs, and those of less than a tenth of the strongest.
+        """
+        least = max(LEAST_STRENGTH, LEAST_SHARE * self.strength)
+        due = {effect.kind for effect in self.truth.effects if effect.strength_left >= least}
         return due <= set(self.named) <= set(self.kinds)
 
     @property

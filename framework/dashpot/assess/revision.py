@@ -104,7 +104,7 @@ class Revision:
         Without a newest one it is the last; what was put in is the newest to the others. Where it explains less than
         the newest one did, it comes last.
         """
-        newest = newest if any(entry is newest for entry in accepted) else accepted[-1]
+        newest = next((entry for entry in accepted if entry is newest), accepted[-1])
         older = [entry for entry in accepted if entry is not newest] if len(accepted) <= MOST_EXCHANGED else []
         for entry in older:
             kept = [other for other in accepted if other is not entry]
@@ -147,4 +147,4 @@ def succeeds(model: Model, look: Look) -> bool:
     """Whether a model fits better than that of a look, by more than its numbers cost and a tie, or ties with fewer."""
     price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
     lead = look.model.chi_square - model.chi_square - price
-    return lead >= (-TIE if model.numbers < look.model.numbers else TIE)
+    return bool(lead >= (-TIE if model.numbers < look.model.numbers else TIE))

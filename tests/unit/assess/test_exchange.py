@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from dashpot.assess.accepted import Accepted
-from dashpot.assess.revision import MOST_EXCHANGED, Revision
+from dashpot.assess.revision import MOST_EXCHANGED, Revision, succeeds
 
 
 class Court:
@@ -37,7 +37,10 @@ class Scripted(Revision):
 
 
 def accepted(word):
-    return SimpleNamespace(word=word, trial=SimpleNamespace(model=word, gain=1.0 if word == "weak" else 2.0))
+    suspect = SimpleNamespace(local=word in ("gain", "offset"))
+    finding = SimpleNamespace(candidate=SimpleNamespace(suspect=suspect))
+    trial = SimpleNamespace(model=word, gain=1.0 if word == "weak" else 2.0)
+    return SimpleNamespace(word=word, trial=trial, finding=finding)
 
 
 @pytest.fixture
@@ -112,6 +115,12 @@ def parts(monkeypatch, places, missed):
     return [getattr(entry, "word", None) or entry.finding.places for entry in found]
 
 
+def test_in_one_run_only_a_fault_of_single_runs_takes_the_place(monkeypatch):
+    places = ("first", "second")
+    assert parts(monkeypatch, places, {("first",): "friction"}) == [places]
+    assert parts(monkeypatch, places, {("first",): "gain"}) == [("first",), "gain"]
+
+
 def test_a_fault_of_one_run_of_several_gives_way_to_another_cause(monkeypatch):
     assert parts(monkeypatch, ("first", "second", "third"), {("first", "third"): "gain"}) == [
         ("first", "third"),
@@ -164,7 +173,20 @@ def named(word, chi_square):
 
 
 def trial(finding):
-    return SimpleNamespace(finding=finding, failure="", model=SimpleNamespace(numbers=5, chi_square=finding.chi_square))
+    return SimpleNamespace(finding=finding, failure="", model=fit_of(finding.chi_square))
+
+
+def fit_of(chi_square, numbers=5):
+    return SimpleNamespace(numbers=numbers, chi_square=chi_square)
+
+
+# the logarithm of 1000 samples is 6.9: what a number costs
+@pytest.mark.parametrize(("chi_square", "numbers", "does"), [
+    (189.0, 5, True), (191.0, 5, False), (202.0, 4, True), (216.0, 4, True), (218.0, 4, False),
+    (184.0, 6, False), (182.0, 6, True),
+])  # fmt: skip
+def test_what_takes_a_place_leads_or_ties_with_fewer_numbers(chi_square, numbers, does):
+    assert succeeds(fit_of(chi_square, numbers), Fitted(fit_of(200.0))) is does
 
 
 @pytest.mark.parametrize(
@@ -172,12 +194,12 @@ def trial(finding):
     [
         (("velocity_dependent_friction", 120.0), "velocity_dependent_friction"),
         (("velocity_dependent_friction", 195.0), "friction"),
-        (("drift", 100.0), "friction"),
+        (("drift", 100.0), "drift"),
         (None, "friction"),
     ],
 )
 def test_the_best_of_all_takes_the_place_with_its_rivals(winner, instead):
-    """What wins the contest has to lead, and to be another cause than the one that gives way."""
+    """What wins the contest has to lead; it may be the cause that was there, in more places."""
     found = named(*winner) if winner else None
     winners = [Accepted(found, trial(found), 0.0, None, ("a rival",))] if winner else []
     model = SimpleNamespace(numbers=5, chi_square=300.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from dashpot.assess.contest import Bench
+from dashpot.assess.menu import LONGEST, Sweep, Triangle
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.telling import ENOUGH, telling_run
 from dashpot.contract.registry import load_registry
@@ -58,6 +59,32 @@ def test_a_dashpot_and_a_maxwell_branch_come_apart_at_another_frequency(bench):
     assert found is not None
     assert found.distance >= ENOUGH
     assert "a sweep" in found.words or "a triangle" in found.words
+
+
+def test_where_no_run_is_long_enough_a_longer_one_is(bench):
+    """In noise forty times as loud the squared distance of the same runs is 1600 times as small."""
+    one, other = fitted(bench, DASHPOT), fitted(bench, MAXWELL)
+    short = telling_run(bench, one, other, flat_noise({"a": NOISE}))
+    found = telling_run(bench, one, other, flat_noise({"a": 40.0 * NOISE}))
+    assert short is not None
+    assert found is not None
+    assert found.distance >= ENOUGH
+    assert LONGEST > found.proposal.seconds > short.proposal.seconds
+
+
+def test_what_takes_longer_keeps_to_the_same_path():
+    sweep = Sweep(1e-3, 5e-3, 1.0, 10.0, 2.0)
+    slow = sweep.longer(3)
+    assert slow.displacement.size == pytest.approx(3 * sweep.displacement.size, rel=1e-2)
+    assert np.ptp(slow.displacement) == pytest.approx(2e-3, rel=1e-2)
+    assert "in 6 s" in slow.words
+    triangle = Triangle(2e-3, 6e-3, 1e-3)
+    assert triangle.seconds == 8.0
+    thrice = triangle.longer(3)
+    assert thrice.seconds == 24.0
+    assert thrice.words.startswith("3 triangles over 4 mm")
+    np.testing.assert_allclose(np.abs(np.diff(thrice.displacement)) / thrice.dt, 1e-3)
+    assert thrice.displacement[[0, 1000, 2000, 3000, 6000]] == pytest.approx([2e-3, 6e-3, 2e-3, 6e-3, 2e-3])
 
 
 def test_no_run_tells_a_model_from_itself(bench):
