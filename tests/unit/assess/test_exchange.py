@@ -139,7 +139,7 @@ class Fitted:
 
     model: SimpleNamespace
     noise = None
-    screen = SimpleNamespace(samples=1000)
+    screen = SimpleNamespace(samples=1000, threshold=0.0)
 
 
 class Contested(Court):
@@ -209,3 +209,25 @@ def test_the_best_of_all_takes_the_place_with_its_rivals(winner, instead):
     better = revision.better_than(entry, model, look, [])
     assert better.finding.candidate.name == (instead, "")
     assert better.rivals == (("a rival",) if winner and instead == winner[0] else ())
+
+
+class Pruned(Court):
+    """Without any of its causes a model misses by hardly more."""
+
+    def rebuild(self, kept, model, first, noise):
+        return fit_of(201.0, 4)
+
+    def bar(self, entry, reason):
+        self.barred.append((entry.word, reason))
+
+
+@pytest.mark.parametrize("stands", [True, False])
+def test_a_cause_is_superfluous_only_where_the_others_stay_what_they_say(monkeypatch, stands):
+    """A relaxation that would have to become a dashpot does not make the dashpot superfluous."""
+    monkeypatch.setattr("dashpot.assess.revision.admitted", lambda trial, base, model: stands or model.numbers == 5)
+    court, words = Pruned(), ("viscous_damping", "relaxation")
+    entries = [SimpleNamespace(word=word, base=None, trial=None, finding=None) for word in words]
+    look = Fitted(fit_of(200.0))
+    kept, _ = Revision(court, fit_of(5000.0), None).prune(entries, look)
+    assert [entry.word for entry in kept] == list(words[1:] if stands else words)
+    assert bool(court.barred) is stands
