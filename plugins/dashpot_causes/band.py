@@ -6,7 +6,7 @@ import numpy as np
 
 from dashpot.contract.cause import View
 
-HIGHEST = 3.0  # times the end of the band: a mass on a spring that is stiffer is a mass
+HIGHEST = 2.0  # times the end of the band: a mass on a spring that is stiffer is a mass
 
 
 def end_of_band(view: View) -> float:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from dashpot.assess.diagnosis import Diagnosis
 
 FLAGS = ("sensors", "without", "follow", "double")
+MOST_FURTHER = 3
 NETWORKS = Path(__file__).parent / "networks"
 
 
@@ -35,8 +36,9 @@ class Bench:
     """How cases are made and diagnosed.
 
     ``design``: which runs are driven; ``sensors``: the force channel errs within its data sheet; ``without``: the
-    engine is robbed of the cause plugins that would name what is hidden; ``follow``: the run that the engine asks for
-    is driven on the same specimen, and what it says then counts; ``double``: two effects are hidden.
+    engine is robbed of the cause plugins that would name what is hidden; ``follow``: the runs that the engine asks for
+    are driven on the same specimen, one after the other, and what it says then counts; ``double``: two effects are
+    hidden.
     """
 
     design: str = "full"
@@ -55,11 +57,12 @@ class Bench:
         case = draw()
         began = time.perf_counter()
         found = diagnose_folder(case.folder, base, self.jobs, robbed)
-        seconds, before = time.perf_counter() - began, None
-        if self.follow and found.next_runs:
+        seconds, before, more = time.perf_counter() - began, None, ()
+        while self.follow and found.next_runs and len(more) < MOST_FURTHER:
             asked = next(iter(found.next_runs.values())).proposal
-            more = draw(further=further(asked.displacement, asked.dt))
-            before, found = found.as_dict(), diagnose_folder(more.folder, base, self.jobs, robbed)
+            more = (*more, further(asked.displacement, asked.dt, len(more) + 1))
+            before = before or found.as_dict()
+            found = diagnose_folder(draw(further=more).folder, base, self.jobs, robbed)
         verdict = found.as_dict()
         named = [cause["cause"] for cause in verdict["causes"]]
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
@@ -102,7 +105,7 @@ def main() -> None:
     parser.add_argument("--design", default="full")
     parser.add_argument("--sensors", action="store_true", help="the force channel errs within its data sheet")
     parser.add_argument("--without", action="store_true", help="the engine lacks the plugin of what is hidden")
-    parser.add_argument("--follow", action="store_true", help="drive the run that the engine asks for, and ask again")
+    parser.add_argument("--follow", action="store_true", help="drive the runs that the engine asks for, and ask again")
     parser.add_argument("--double", action="store_true", help="two effects are hidden, one up to ten times the other")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")

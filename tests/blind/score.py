@@ -27,7 +27,7 @@ NOTHING = "nothing_missing"
 class Outcome:
     """One case after its label was opened.
 
-    ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the run that it asked for.
+    ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the runs that it asked for.
     """
 
     seed: int

@@ -559,10 +559,10 @@ def test_a_run_that_was_asked_for_comes_on_top_of_the_others(tmp_path, seed):
     time = np.arange(0.0, 2.0, 2e-3)
     asked = 20e-3 + 1e-3 * np.sin(2.0 * np.pi * 3.0 * time) * np.minimum(time, 1.0)
     before = draw_case(seed, "ftire", "friction", 1.0, folder=tmp_path / "before")
-    after = draw_case(seed, "ftire", "friction", 1.0, further=further(asked, 2e-3), folder=tmp_path / "after")
+    after = draw_case(seed, "ftire", "friction", 1.0, further=(further(asked, 2e-3),), folder=tmp_path / "after")
     for path in before.folder.glob("*.npz"):
         one, other = np.load(path), np.load(after.folder / path.name)
         assert all(np.array_equal(one[key], other[key]) for key in "txF")
-    run = np.load(after.folder / "asked.npz")
+    run = np.load(after.folder / "asked_1.npz")
     assert run["x"] == pytest.approx(1e3 * np.interp(run["t"], time, asked), abs=0.02)
     assert np.corrcoef(run["x"], run["F"])[0, 1] > 0.9

@@ -46,7 +46,7 @@ def draw_case(
     design: str = "full",
     form: str | None = None,
     sensors: bool = False,
-    further: Plan | None = None,
+    further: tuple[Plan, ...] = (),
     folder: Path | None = None,
 ) -> Case:
     """Draw a case and write its dataset.
@@ -55,7 +55,7 @@ def draw_case(
     strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10; of two, one up to ten times
     the other); design: a key of DESIGNS;
     form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
-    its data sheet, which the dataset then states; further: a run behind those of the design, the same specimen on it;
+    its data sheet, which the dataset then states; further: runs behind those of the design, the same specimen on them;
     folder: where to write, or None (temporary).
     An axle has one design and exact channels. Everything random comes from `seed`. Raises ValueError where a word is
     unknown, and where the runs of a design show no form of a kind; a form that they do not show is drawn again.
@@ -68,7 +68,7 @@ def draw_case(
         return Case(seed, place, SealedLabel(truth))
     specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
     runs = len(plans)
-    plans = (*plans, further) if further else plans
+    plans = (*plans, *further)
     for _ in range(MOST_DRAWS):
         forms = [_draw_form(word, form, rng, runs) for word in _draw_kinds(base, kind, rng)]
         strengths, bench = _draw_strengths(forms, strength, rng), _Bench(plans, specimen)

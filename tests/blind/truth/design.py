@@ -49,9 +49,9 @@ def drive(path: tuple[float, float]) -> Motion:
     return sweep(amplitude, preload, START, STOP, SWEEP_DURATION)
 
 
-def further(displacement: np.ndarray, dt: float) -> Plan:
+def further(displacement: np.ndarray, dt: float, number: int = 1) -> Plan:
     """A run that somebody asked for, along a displacement (n,) given every `dt`; it counts in no strength."""
-    return Plan("asked", asked=along(displacement, dt))
+    return Plan(f"asked_{number}", asked=along(displacement, dt))
 
 
 def _sweeps(amplitudes: tuple[float, ...], preloads: tuple[float, ...]) -> tuple[Plan, ...]:

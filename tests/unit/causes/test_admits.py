@@ -65,14 +65,14 @@ def test_other_causes_admit_what_is_found():
     assert suspect("friction", "dahl").admits({"limit": 10.0})
 
 
-# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: a resonance lies between 0.4 Hz and three times as much
+# a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: a resonance lies between 0.4 Hz and twice as much
 @pytest.mark.parametrize(("word", "form"), [
     ("fluid_mass", "a mass behind a spring"), ("mass", "a mass hung on a spring"),
 ])  # fmt: skip
 @pytest.mark.parametrize(("frequency", "ratio", "turbulence", "admitted"), [
     (5.0, 0.1, 0.0, True),
-    (23.0, 0.9, 0.0, True),
-    (25.0, 0.1, 0.0, False),
+    (15.0, 0.9, 0.0, True),
+    (17.0, 0.1, 0.0, False),
     (0.5, 0.1, 0.0, True),
     (0.3, 0.1, 0.0, False),
     (5.0, 1.1, 0.0, False),
@@ -85,7 +85,7 @@ def test_a_resonance_swings_within_reach_of_what_was_driven(word, form, frequenc
     assert suspect("resonance", f"{form}, in turbulence").admits(found) is admitted
 
 
-@pytest.mark.parametrize(("frequency", "admitted"), [(23.0, False), (25.0, True), (300.0, True)])
+@pytest.mark.parametrize(("frequency", "admitted"), [(15.0, False), (17.0, True), (300.0, True)])
 def test_a_mass_on_its_mounting_resonates_beyond_that(frequency, admitted):
     found = {"mass": 3.0, "stiffness": 3.0 * (2.0 * math.pi * frequency) ** 2, "damping": 1.0}
     assert suspect("moving_mass", "a mass on its mounting").admits(found) is admitted
