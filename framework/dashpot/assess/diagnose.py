@@ -17,6 +17,7 @@ from dashpot.assess.misfits import residuals_of
 from dashpot.assess.pursuit import Pursuer, Pursuit
 from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
+from dashpot.assess.untried import remarks_on_untried, with_untried
 from dashpot.assess.verdict import give_verdict
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
@@ -70,7 +71,8 @@ def diagnose(
                   partial(watch, "screen of all places"))  # fmt: skip
     court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
                   {run.name: run.cluster for run in dataset.runs})  # fmt: skip
-    pursuit = Pursuer(court, watch).run(model_of(fit))
+    pursued = Pursuer(court, watch).run(model_of(fit))
+    pursuit = with_untried(pursued, causes)
     final = known_to(bench, pursuit)
     first = pursuit.ladder[0]
     misfit = describe_misfit(dataset.runs, residuals_of(first, setting.scored))
@@ -79,7 +81,9 @@ def diagnose(
     leftover = look_for_leftover(last.view, last.columns, last.noise, runs)
     return Diagnosis(
         setting=setting,
-        triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec))),
+        triage=replace(
+            triage, remarks=(*triage.remarks, *restarts, *limits_of(spec), *remarks_on_untried(pursued, causes))
+        ),
         fit=fit,
         pursuit=pursuit,
         final=final,

@@ -128,17 +128,20 @@ class Diagnosis:
             return [f"to be sure of it, {self.next_runs[word, ''].words}"]
         found = []
         for rival in named.rivals:
-            known = telling_measurement(named.cause, self.causes[rival])
+            known = telling_measurement(named.cause, rival, self.causes)
             run = self.next_runs.get((word, rival))
             found.append("; or ".join(text for text in (run.words if run else "", known) if text))
         return [text for text in found if text] or ([named.cause.cure] if named.cause.cure else [])
+
+    def _about(self, word: str) -> str:
+        return self.causes[word].about if word in self.causes else word.replace("_", " ")
 
     def _next_measurements(self) -> list[str]:
         """The same for the report, each with the names it is about."""
         found = []
         for named in self.named:
             others = [other.title for other in named.alternatives]
-            rivals = " or ".join(others or [self.causes[word].about for word in named.rivals])
+            rivals = " or ".join(others or [self._about(word) for word in named.rivals])
             about = f"{named.title} or {rivals}" if rivals else named.title
             found += [f"{about}: {text}" for text in self._telling(named)]
         return found

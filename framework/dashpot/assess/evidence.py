@@ -94,9 +94,10 @@ def _told(limit: Limit) -> dict[str, Any]:
     }
 
 
-def telling_measurement(cause: type[Cause], rival: type[Cause]) -> str:
-    """The measurement that tells two causes apart, or an empty text when neither of them says."""
-    return cause.confused_with.get(rival.word) or rival.confused_with.get(cause.word, "")
+def telling_measurement(cause: type[Cause], rival: str, causes: Mapping[str, type[Cause]]) -> str:
+    """The measurement that tells a cause from a rival, by its word, or an empty text when neither of them says."""
+    other = causes[rival].confused_with if rival in causes else {}
+    return cause.confused_with.get(rival) or other.get(cause.word, "")
 
 
 def _rejected(causes: Mapping[str, type[Cause]], rejection: Rejection) -> dict[str, Any]:
