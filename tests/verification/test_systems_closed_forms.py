@@ -69,7 +69,7 @@ def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, s
     ])  # fmt: skip
     state(f"spring and slider {sharpness:g} times as stiff in series at 1 ms: {np.median(errors):.1e} of the limit, "
           f"largest {errors.max():.1e}")  # fmt: skip
-    # where the slider turns Newton's method stops a few nanometres beside the root: one draw in a hundred misses by 2e-4
+    # where the slider turns Newton's method stops beside the root: by a few nanometres, once in a hundred draws by more
     assert np.median(errors) < 5e-5
     assert errors.max() < 5e-4
 
