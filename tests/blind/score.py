@@ -93,8 +93,8 @@ class Outcome:
     def over_noise(self) -> float | None:
         """The held-out error after the extension over the noise that is really in these runs: as an oracle has it."""
         after, runs = self.verdict["rmse"]["after"]["held_out"], self.verdict["held_out"]
-        if after is None or not runs:
-            return None
+        if after is None or not runs or not set(runs) <= set(self.truth.noise_rms):
+            return None  # of runs that were asked for the truth says nothing
         return after / (sum(self.truth.noise_rms[run] ** 2 for run in runs) / len(runs)) ** 0.5
 
     @property
