@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.powers import NEARLY_TWO, reference_speed
+from dashpot_causes.powers import NEARLY_TWO, power_near
 
 
 class QuadraticDamping(Cause):
@@ -30,14 +30,4 @@ class QuadraticDamping(Cause):
             {"damping": "N*s^2/m^2"},
             unknowns=0,
         )
-        reference = reference_speed(view)
-        yield added_branch(
-            "power_law_damper",
-            "quadratic_damping",
-            (2.0,),
-            lambda force, power: {"force": force, "exponent": power, "reference": reference},
-            {"force": "N", "exponent": "1", "reference": "m/s"},
-            fixed=("reference",),
-            bounds={"exponent": NEARLY_TWO},
-            form="a power near to two",
-        )
+        yield power_near(view, "quadratic_damping", 2.0, NEARLY_TWO, "a power near to two")

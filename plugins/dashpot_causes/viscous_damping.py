@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.powers import NEARLY_ONE, reference_speed
+from dashpot_causes.powers import NEARLY_ONE, power_near
 
 
 class ViscousDamping(Cause):
@@ -31,14 +31,4 @@ class ViscousDamping(Cause):
             {"damping": "N*s/m"},
             unknowns=0,
         )
-        reference = reference_speed(view)
-        yield added_branch(
-            "power_law_damper",
-            "viscous_damping",
-            (1.0,),
-            lambda force, power: {"force": force, "exponent": power, "reference": reference},
-            {"force": "N", "exponent": "1", "reference": "m/s"},
-            fixed=("reference",),
-            bounds={"exponent": NEARLY_ONE},
-            form="a power near to one",
-        )
+        yield power_near(view, "viscous_damping", 1.0, NEARLY_ONE, "a power near to one")

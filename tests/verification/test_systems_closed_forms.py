@@ -69,8 +69,9 @@ def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, s
     ])  # fmt: skip
     state(f"spring and slider {sharpness:g} times as stiff in series at 1 ms: {np.median(errors):.1e} of the limit, "
           f"largest {errors.max():.1e}")  # fmt: skip
-    # where the slider turns Newton's method stops beside the root: by a few nanometres, once in a hundred draws by more
+    # where the slider turns Newton's method stops up to a tenth of a micrometre beside the root
     assert np.median(errors) < 5e-5
+    assert np.quantile(errors, 0.9) < 2e-4
     assert errors.max() < 5e-4
 
 

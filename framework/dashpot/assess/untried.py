@@ -18,11 +18,12 @@ def with_untried(pursuit: Pursuit, causes: Mapping[str, type[Cause]]) -> Pursuit
 
 def remarks_on_untried(pursuit: Pursuit, causes: Mapping[str, type[Cause]]) -> list[str]:
     """What to say of the causes that could not be tried."""
-    return [
+    remarks = (
         f"No plugin provides the cause '{word}', with which '{entry.finding.candidate.cause.word}' is confused: "
         f"it was not tried, and is not ruled out."
         for entry in pursuit.accepted for word in untried(entry, causes)
-    ]  # fmt: skip
+    )  # fmt: skip
+    return list(dict.fromkeys(remarks))
 
 
 def untried(entry: Accepted, causes: Mapping[str, type[Cause]]) -> list[str]:

@@ -117,8 +117,9 @@ class Cause(ABC):
     """A suspected cause of misfit.
 
     ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
-    other words to the measurement that tells the two apart. ``cure`` says what to do about the measurement, where it is
-    to blame; ``faults`` are the kinds of faults found by triage that the cause stands for.
+    other words to the measurement that tells the two apart; one that no plugin provides is a rival. ``cure`` says what
+    to do about the measurement, where it is to blame; ``faults`` are the kinds of faults found by triage that the cause
+    stands for.
 
     Examples:
         >>> class MissingBumper(dp.Cause):

@@ -34,7 +34,8 @@ def test_what_could_not_be_tried_is_a_rival_and_is_told(missing):
     pursuit = pursuit_of("resonance")
     (entry,) = with_untried(pursuit, causes).accepted
     assert entry.rivals == ("hum", missing)
-    (remark,) = remarks_on_untried(pursuit, causes)
+    twice = replace(pursuit, accepted=2 * pursuit.accepted)
+    (remark,) = remarks_on_untried(twice, causes)
     assert f"No plugin provides the cause '{missing}'" in remark
     assert telling_measurement(CAUSES["resonance"], missing, causes) == CAUSES["resonance"].confused_with[missing]
 
