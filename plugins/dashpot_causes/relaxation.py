@@ -11,13 +11,20 @@ from dashpot.model.network import NetworkSpec
 from dashpot_causes.band import end_of_band
 
 UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
+SPRINGPOT_UNITS = {"stiffness": "N/m", "order": "1", "reference": "Hz", "lowest": "Hz", "decades": "1", "dwell": "s"}
 PLACES = 18
+ORDERS = (0.1, 0.2, 0.35, 0.5)
+WIDEST_ORDER = (0.03, 0.55)  # beyond it is a spring, or a dashpot has its share
+MOST_DECADES = 8.0
+DWELL = 30.0  # s
+DWELLS = (0.1, 1e4)
+SLOW, FAST = 0.1, 3.0  # over the length of a run, times the end of the band: the range of a springpot
 MOST = 3
 FASTEST = 0.2  # over the angular frequency at the end of the measured band: what relaxes faster is a dashpot
 
 
 class Relaxation(Cause):
-    """Maxwell branches of one or several relaxation times."""
+    """Maxwell branches of one or several relaxation times, or of very many: a springpot."""
 
     word = "relaxation"
     kind = "specimen"
@@ -30,7 +37,7 @@ class Relaxation(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Maxwell branches on a logarithmic grid of relaxation times."""
+        """Maxwell branches on a logarithmic grid of relaxation times; a springpot over the measured band."""
         grid = np.geomspace(2.0 * view.dt, 0.3 * view.duration, PLACES)
         fastest = FASTEST / (2.0 * np.pi * end_of_band(view))
 
@@ -46,3 +53,21 @@ class Relaxation(Cause):
             most=MOST,
             admits=relaxes,
         )
+        lowest = SLOW / view.duration
+        decades = float(np.log10(FAST * end_of_band(view) / lowest))
+        if decades > 1.0:
+            yield _springpot(lowest, min(decades, MOST_DECADES))
+
+
+def _springpot(lowest: float, decades: float) -> Suspect:
+    known = {"reference": lowest * 10.0 ** (0.5 * decades), "lowest": lowest, "decades": decades}
+    return added_branch(
+        "springpot",
+        "relaxation",
+        ORDERS,
+        lambda stiffness, order: {"stiffness": stiffness, "order": order, **known, "dwell": DWELL},
+        SPRINGPOT_UNITS,
+        fixed=tuple(known),
+        unknowns=2,
+        bounds={"order": WIDEST_ORDER, "dwell": DWELLS},
+    )

@@ -23,7 +23,8 @@ class Springpot(Element):
     it, which is two a decade over the default range, and one far beyond either end for all that lies there.
     Their stiffnesses follow from the spectrum sin(pi order)/pi T^-order d(ln T) of the relaxation times T by the
     trapezoidal rule. Over the default range |K*| is good to 0.2 %, the loss tangent to 3 % at its ends and 0.7 %
-    half a decade inside.
+    half a decade inside. The deflection with which a record begins was reached ``dwell`` seconds before; without a
+    number so long ago that all of its force has relaxed.
     """
 
     picture = Symbol.FRACTIONAL
@@ -36,16 +37,20 @@ class Springpot(Element):
     lowest = Parameter("Hz", "low end of the range of frequencies", bounds=(1e-6, 1e5), symbol="f_1", default=0.1)
     decades = Parameter("1", "length of the range of frequencies", bounds=(0.5, 8.0), scale="linear", symbol="N",
                         default=3.0)  # fmt: skip
+    dwell = Parameter("s", "time under the first deflection before the record", bounds=(1e-3, 1e9), symbol="t_0",
+                      default=1e9)  # fmt: skip
     (force_1, force_2, force_3, force_4, force_5, force_6, force_7, force_8, force_9, force_10, force_11, force_12,
      force_13) = (State("N", f"force in branch {number}") for number in range(1, INSIDE + 3))  # fmt: skip
+    begun = State("1", "whether the first step has been taken")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
-        """Every branch fades and adds what is remembered of the travel."""
+        """Every branch fades and adds what is remembered of the travel, at the first step also of the dwell."""
         forces = {}
+        first = np.where(z.begun > 0.5, 0.0, x.old)
         for number, (stiffness, time) in enumerate(_branches(p), 1):
-            old = getattr(z, f"force_{number}")
+            old = getattr(z, f"force_{number}") + stiffness * np.exp(-p.dwell / time) * first
             forces[f"force_{number}"] = np.exp(-dt / time) * old + stiffness * fading_travel(x, dt, time)
-        return Response(sum(forces.values()), **forces)
+        return Response(sum(forces.values()), begun=1.0, **forces)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of the springs of all branches."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.special import gamma
 from verification.alone import network_of
 from verification.truth.elements import (
     absorber_pull,
@@ -175,3 +176,17 @@ def test_a_creeping_spring_loses_its_force_along_the_logarithm_of_time():
     assert force == pytest.approx(1e4 * held * 0.5 * np.exp(-since / times).sum(axis=1), abs=1e-9)
     decade = force[100] - force[1000]  # from 10 s to 100 s
     assert decade == pytest.approx(1e4 * held, rel=0.03)
+
+
+@pytest.mark.parametrize("order", [0.1, 0.3, 0.5])
+@pytest.mark.parametrize("dwell", [3.0, 40.0])
+def test_a_springpot_still_feels_the_deflection_under_which_it_has_rested(order, dwell):
+    """The relaxation modulus of (j w)^order is t^-order/Gamma(1 - order), t from the begin of the dwell on."""
+    network = network_of("springpot", stiffness=1e5, order=order, reference=1.0, lowest=0.002, decades=4.0, dwell=dwell)
+    dt, still = 0.01, np.full(2001, 5e-3)
+    force = network.simulate(network.prepare(drive_from_path(dt, still, 0.0 * still, 0.0 * still)))
+    time = dwell + dt * np.arange(still.size)
+    expected = 1e5 * (2.0 * np.pi) ** -order * 5e-3 * time**-order / gamma(1.0 - order)
+    assert force[1:] == pytest.approx(expected[1:], rel=0.01)  # two and a half branches a decade
+    rested = network_of("springpot", stiffness=1e5, order=order)
+    assert not rested.simulate(rested.prepare(drive_from_path(dt, still, 0.0 * still, 0.0 * still))).any()

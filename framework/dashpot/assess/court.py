@@ -11,7 +11,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import TIE, Form, form_of, parts_of
+from dashpot.assess.finalists import TIE, Form, choose_finalists, form_of, parts_of, plainer
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -20,6 +20,7 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, glance_at, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
+from dashpot.fit.refine import Outcome
 from dashpot.fit.scored import ScoredRun
 from dashpot.model.network import Value
 from dashpot.model.reading import parse_network
@@ -123,8 +124,20 @@ class Court:
         beside = self.glance(alone.model, look)
         rest = parts_of(trial.finding, beside.screen.findings, parts[0])
         both = self.try_out(rest[0], beside) if rest else alone
-        better = both.model.chi_square + TIE <= trial.model.chi_square and both.model.numbers <= trial.model.numbers
-        return alone if better and not (alone.failure or both.failure) else None
+        return alone if outdoes(both, trial) and not alone.failure else None
+
+    def plainer_form(self, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
+        """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
+
+        That cause is found as the next.
+        """
+        for other in plainer(trial, ranked):
+            form = self.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
+            beside = self.glance(form.model, look)
+            further = choose_finalists(self.admissible(beside), beside)[:1]
+            if not form.failure and any(outdoes(self.try_out(finding, beside), trial) for finding in further):
+                return form
+        return None
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
@@ -265,6 +278,12 @@ class Court:
         candidate = finding.candidate
         value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
         self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
+
+
+def outdoes(both: Trial, trial: Trial) -> bool:
+    """Whether the model with two causes fits better than that of a trial, without more numbers."""
+    better = both.model.chi_square + TIE <= trial.model.chi_square
+    return better and both.model.numbers <= trial.model.numbers and not both.failure
 
 
 def within_form(gain: float, before: float, explained: float) -> bool:

@@ -94,6 +94,15 @@ def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
     )  # fmt: skip
 
 
+def plainer(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
+    """Trials of other forms of the chosen cause with fewer numbers that explain nearly as much."""
+    return tuple(
+        other for other in ranked
+        if other.finding.candidate.name == chosen.finding.candidate.name
+        and other.model.numbers < chosen.model.numbers and other.gain > NEARLY * chosen.gain
+    )  # fmt: skip
+
+
 def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
     """The chi square from which on the refit of a finding comes near the best trial so far.
 

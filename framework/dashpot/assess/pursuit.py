@@ -255,7 +255,7 @@ class Pursuer:
         doubtful = tuple(other for other in imitations if in_doubt(other, chosen))
         for other in (other for other in (*ranked, *imitations) if other not in (*near, *doubtful)):
             court.reject(other.finding, _why_not(other, level, imitations), None, None)
-        part = court.taken_apart(chosen, look)
+        part = court.taken_apart(chosen, look) or court.plainer_form(chosen, ranked, look)
         chosen, others = (part, ()) if part else (court.simplify(chosen, look), (*others, *doubtful))
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
         foreseen = court.foresee(chosen.finding if part else finding_of(trial, look), look)

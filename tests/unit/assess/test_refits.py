@@ -154,6 +154,63 @@ def test_a_branch_that_relaxes_too_fast_to_show_is_left_to_a_dashpot(rng, dampin
     assert (after.screen.best is not None) is (damping > 0.0)
 
 
+def rubbery(order, damping):
+    """A spring of 200 N/mm, a springpot with the memory of t^-order rested for 20 s, and a damper."""
+
+    def force(x, v):
+        time = STEP * np.arange(x.size + 1)
+        modulus = 60e3 * np.diff(time ** (1.0 - order)) / STEP * 0.02**order / (1.0 - order)
+        felt = np.convolve(np.diff(x, prepend=x[0]), modulus)[: x.size]
+        return 200e3 * x + felt + x[0] * 60e3 * 0.02**order * (20.0 + time[1:]) ** -order + damping * v
+
+    return force
+
+
+def relaxations(rng, order, damping):
+    """Before a court the refits of both forms of relaxation, and a look at what they were found in."""
+    bench, held_out = bench_of(rubbery(order, damping), rng)
+    court = Court(bench, held_out, [REGISTRY.causes[word] for word in ("relaxation", "viscous_damping")], 0)
+    look = court.look(fitted(bench, SPRING), None)
+    found = {one.candidate.suspect.form: one for one in look.screen.findings}
+    return court, look, *(court.simplify(court.try_out(found[form], look), look) for form in ("maxwell", "springpot"))
+
+
+def numbers_of(trial):
+    return {slot.path: slot.value.number for slot in trial.model.fitted.slots()}
+
+
+def test_a_springpot_explains_more_than_many_branches_and_knows_how_long_it_rested(rng):
+    order = rng.uniform(0.15, 0.35)
+    _, _, branches, springpot = relaxations(rng, order, 0.0)
+    assert springpot.merit > branches.merit
+    assert springpot.model.numbers < branches.model.numbers
+    found = numbers_of(springpot)
+    assert found["relaxation.order"] == pytest.approx(order, abs=0.02)
+    assert found["relaxation.dwell"] == pytest.approx(20.0, rel=0.25)
+
+
+def test_where_a_springpot_beside_a_dashpot_explains_more_it_takes_the_place_of_branches_that_make_up_both(rng):
+    order = rng.uniform(0.15, 0.35)
+    court, look, branches, springpot = relaxations(rng, order, 300.0)
+    assert branches.merit > springpot.merit
+    plain = court.plainer_form(branches, [branches, springpot], look)
+    assert plain.finding is springpot.finding
+    beside = court.look(plain.model, look.noise)
+    assert beside.screen.best.candidate.cause.word == "viscous_damping"
+    found = numbers_of(court.try_out(beside.screen.best, beside))
+    assert found["relaxation.order"] == pytest.approx(order, abs=0.05)
+    assert found["viscous_damping.damping"] == pytest.approx(300.0, rel=0.15)
+
+
+def test_branches_that_relax_each_by_itself_keep_their_place(rng):
+    bench, held_out = bench_of(relaxing(0.0), rng)
+    court = Court(bench, held_out, [REGISTRY.causes["relaxation"]], 0)
+    look = court.look(fitted(bench, SPRING), None)
+    branch, springpot = (court.try_out(one, look) for one in look.screen.findings)
+    assert branch.merit > springpot.merit
+    assert court.plainer_form(branch, [branch, springpot], look) is None
+
+
 def heavy(x, v):
     """A spring of 200 N/mm, a mass of 2 kg and a damper."""
     return 200e3 * x + 2.0 * np.gradient(v, STEP) + 400.0 * v
