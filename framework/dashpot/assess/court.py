@@ -22,7 +22,7 @@ from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
 from dashpot.fit.refine import Outcome
 from dashpot.fit.scored import ScoredRun
-from dashpot.model.network import Value
+from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.reading import parse_network
 
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
@@ -35,6 +35,7 @@ BEYOND_FORM_ALONE = 0.007
 REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
+REMEMBERED = 2  # looks: one holds all suspects on all runs
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
 
@@ -57,10 +58,26 @@ class Court:
     barred: set[Form] = field(default_factory=set)
     imitations: dict[Form, set[Form]] = field(default_factory=dict)
     exchanged: set[Form] = field(default_factory=set)
+    latest: list[Look] = field(default_factory=list)
 
     def look(self, model: Model, noise: NoiseModel | None) -> Look:
-        """What is left of a model, and every suspect against it."""
-        return look_at(self.bench, model, self.causes, noise, self.seed)
+        """What is left of a model, and every suspect against it. The latest looks are remembered."""
+        found = next((look for look in self.latest if look.model is model), None)
+        if found is None:
+            found = look_at(self.bench, model, self.causes, noise, self.seed)
+            self.latest[:] = [*self.latest, found][-REMEMBERED:]
+        return found
+
+    def look_without(self, entry: Accepted, kept: Sequence[Accepted], look: Look, first: Model) -> Look:
+        """A look at the model with what is ``kept``, without an accepted cause.
+
+        It is the one in which the cause was found, where that is remembered and saw just what is kept.
+        """
+        for before in (one for one in self.latest if one.model is entry.base):
+            mending = [mend.finding for mend in before.model.mends]
+            if _parts(before.model.declared) == _parts(self.extended(kept, first)) and mending == _mending(kept):
+                return before
+        return self.look(self.rebuild(kept, look.model, first, look.noise), look.noise)
 
     def glance(self, model: Model, look: Look) -> Look:
         """Every suspect against another model, by the noise and the columns of a look."""
@@ -145,15 +162,19 @@ class Court:
         Present numbers that wandered with a cause that is gone may be worse than those of the first model or those with
         which a cause was accepted.
         """
-        text = first.declared.text
-        for entry in kept:
-            text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
-        declared = parse_network(text, self.bench.elements, first.declared.file)
+        declared = self.extended(kept, first)
         known = [entry.finding for entry in kept]
         mends = [mend for mend in model.mends if any(mend.finding is finding for finding in known)]
         earlier = [first.fitted, *(entry.trial.model.fitted for entry in kept)]
         starts = [self.bench.start_from(declared, numbers) for numbers in (model.fitted, *earlier)]
         return self.bench.fit(declared, starts[self.bench.nearest(starts, noise, mends)], noise, mends)
+
+    def extended(self, kept: Sequence[Accepted], first: Model) -> NetworkSpec:
+        """The first model's network with the patches of some causes, as a file declares it."""
+        text = first.declared.text
+        for entry in kept:
+            text = entry.finding.candidate.suspect.extend(text, entry.finding.atoms)
+        return parse_network(text, self.bench.elements, first.declared.file)
 
     def examine(self, trial: Trial, look: Look, explained: float) -> tuple[Gain | None, str]:
         """The gain of a trial on held-out runs, and why it may not be accepted, or an empty text."""
@@ -174,8 +195,6 @@ class Court:
             return trial.failure
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
-        if not self.holds(look.model, trial.model, gain):
-            return reasons.NOT_SUPPORTED
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         if within_form(trial.gain, look.model.chi_square, explained):
             return "explains no more than the accepted causes may be wrong by in their form"
@@ -183,7 +202,9 @@ class Court:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and max(fall, change) < (least := self.least_later_gain(trial.finding, look, explained)):
             return reasons.TOO_LITTLE.format(least=least)
-        return ""
+        if not self.holds(look.model, trial.model, gain):
+            return reasons.NOT_SUPPORTED
+        return reasons.FURTHER_NOT_SUPPORTED if explained and gain and gain.value <= 0.0 else ""
 
     def least_later_gain(self, finding: Finding, look: Look, explained: float) -> float:
         """The share by which a later cause has to make the error smaller to be worth a name.
@@ -278,6 +299,15 @@ class Court:
         candidate = finding.candidate
         value, place = gain.value if gain else None, candidate.site.words if candidate.site else None
         self.rejected.append(Rejection(candidate.cause.word, candidate.suspect.form, reason, foreseen, value, place))
+
+
+def _parts(network: NetworkSpec) -> list[tuple[str, ...]]:
+    leaves = [(leaf.name, leaf.element.word) for leaf in network.leaves()]
+    return [*leaves, *((slot.path,) for slot in network.slots())]
+
+
+def _mending(kept: Sequence[Accepted]) -> list[Finding]:
+    return [entry.finding for entry in kept if entry.finding.candidate.suspect.mends]
 
 
 def outdoes(both: Trial, trial: Trial) -> bool:

@@ -180,8 +180,7 @@ class Pursuer:
         entry = accepted[useless[-1]]
         court.reject(entry.finding, reasons.NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
         kept = [other for other in accepted if other is not entry]
-        model = court.rebuild(kept, look.model, first.model, look.noise)
-        return self.settle_gains(kept, court.look(model, look.noise), first)
+        return self.settle_gains(kept, court.look_without(entry, kept, look, first.model), first)
 
     def useless(self, gains: Sequence[Gain | None]) -> list[int]:
         """The numbers of the gains that are too small to be of interest."""
