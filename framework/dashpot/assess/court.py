@@ -146,15 +146,22 @@ class Court:
     def plainer_form(self, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
         """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
 
-        That cause is found as the next.
+        That cause, found as the next, may not explain as much beside the trial itself.
         """
         for other in plainer(trial, ranked):
             form = self.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
-            beside = self.glance(form.model, look)
-            further = choose_finalists(self.admissible(beside), beside)[:1]
-            if not form.failure and any(outdoes(self.try_out(finding, beside), trial) for finding in further):
-                return form
+            both = self.with_the_next(form, look)
+            if both and outdoes(both, trial) and not form.failure:
+                same = self.with_the_next(trial, look)
+                price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples) if same else 0.0
+                if not same or both.model.chi_square + price + TIE <= same.model.chi_square:
+                    return form
         return None
+
+    def with_the_next(self, trial: Trial, look: Look) -> Trial | None:
+        """A trial beside the best cause of a glance at it, if there is any."""
+        beside = self.glance(trial.model, look)
+        return next((self.try_out(one, beside) for one in choose_finalists(self.admissible(beside), beside)), None)
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
