@@ -35,8 +35,22 @@ BEYOND_FORM_ALONE = 0.007
 REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
+MOST_LOOKS = 24  # two effects take about eight
 REMEMBERED = 2  # looks: one holds all suspects on all runs
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
+
+
+@dataclass
+class Effort:
+    """How often all suspects were weighed on all runs, by a look or a glance, and after how often a search ends."""
+
+    most: int = MOST_LOOKS
+    looks: int = 0
+
+    @property
+    def spent(self) -> bool:
+        """Whether no further cause is to be looked for."""
+        return self.looks >= self.most
 
 
 @dataclass(eq=False)
@@ -59,11 +73,13 @@ class Court:
     imitations: dict[Form, set[Form]] = field(default_factory=dict)
     exchanged: set[Form] = field(default_factory=set)
     latest: list[Look] = field(default_factory=list)
+    effort: Effort = field(default_factory=Effort)
 
     def look(self, model: Model, noise: NoiseModel | None) -> Look:
         """What is left of a model, and every suspect against it. The latest looks are remembered."""
         found = next((look for look in self.latest if look.model is model), None)
         if found is None:
+            self.effort.looks += 1
             found = look_at(self.bench, model, self.causes, noise, self.seed)
             self.latest[:] = [*self.latest, found][-REMEMBERED:]
         return found
@@ -81,6 +97,7 @@ class Court:
 
     def glance(self, model: Model, look: Look) -> Look:
         """Every suspect against another model, by the noise and the columns of a look."""
+        self.effort.looks += 1
         return glance_at(self.bench, model, look, self.seed)
 
     def admissible(self, look: Look, exchange: bool = False) -> list[Finding]:
@@ -211,7 +228,8 @@ class Court:
             return reasons.TOO_LITTLE.format(least=least)
         if not self.holds(look.model, trial.model, gain):
             return reasons.NOT_SUPPORTED
-        return reasons.FURTHER_NOT_SUPPORTED if explained and gain and gain.value <= 0.0 else ""
+        weak = bool(explained) and max(fall, change) < SMALLEST_LATER_GAIN
+        return reasons.FURTHER_NOT_SUPPORTED if weak and gain and gain.value <= 0.0 else ""
 
     def least_later_gain(self, finding: Finding, look: Look, explained: float) -> float:
         """The share by which a later cause has to make the error smaller to be worth a name.

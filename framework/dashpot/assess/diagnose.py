@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from dashpot.assess.contest import Bench, Model
-from dashpot.assess.court import SMALLEST_GAIN, Court
+from dashpot.assess.court import MOST_LOOKS, SMALLEST_GAIN, Court, Effort
 from dashpot.assess.diagnosis import Diagnosis
 from dashpot.assess.leftover import look_for_leftover
 from dashpot.assess.mend import mended
@@ -50,11 +50,13 @@ def diagnose(
     registry: Registry,
     progress: Progress | None = None,
     relevance: float = SMALLEST_GAIN,
+    most_looks: int = MOST_LOOKS,
 ) -> Diagnosis:
     """Triage the data, fit, look at what is left, pursue its causes, and say how sure that is.
 
-    A cause that makes the training error smaller by less than the share ``relevance`` is not named. Raises InputError
-    for a network that does not compile on these data, and where no plugin provides a cause.
+    A cause that makes the training error smaller by less than the share ``relevance`` is not named. After so many
+    looks at all suspects as ``most_looks`` the search ends. Raises InputError for a network that does not compile on
+    these data, and where no plugin provides a cause.
     """
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
@@ -70,7 +72,7 @@ def diagnose(
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
                   partial(watch, "screen of all places"))  # fmt: skip
     court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
-                  {run.name: run.cluster for run in dataset.runs})  # fmt: skip
+                  {run.name: run.cluster for run in dataset.runs}, effort=Effort(most_looks))  # fmt: skip
     pursued = Pursuer(court, watch).run(model_of(fit))
     pursuit = with_untried(pursued, causes)
     final = known_to(bench, pursuit)
@@ -82,7 +84,14 @@ def diagnose(
     return Diagnosis(
         setting=setting,
         triage=replace(
-            triage, remarks=(*triage.remarks, *restarts, *limits_of(spec), *remarks_on_untried(pursued, causes))
+            triage,
+            remarks=(
+                *triage.remarks,
+                *restarts,
+                *limits_of(spec),
+                *remarks_on_untried(pursued, causes),
+                *remarks_on_effort(pursued, most_looks),
+            ),
         ),
         fit=fit,
         pursuit=pursuit,
@@ -139,6 +148,14 @@ def limits_of(spec: NetworkSpec) -> list[str]:
     if spec.joints:
         found.append("No further run is simulated to tell causes apart: that is done for networks with two ends only.")
     return found
+
+
+def remarks_on_effort(pursuit: Pursuit, most_looks: int) -> list[str]:
+    """What to say of a search that was cut short."""
+    if not pursuit.cut_short:
+        return []
+    return [f"The search ended after {most_looks} looks at all suspects: what is named was found, other causes may "
+            "explain as much. More looks (`--most-looks`) take it further."]  # fmt: skip
 
 
 def next_runs(bench: Bench, pursuit: Pursuit) -> dict[tuple[str, str], Telling]:

@@ -45,7 +45,8 @@ class Pursuit:
     """The way from the first look to the last one.
 
     ``ladder`` holds the first model and the model after each accepted cause, refitted to the plain error in N.
-    ``least_force`` is the RMS in N that a cause has to add to the last model to be of interest.
+    ``least_force`` is the RMS in N that a cause has to add to the last model to be of interest. ``cut_short`` says that
+    the search ended after so many looks that more than one way to explain the data may be left untried.
     """
 
     first: Look
@@ -55,6 +56,7 @@ class Pursuit:
     tried: int
     ladder: tuple[Model, ...]
     least_force: float
+    cut_short: bool = False
 
     @property
     def explained(self) -> float:
@@ -89,14 +91,15 @@ class Pursuer:
         least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * error)
         named = {entry.finding.candidate.name for entry in accepted}
         rejected = tuple(one for one in court.rejected if (one.cause, one.place or "") not in named)
-        return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force)
+        return Pursuit(first, look, tuple(accepted), rejected, self.tried, tuple(ladder), least_force,
+                       court.effort.spent)  # fmt: skip
 
     def pursue(
         self, accepted: list[Accepted], look: Look, first: Look, most: int = MOST_CAUSES
     ) -> tuple[list[Accepted], Look]:
         """Add causes to those that are accepted, as long as there are any that hold, and no more than ``most``."""
         revision = Revision(self.court, first.model, partial(self.best_trial, exchange=True))
-        while len(accepted) < most:
+        while len(accepted) < most and not (accepted and self.court.effort.spent):
             self.tried += len(look.screen.findings)
             explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
             winners = self.best_trial(look, max(explained, 0.0))
@@ -111,7 +114,7 @@ class Pursuer:
     def another_way(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
         """What is found without a cause that was accepted twice, if it is better: two of a kind may imitate others."""
         twice = needed_twice(accepted)
-        if not twice:
+        if not twice or self.court.effort.spent:
             return accepted, look
         forms = {form_of(finding) for finding in first.screen.findings if finding.candidate.name in twice}
         court = replace(self.court, rejected=[], barred=self.court.barred | forms, exchanged=set())
@@ -217,7 +220,7 @@ class Pursuer:
             if trial.model.outcome is Outcome.LEFT_BEHIND:
                 trials = [court.try_out(each.finding, look) for each in ranked]
                 continue
-            gain, reason = court.examine(trial, look, explained)
+            gain, reason = self.examine(trial, look, explained)
             if reason:
                 court.reject(trial.finding, reason, court.foresee(trial.finding, look), gain)
                 unsupported += [trial] * (reason == reasons.NOT_SUPPORTED)
@@ -227,6 +230,15 @@ class Pursuer:
                 return [self.accept(ranked, imitations, gain, look)]
             trials = rest
         return self.best_pair(unsupported[0], look, explained) if unsupported else []
+
+    def examine(self, trial: Trial, look: Look, explained: float) -> tuple[Gain | None, str]:
+        """The gain of a trial and why it may not be accepted; faults of the held-out runs alone do not refuse it."""
+        gain, reason = self.court.examine(trial, look, explained)
+        if reason != reasons.NOT_SUPPORTED or trial.finding.candidate.suspect.local:
+            return gain, reason
+        faults = self.faults_of_held_out(replace(look, model=trial.model), trial.model, explained + trial.gain)
+        beside = self.court.gain_beside(faults, look.model, trial.model)
+        return (beside, "") if beside and beside.value > self.court.relevance else (gain, reason)
 
     def best_pair(self, trial: Trial, look: Look, explained: float) -> list[Accepted]:
         """A trial that does not hold alone and the best one beside it, if together they make unseen runs better.

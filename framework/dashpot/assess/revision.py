@@ -105,8 +105,8 @@ class Revision:
         the newest one did, it comes last.
         """
         newest = next((entry for entry in accepted if entry is newest), accepted[-1])
-        older = [entry for entry in accepted if entry is not newest] if len(accepted) <= MOST_EXCHANGED else []
-        for entry in older:
+        older = [entry for entry in accepted if entry is not newest]
+        for entry in older if len(accepted) <= MOST_EXCHANGED and not self.court.effort.spent else ():
             kept = [other for other in accepted if other is not entry]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
             instead = self.better_than(entry, model, look, kept)

@@ -15,14 +15,15 @@ def give_verdict(faults: Sequence[Fault], pursuit: Pursuit, leftover: Leftover) 
 
     ``bad_data`` where triage found faults of the measurement; ``ambiguous`` when an accepted cause has a rival that
     fits alike; ``partly_explained`` and ``unexplained`` when structure is left that no suspect explains, the former
-    also where a cause in the specimen was needed twice: its law is hardly the one that is hidden.
+    also where a cause in the specimen was needed twice: its law is hardly the one that is hidden, and where the search
+    was cut short.
     """
     if faults:
         return "bad_data"
     if any(entry.rivals for entry in pursuit.accepted):
         return "ambiguous"
     if pursuit.accepted:
-        incomplete = leftover.notable(pursuit.explained) or bool(stands_in(pursuit.accepted))
+        incomplete = leftover.notable(pursuit.explained) or stands_in(pursuit.accepted) or pursuit.cut_short
         return "partly_explained" if incomplete else "explained"
     return "unexplained" if leftover.notable() else "nothing_missing"
 

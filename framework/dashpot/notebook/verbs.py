@@ -181,12 +181,13 @@ def diagnose(
     seed: int = 0,
     jobs: int = 1,
     relevance: float = 2.5e-3,
+    most_looks: int = 24,
     registry: Registry | None = None,
 ) -> Diagnosis:
     """What a model gets wrong, the cause by name, the extended model, and what it gains on held-out runs.
 
-    Causes that make the training error smaller by less than the share ``relevance`` are not named. InputError for a
-    model that does not compile on these data.
+    Causes that make the training error smaller by less than the share ``relevance`` are not named; after ``most_looks``
+    looks at all suspects the search ends. InputError for a model that does not compile on these data.
 
     Examples:
         >>> diagnosis = dp.diagnose("mount.yaml", data)
@@ -195,7 +196,7 @@ def diagnose(
     """
     found = registry or load_registry()
     made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options, seed=seed,
-                            jobs=jobs, registry=found, relevance=relevance)  # fmt: skip
+                            jobs=jobs, registry=found, relevance=relevance, most_looks=most_looks)  # fmt: skip
     return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
 
 

@@ -6,14 +6,16 @@ from types import SimpleNamespace
 import pytest
 
 from dashpot.assess.accepted import Accepted
+from dashpot.assess.court import Effort
 from dashpot.assess.revision import MOST_EXCHANGED, Revision, succeeds
 
 
 class Court:
     """Remembers what was exchanged; models and looks are of no matter here."""
 
-    def __init__(self):
+    def __init__(self, looks=9):
         self.barred = []
+        self.effort = Effort(most=looks)
         self.bench = SimpleNamespace(fit=lambda declared, fitted, noise, mends: mends[0].places)
 
     def rebuild(self, kept, model, first, noise):
@@ -45,13 +47,18 @@ def accepted(word):
 
 @pytest.fixture
 def exchange(monkeypatch):
-    def run(words, better):
+    def run(words, better, looks=9):
         monkeypatch.setattr(Scripted, "better", better)
-        court = Court()
+        court = Court(looks)
         found, _ = Scripted(court, None, None).exchange([accepted(word) for word in words], court.look("last", None))
         return [entry.word for entry in found], court.barred
 
     return run
+
+
+def test_a_search_that_is_spent_leaves_every_cause_in_its_place(exchange):
+    better = {("friction", "drift"): "softening"}
+    assert exchange(["friction", "drift"], better, looks=0) == (["friction", "drift"], [])
 
 
 def test_an_earlier_cause_gives_way_in_its_place(exchange):

@@ -5,8 +5,10 @@ from types import SimpleNamespace
 
 import pytest
 
+from dashpot.assess import reasons
 from dashpot.assess.court import ALL_OF_IT, LESS_FAULTS, SMALLEST_GAIN, SMALLEST_LATER_GAIN, Court
 from dashpot.assess.gain import Gain
+from dashpot.assess.pursuit import Pursuer
 
 COURT = Court(None, (), (), 0)
 
@@ -49,3 +51,53 @@ def test_the_fault_of_a_held_out_run_does_not_hide_a_gain(monkeypatch, with_faul
     fault = SimpleNamespace(trial=SimpleNamespace(model=Mended(("gain of one held-out run",))))
     assert COURT.gain_beside([fault], Mended(()), Mended(())) == told
     assert COURT.gain_beside([], Mended(()), Mended(())).value == with_fault
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A look that is known by its model."""
+
+    model: str
+
+
+@pytest.mark.parametrize(("local", "beside", "said"), [
+    (False, 0.05, ""),
+    (False, 0.001, reasons.NOT_SUPPORTED),
+    (True, 0.05, reasons.NOT_SUPPORTED),
+])  # fmt: skip
+def test_a_cause_is_not_refused_for_the_faults_of_held_out_runs_alone(monkeypatch, local, beside, said):
+    """They are looked for beside the cause, and taken out of the runs before and after it."""
+    asked = []
+
+    def faults_of_held_out(self, look, last, explained):
+        asked.append((look.model, last, explained))
+        return ["a fault"]
+
+    monkeypatch.setattr(Pursuer, "faults_of_held_out", faults_of_held_out)
+    refused = Gain(-0.2, (-0.3, -0.1))
+    gains = {("a fault", "before", "after"): Gain(beside, (beside, beside), LESS_FAULTS)}
+    court = SimpleNamespace(relevance=SMALLEST_GAIN, examine=lambda *asked: (refused, reasons.NOT_SUPPORTED),
+                            gain_beside=lambda faults, before, after: gains[*faults, before, after])  # fmt: skip
+    suspect = SimpleNamespace(local=local)
+    trial = SimpleNamespace(
+        finding=SimpleNamespace(candidate=SimpleNamespace(suspect=suspect)), model="after", gain=7.0
+    )
+    gain, reason = Pursuer(court, None).examine(trial, Seen("before"), 100.0)
+    assert reason == said
+    assert gain is (refused if said else gains["a fault", "before", "after"])
+    assert asked == ([] if local else [("after", "after", 107.0)])
+
+
+@pytest.mark.parametrize(("fall", "gain", "said"), [
+    (0.005, -0.002, reasons.FURTHER_NOT_SUPPORTED),
+    (0.005, 0.002, ""),
+    (0.02, -0.002, ""),
+])  # fmt: skip
+def test_a_weak_further_cause_has_to_make_held_out_runs_better(monkeypatch, fall, gain, said):
+    """A strong one may come in first: it may be the other one that spoils these runs."""
+    monkeypatch.setattr(Court, "holds", lambda self, before, after, gain: True)
+    after = 1e6 * (1.0 - fall) ** 2
+    trial = SimpleNamespace(failure="", merit=1e6 - after, gain=1e6 - after, model=SimpleNamespace(chi_square=after),
+                            finding=SimpleNamespace(gain=1e6 - after))  # fmt: skip
+    look = SimpleNamespace(model=SimpleNamespace(chi_square=1e6), screen=SimpleNamespace(threshold=10.0, together=0.0))
+    assert COURT.objection(trial, Gain(gain, (gain, gain)), fall, look, 2e4) == said

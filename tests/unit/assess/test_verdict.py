@@ -18,8 +18,9 @@ def entry(word, gain=1000.0, kind="specimen", rivals=()):
     )
 
 
-def verdict(*accepted, leftover=NOTHING_LEFT, faults=()):
-    return give_verdict(faults, SimpleNamespace(accepted=accepted, explained=1.0), leftover)
+def verdict(*accepted, leftover=NOTHING_LEFT, faults=(), cut_short=False):
+    pursuit = SimpleNamespace(accepted=accepted, explained=1.0, cut_short=cut_short)
+    return give_verdict(faults, pursuit, leftover)
 
 
 @pytest.mark.parametrize(
@@ -45,3 +46,4 @@ def test_what_weighs_more_is_said_first():
     assert verdict(entry("drift"), leftover=MUCH_LEFT) == "partly_explained"
     assert verdict(leftover=MUCH_LEFT) == "unexplained"
     assert verdict() == "nothing_missing"
+    assert verdict(entry("drift"), cut_short=True) == "partly_explained"
