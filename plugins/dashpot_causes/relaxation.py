@@ -14,13 +14,14 @@ UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 SPRINGPOT_UNITS = {"stiffness": "N/m", "order": "1", "reference": "Hz", "lowest": "Hz", "decades": "1", "dwell": "s"}
 PLACES = 18
 ORDERS = (0.1, 0.2, 0.35, 0.5)
-WIDEST_ORDER = (0.03, 0.55)  # beyond it is a spring, or a dashpot has its share
+WIDEST_ORDER = (0.03, 0.9)
+LARGEST_ORDER = 0.55  # a dashpot has its share in more
 MOST_DECADES = 8.0
 DWELL = 30.0  # s
 DWELLS = (0.1, 1e4)
 SLOW, FAST = 0.1, 3.0  # over the length of a run, times the end of the band: the range of a springpot
 MOST = 3
-FASTEST = 0.2  # over the angular frequency at the end of the measured band: what relaxes faster is a dashpot
+FASTEST = 0.5  # over the angular frequency at the end of the measured band: what relaxes faster is a dashpot
 
 
 class Relaxation(Cause):
@@ -70,4 +71,5 @@ def _springpot(lowest: float, decades: float) -> Suspect:
         fixed=tuple(known),
         unknowns=2,
         bounds={"order": WIDEST_ORDER, "dwell": DWELLS},
+        admits=lambda found: found["order"] < LARGEST_ORDER,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -141,9 +141,7 @@ class Bench:
         mends: tuple[Mend, ...],
         beat: float = np.inf,
     ) -> Model:
-        runs = [mended(run, mends) for run in self.runs]
-        whiten = self._beside_sensors(noise).whiten if noise else None
-        objective = Objective(compile_network(start), runs, self.jobs, whiten)
+        objective = self._objective(start, noise, mends)
         coordinates = search_coordinates(start)
         aim = np.sqrt(beat / objective.total)
         found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE,
@@ -192,10 +190,8 @@ class Bench:
 
     def nearest(self, starts: Sequence[NetworkSpec], noise: NoiseModel | None, mends: Sequence[Mend]) -> int:
         """Which of several starts for the same network misses the runs least."""
-        runs, networks = [mended(run, mends) for run in self.runs], [compile_network(start) for start in starts]
-        whiten = self._beside_sensors(noise).whiten if noise else None
-        losses = Objective(networks[0], runs, self.jobs, whiten).losses(np.array([each.start for each in networks]))
-        return int(np.argmin(losses))
+        places = np.array([compile_network(start).start for start in starts])
+        return int(np.argmin(self._objective(starts[0], noise, mends).losses(places)))
 
     def revive(self, model: Model, noise: NoiseModel) -> Model:
         """The model, or a better one: numbers that what was missing had driven to an end of their range start anew.
@@ -216,6 +212,19 @@ class Bench:
         fitted = around.fitted.with_values(numbers)
         coordinates = search_coordinates(fitted)
         return replace(around, fitted=fitted, coordinates=coordinates, point=coordinates.start)
+
+    def as_it_stands(
+        self, declared: NetworkSpec, start: NetworkSpec, noise: NoiseModel, mends: Sequence[Mend] = ()
+    ) -> Model:
+        """A network with its numbers as they are, not refitted."""
+        objective = self._objective(start, noise, mends)
+        coordinates = search_coordinates(start)
+        chi_square = float(objective.losses(coordinates.to_values(coordinates.start))[0]) ** 2 * objective.total
+        return Model(declared, start, coordinates, coordinates.start, chi_square, Outcome.CONVERGED, tuple(mends))
+
+    def _objective(self, network: NetworkSpec, noise: NoiseModel | None, mends: Sequence[Mend]) -> Objective:
+        whiten = self._beside_sensors(noise).whiten if noise else None
+        return Objective(compile_network(network), [mended(run, mends) for run in self.runs], self.jobs, whiten)
 
     def _extended(self, model: Model, finding: Finding, numbers: NetworkSpec) -> tuple[NetworkSpec, NetworkSpec]:
         text = finding.candidate.suspect.extend(model.declared.text, finding.atoms)
@@ -276,7 +285,19 @@ def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
     if base is None:
         return True
     found, now = (_new_numbers(base, trial.model, seen) for seen in (trial.model, model))
+    if found.keys() != now.keys():
+        now = _of_the_only_branch(found.keys(), model)
     return found.keys() != now.keys() or trial.finding.candidate.suspect.admits(now)
+
+
+def _of_the_only_branch(words: Collection[str], model: Model) -> dict[str, float]:
+    """The numbers of the only branch that has these words, whatever its name; empty where there are none or several."""
+    branches: dict[str, dict[str, float]] = {}
+    for slot in model.fitted.slots():
+        name, _, word = slot.path.rpartition(".")
+        branches.setdefault(name, {})[word] = slot.value.number
+    alike = [numbers for numbers in branches.values() if numbers.keys() == set(words)]
+    return alike[0] if len(alike) == 1 else {}
 
 
 def _new_numbers(base: Model, extended: Model, model: Model) -> dict[str, float]:

@@ -36,6 +36,7 @@ REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
 MOST_LOOKS = 24  # two effects take about eight
+MOST_NEXT = 2
 REMEMBERED = 2  # looks: one holds all suspects on all runs
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
@@ -167,18 +168,23 @@ class Court:
         """
         for other in plainer(trial, ranked):
             form = self.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
-            both = self.with_the_next(form, look)
-            if both and outdoes(both, trial) and not form.failure:
-                same = self.with_the_next(trial, look)
+            better = [both for both in self.with_the_next(form, look) if outdoes(both, trial)]
+            if better and not form.failure:
+                both, same = (
+                    max(better, key=_by_merit),
+                    max(self.with_the_next(trial, look), key=_by_merit, default=None),
+                )
                 price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples) if same else 0.0
                 if not same or both.model.chi_square + price + TIE <= same.model.chi_square:
                     return form
         return None
 
-    def with_the_next(self, trial: Trial, look: Look) -> Trial | None:
-        """A trial beside the best cause of a glance at it, if there is any."""
+    def with_the_next(self, trial: Trial, look: Look) -> list[Trial]:
+        """A trial beside each of the best other causes of a glance at it, where they hold what they say."""
         beside = self.glance(trial.model, look)
-        return next((self.try_out(one, beside) for one in choose_finalists(self.admissible(beside), beside)), None)
+        found = choose_finalists(self.admissible(beside), beside)
+        others = [one for one in found if one.candidate.name != trial.finding.candidate.name][:MOST_NEXT]
+        return [each for each in (self.try_out(one, beside) for one in others) if not each.failure]
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
@@ -192,6 +198,13 @@ class Court:
         earlier = [first.fitted, *(entry.trial.model.fitted for entry in kept)]
         starts = [self.bench.start_from(declared, numbers) for numbers in (model.fitted, *earlier)]
         return self.bench.fit(declared, starts[self.bench.nearest(starts, noise, mends)], noise, mends)
+
+    def reduced(self, kept: Sequence[Accepted], look: Look, first: Model) -> Model:
+        """The model of a look with the patches of some of its causes only, its numbers as they are."""
+        declared, findings = self.extended(kept, first), [entry.finding for entry in kept]
+        mends = [mend for mend in look.model.mends if any(mend.finding is finding for finding in findings)]
+        start = self.bench.start_from(declared, look.model.fitted)
+        return self.bench.as_it_stands(declared, start, look.noise, mends)
 
     def extended(self, kept: Sequence[Accepted], first: Model) -> NetworkSpec:
         """The first model's network with the patches of some causes, as a file declares it."""
@@ -329,6 +342,10 @@ class Court:
 def _parts(network: NetworkSpec) -> list[tuple[str, ...]]:
     leaves = [(leaf.name, leaf.element.word) for leaf in network.leaves()]
     return [*leaves, *((slot.path,) for slot in network.slots())]
+
+
+def _by_merit(trial: Trial) -> float:
+    return trial.merit
 
 
 def _mending(kept: Sequence[Accepted]) -> list[Finding]:

@@ -58,7 +58,7 @@ class Revision:
 
         It is superfluous, too, where it explains no more than the others may be wrong by in their form, unless one of
         these would no longer be what it says. The form that was dropped does not come back. Where the last one only
-        makes up the law of the earlier one, it is the last one that goes.
+        makes up the law of the earlier one, it is the last one that goes. What turned into another cause gets its name.
         """
         explained = self.first.chi_square - look.model.chi_square
         for number in range(len(accepted) - 1):
@@ -76,12 +76,34 @@ class Revision:
             ):
                 self.court.bar_imitation(last, accepted[number])
                 return accepted[:-1], self.court.look(last.base, look.noise)
-            if superfluous or not admitted(accepted[number].trial, accepted[number].base, look.model):
+            opposite = not admitted(accepted[number].trial, accepted[number].base, look.model)
+            renamed = self.renamed(accepted[number], kept, model, look) if opposite and not superfluous else None
+            if renamed:
+                self.court.swap(accepted[number], reasons.OPPOSITE)
+                changed = [*accepted[:number], renamed, *accepted[number + 1 :]]
+                return self.prune(changed, self.court.look(renamed.trial.model, look.noise))
+            if superfluous or opposite:
                 why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
                 self.court.bar(accepted[number], why)
                 kept = [*accepted[:number], accepted[-1], *accepted[number + 1 : -1]]
                 return self.prune(kept, self.court.look(model, look.noise))
         return accepted, look
+
+    def renamed(self, entry: Accepted, kept: Sequence[Accepted], model: Model, look: Look) -> Accepted | None:
+        """The cause that a cause has become by its numbers: one that does as well beside those as they stand, or None.
+
+        ``model`` is that without it.
+        """
+        reduced = self.court.glance(self.court.reduced(kept, look, self.first), look)
+        found = choose_finalists(self.court.admissible(reduced, exchange=True), reduced)
+        for finding in (one for one in found if one.candidate.name != entry.finding.candidate.name):
+            trial = self.court.try_out(finding, reduced)
+            if not trial.failure and succeeds(trial.model, look, lead=-TIE):
+                gain = model.chi_square - trial.model.chi_square
+                trial = replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
+                held = self.court.gain_of(model, trial.model)
+                return Accepted(finding, trial, self.court.foresee(finding, reduced), held, (), base=model)
+        return None
 
     def reconsider(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """Put a simpler cause in the place of an earlier one that owed its lead to what a later one explains."""
@@ -143,8 +165,8 @@ class Revision:
         return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
 
 
-def succeeds(model: Model, look: Look) -> bool:
-    """Whether a model fits better than that of a look, by more than its numbers cost and a tie, or ties with fewer."""
+def succeeds(model: Model, look: Look, lead: float = TIE) -> bool:
+    """Whether a model fits better than that of a look by its numbers' price and a ``lead``, or ties with fewer."""
     price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
-    lead = look.model.chi_square - model.chi_square - price
-    return bool(lead >= (-TIE if model.numbers < look.model.numbers else TIE))
+    found = look.model.chi_square - model.chi_square - price
+    return bool(found >= (-TIE if model.numbers < look.model.numbers else lead))
