@@ -280,6 +280,12 @@ def try_finding(
     return Trial(finding, model, gain, gain - price if not failure else -np.inf, failure)
 
 
+def measured_from(model: Model, trial: Trial) -> Trial:
+    """A trial whose gain and merit are measured from another model than that from which it was found."""
+    gain = model.chi_square - trial.model.chi_square
+    return replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
+
+
 def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
     """Whether a later model still has numbers by which a trial, an extension of ``base``, is what its cause says."""
     if base is None:

@@ -9,9 +9,9 @@ import numpy as np
 
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
-from dashpot.assess.contest import Bench, Model, Trial, try_finding
+from dashpot.assess.contest import Bench, Model, Trial, measured_from, try_finding
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import TIE, Form, choose_finalists, form_of, parts_of, plainer
+from dashpot.assess.finalists import Form, form_of
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -20,7 +20,6 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, glance_at, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
 from dashpot.contract.cause import Cause
-from dashpot.fit.refine import Outcome
 from dashpot.fit.scored import ScoredRun
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.reading import parse_network
@@ -36,7 +35,6 @@ REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
 MOST_LOOKS = 24  # two effects take about eight
-MOST_NEXT = 2
 REMEMBERED = 2  # looks: one holds all suspects on all runs
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
@@ -135,56 +133,7 @@ class Court:
 
     def try_out_from(self, finding: Finding, back: Look, look: Look, beat: float) -> Trial:
         """A finding of a look with other numbers as a refitted model, measured by the model of ``look``."""
-        trial = self.try_out(finding, back, beat)
-        gain = look.model.chi_square - trial.model.chi_square
-        return replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
-
-    def simplify(self, trial: Trial, look: Look) -> Trial:
-        """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
-        atoms = trial.finding.atoms
-        if trial.finding.candidate.suspect.joint or len(atoms) < 2:
-            return trial
-        simpler = self.try_out(trial.finding.without_last(), look)
-        return self.simplify(simpler, look) if simpler.merit > trial.merit else trial
-
-    def taken_apart(self, trial: Trial, look: Look) -> Trial | None:
-        """The stronger one of two causes whose laws a trial makes up, if both explain more without more numbers.
-
-        The weaker one is found as the next.
-        """
-        parts = parts_of(trial.finding, look.screen.findings)
-        if len({part.candidate.name for part in parts}) < 2:
-            return None
-        alone = self.try_out(parts[0], look)
-        beside = self.glance(alone.model, look)
-        rest = parts_of(trial.finding, beside.screen.findings, parts[0])
-        both = self.try_out(rest[0], beside) if rest else alone
-        return alone if outdoes(both, trial) and not alone.failure else None
-
-    def plainer_form(self, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
-        """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
-
-        That cause, found as the next, may not explain as much beside the trial itself.
-        """
-        for other in plainer(trial, ranked):
-            form = self.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
-            better = [both for both in self.with_the_next(form, look) if outdoes(both, trial)]
-            if better and not form.failure:
-                both, same = (
-                    max(better, key=_by_merit),
-                    max(self.with_the_next(trial, look), key=_by_merit, default=None),
-                )
-                price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples) if same else 0.0
-                if not same or both.model.chi_square + price + TIE <= same.model.chi_square:
-                    return form
-        return None
-
-    def with_the_next(self, trial: Trial, look: Look) -> list[Trial]:
-        """A trial beside each of the best other causes of a glance at it, where they hold what they say."""
-        beside = self.glance(trial.model, look)
-        found = choose_finalists(self.admissible(beside), beside)
-        others = [one for one in found if one.candidate.name != trial.finding.candidate.name][:MOST_NEXT]
-        return [each for each in (self.try_out(one, beside) for one in others) if not each.failure]
+        return measured_from(look.model, self.try_out(finding, back, beat))
 
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
@@ -344,18 +293,8 @@ def _parts(network: NetworkSpec) -> list[tuple[str, ...]]:
     return [*leaves, *((slot.path,) for slot in network.slots())]
 
 
-def _by_merit(trial: Trial) -> float:
-    return trial.merit
-
-
 def _mending(kept: Sequence[Accepted]) -> list[Finding]:
     return [entry.finding for entry in kept if entry.finding.candidate.suspect.mends]
-
-
-def outdoes(both: Trial, trial: Trial) -> bool:
-    """Whether the model with two causes fits better than that of a trial, without more numbers."""
-    better = both.model.chi_square + TIE <= trial.model.chi_square
-    return better and both.model.numbers <= trial.model.numbers and not both.failure
 
 
 def within_form(gain: float, before: float, explained: float) -> bool:

@@ -30,6 +30,7 @@ from dashpot.assess.finalists import (
     to_beat,
 )
 from dashpot.assess.gain import Gain
+from dashpot.assess.instead import part_of, plainer_form, simplified
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.screen import Finding
@@ -266,8 +267,8 @@ class Pursuer:
         doubtful = tuple(other for other in imitations if in_doubt(other, chosen))
         for other in (other for other in (*ranked, *imitations) if other not in (*near, *doubtful)):
             court.reject(other.finding, _why_not(other, level, imitations), None, None)
-        part = court.taken_apart(chosen, look) or court.plainer_form(chosen, ranked, look)
-        chosen, others = (part, ()) if part else (court.simplify(chosen, look), (*others, *doubtful))
+        part = part_of(court, chosen, look) or plainer_form(court, chosen, ranked, look)
+        chosen, others = (part, ()) if part else (simplified(court, chosen, look), (*others, *doubtful))
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
         foreseen = court.foresee(chosen.finding if part else finding_of(trial, look), look)
         gain = court.gain_of(look.model, chosen.model)

@@ -9,9 +9,10 @@ import numpy as np
 
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
-from dashpot.assess.contest import Model, admitted
+from dashpot.assess.contest import Model, admitted, measured_from
 from dashpot.assess.court import REFIT_MAY_DOUBLE, Court, within_form
 from dashpot.assess.finalists import TIE, choose_finalists, makes_up
+from dashpot.assess.instead import simplified
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
@@ -60,34 +61,36 @@ class Revision:
         these would no longer be what it says. The form that was dropped does not come back. Where the last one only
         makes up the law of the earlier one, it is the last one that goes. What turned into another cause gets its name.
         """
-        explained = self.first.chi_square - look.model.chi_square
-        for number in range(len(accepted) - 1):
+        last = accepted[-1]
+        for number, entry in enumerate(accepted[:-1]):
             kept = [*accepted[:number], *accepted[number + 1 :]]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
-            price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
-            fall = model.chi_square - look.model.chi_square
-            little = fall < price + look.screen.threshold or within_form(fall, model.chi_square, explained)
-            superfluous = little and all(admitted(other.trial, other.base, model) for other in kept)
-            last = accepted[-1]
-            if (
-                superfluous
-                and last.base
-                and makes_up(last.finding, accepted[number].finding, last.trial.gain, explained)
-            ):
-                self.court.bar_imitation(last, accepted[number])
+            superfluous = self.is_superfluous(kept, model, look)
+            if superfluous and last.base and makes_up(last.finding, entry.finding, last.trial.gain, self.fall_to(look)):
+                self.court.bar_imitation(last, entry)
                 return accepted[:-1], self.court.look(last.base, look.noise)
-            opposite = not admitted(accepted[number].trial, accepted[number].base, look.model)
-            renamed = self.renamed(accepted[number], kept, model, look) if opposite and not superfluous else None
+            opposite = not admitted(entry.trial, entry.base, look.model)
+            renamed = self.renamed(entry, kept, model, look) if opposite and not superfluous else None
             if renamed:
-                self.court.swap(accepted[number], reasons.OPPOSITE)
+                self.court.swap(entry, reasons.OPPOSITE)
                 changed = [*accepted[:number], renamed, *accepted[number + 1 :]]
                 return self.prune(changed, self.court.look(renamed.trial.model, look.noise))
             if superfluous or opposite:
-                why = reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE
-                self.court.bar(accepted[number], why)
-                kept = [*accepted[:number], accepted[-1], *accepted[number + 1 : -1]]
+                self.court.bar(entry, reasons.SUPERFLUOUS if superfluous else reasons.OPPOSITE)
+                kept = [*accepted[:number], last, *accepted[number + 1 : -1]]
                 return self.prune(kept, self.court.look(model, look.noise))
         return accepted, look
+
+    def fall_to(self, look: Look) -> float:
+        """The fall of chi square from the first model to that of a look."""
+        return self.first.chi_square - look.model.chi_square
+
+    def is_superfluous(self, kept: Sequence[Accepted], model: Model, look: Look) -> bool:
+        """Whether the ``model`` with what is ``kept`` does nearly as well as that of a look and holds what it says."""
+        price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
+        fall = model.chi_square - look.model.chi_square
+        little = fall < price + look.screen.threshold or within_form(fall, model.chi_square, self.fall_to(look))
+        return little and all(admitted(other.trial, other.base, model) for other in kept)
 
     def renamed(self, entry: Accepted, kept: Sequence[Accepted], model: Model, look: Look) -> Accepted | None:
         """The cause that a cause has become by its numbers: one that does as well beside those as they stand, or None.
@@ -99,10 +102,8 @@ class Revision:
         for finding in (one for one in found if one.candidate.name != entry.finding.candidate.name):
             trial = self.court.try_out(finding, reduced)
             if not trial.failure and succeeds(trial.model, look, lead=-TIE):
-                gain = model.chi_square - trial.model.chi_square
-                trial = replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
-                held = self.court.gain_of(model, trial.model)
-                return Accepted(finding, trial, self.court.foresee(finding, reduced), held, (), base=model)
+                foreseen, gain = self.court.foresee(finding, reduced), self.court.gain_of(model, trial.model)
+                return Accepted(finding, measured_from(model, trial), foreseen, gain, (), base=model)
         return None
 
     def reconsider(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
@@ -149,7 +150,7 @@ class Revision:
             trial = self.court.try_out(finding, glance)
             if trial.failure:
                 continue
-            trial = self.court.simplify(trial, glance)
+            trial = simplified(self.court, trial, glance)
             gain = self.court.gain_of(look.model, trial.model)
             if succeeds(trial.model, look) and (gain is None or gain.value >= -self.court.relevance):
                 found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)

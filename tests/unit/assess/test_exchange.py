@@ -158,9 +158,6 @@ class Contested(Court):
     def try_out(self, finding, look):
         return trial(finding)
 
-    def simplify(self, found, look):
-        return found
-
     def gain_of(self, before, after):
         return None
 
@@ -176,7 +173,10 @@ class Single(Revision):
 
 
 def named(word, chi_square):
-    return SimpleNamespace(chi_square=chi_square, candidate=SimpleNamespace(name=(word, "")))
+    suspect = SimpleNamespace(joint=False)
+    return SimpleNamespace(
+        chi_square=chi_square, atoms=(1.0,), candidate=SimpleNamespace(name=(word, ""), suspect=suspect)
+    )
 
 
 def trial(finding):

@@ -10,6 +10,7 @@ from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Bench, Trial, admitted, try_finding
 from dashpot.assess.court import Court
+from dashpot.assess.instead import part_of, plainer_form, simplified
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.pursuit import Pursuer
 from dashpot.assess.revision import Revision
@@ -150,7 +151,7 @@ def test_a_branch_that_relaxes_too_fast_to_show_is_left_to_a_dashpot(rng, dampin
     best = look.screen.best
     assert best.candidate.cause.word == "relaxation"
     assert len(best.atoms) > 1 or damping == 0.0
-    simple = court.simplify(court.try_out(best, look), look)
+    simple = simplified(court, court.try_out(best, look), look)
     assert simple.failure == ""
     times = [slot.value.number for slot in simple.model.fitted.slots() if slot.path.endswith("relaxation_time")]
     assert len(times) == 1
@@ -177,7 +178,11 @@ def relaxations(rng, order, damping, stiffness=60e3):
     court = Court(bench, held_out, [REGISTRY.causes[word] for word in ("relaxation", "viscous_damping")], 0)
     look = court.look(fitted(bench, SPRING), None)
     found = {one.candidate.suspect.form: one for one in look.screen.findings}
-    return court, look, *(court.simplify(court.try_out(found[form], look), look) for form in ("maxwell", "springpot"))
+    return (
+        court,
+        look,
+        *(simplified(court, court.try_out(found[form], look), look) for form in ("maxwell", "springpot")),
+    )
 
 
 def numbers_of(trial):
@@ -197,10 +202,10 @@ def test_a_springpot_explains_more_than_many_branches_and_knows_how_long_it_rest
 def test_where_a_springpot_beside_a_dashpot_explains_more_it_takes_the_place_of_branches_that_make_up_both(rng):
     court, look, branches, springpot = relaxations(rng, rng.uniform(0.18, 0.28), 15.0, 10e3)
     assert springpot.model.numbers < branches.model.numbers
-    plain = court.plainer_form(branches, [branches, springpot], look)
+    plain = plainer_form(court, branches, [branches, springpot], look)
     assert plain.finding is springpot.finding
     assert court.look(plain.model, look.noise).screen.best.candidate.cause.word == "viscous_damping"
-    assert court.plainer_form(springpot, [branches, springpot], look) is None
+    assert plainer_form(court, springpot, [branches, springpot], look) is None
 
 
 def test_branches_that_relax_each_by_itself_keep_their_place(rng):
@@ -209,7 +214,7 @@ def test_branches_that_relax_each_by_itself_keep_their_place(rng):
     look = court.look(fitted(bench, SPRING), None)
     branch, springpot = (court.try_out(one, look) for one in look.screen.findings)
     assert branch.merit > springpot.merit
-    assert court.plainer_form(branch, [branch, springpot], look) is None
+    assert plainer_form(court, branch, [branch, springpot], look) is None
 
 
 class Wrong(Cause):
@@ -287,7 +292,7 @@ def test_a_resonance_that_makes_up_a_mass_and_a_dashpot_is_taken_apart(rng, forc
     resonances = [one for one in look.screen.findings if one.candidate.cause.word == "resonance"]
     pick = min if apart else max  # one far beyond the band is a mass and a dashpot: it may fit as well
     trial = pick((court.try_out(one, look) for one in resonances[:3]), key=lambda each: each.gain)
-    part = court.taken_apart(trial, look)
+    part = part_of(court, trial, look)
     assert (part is not None) is apart
     if part:
         assert part.finding.candidate.cause.word in ("moving_mass", "viscous_damping")

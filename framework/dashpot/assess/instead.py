@@ -1,0 +1,74 @@
+"""What a trial is accepted as: with fewer places, as one of two simpler causes that it makes up, in a plainer form."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from dashpot.assess.contest import Trial
+from dashpot.assess.court import Court
+from dashpot.assess.finalists import TIE, choose_finalists, parts_of, plainer
+from dashpot.assess.suspicion import Look
+from dashpot.fit.refine import Outcome
+
+MOST_NEXT = 2
+
+
+def simplified(court: Court, trial: Trial, look: Look) -> Trial:
+    """The trial with fewer places of the grid, as long as the refit does not miss the last one."""
+    atoms = trial.finding.atoms
+    if trial.finding.candidate.suspect.joint or len(atoms) < 2:
+        return trial
+    simpler = court.try_out(trial.finding.without_last(), look)
+    return simplified(court, simpler, look) if simpler.merit > trial.merit else trial
+
+
+def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
+    """The stronger one of two causes whose laws a trial makes up, if both explain more without more numbers.
+
+    The weaker one is found as the next.
+    """
+    parts = parts_of(trial.finding, look.screen.findings)
+    if len({part.candidate.name for part in parts}) < 2:
+        return None
+    alone = court.try_out(parts[0], look)
+    beside = court.glance(alone.model, look)
+    rest = parts_of(trial.finding, beside.screen.findings, parts[0])
+    both = court.try_out(rest[0], beside) if rest else alone
+    return alone if _outdoes(both, trial) and not alone.failure else None
+
+
+def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
+    """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
+
+    That cause, found as the next, may not explain as much beside the trial itself.
+    """
+    for other in plainer(trial, ranked):
+        form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
+        better = [both for both in _with_the_next(court, form, look) if _outdoes(both, trial)]
+        if better and not form.failure:
+            both = max(better, key=_by_merit)
+            same = max(_with_the_next(court, trial, look), key=_by_merit, default=trial)
+            price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples)
+            if both.model.chi_square + price + TIE <= same.model.chi_square:
+                return form
+    return None
+
+
+def _with_the_next(court: Court, trial: Trial, look: Look) -> list[Trial]:
+    """A trial beside each of the best other causes of a glance at it, where they hold what they say."""
+    beside = court.glance(trial.model, look)
+    found = choose_finalists(court.admissible(beside), beside)
+    others = [one for one in found if one.candidate.name != trial.finding.candidate.name][:MOST_NEXT]
+    return [each for each in (court.try_out(one, beside) for one in others) if not each.failure]
+
+
+def _outdoes(both: Trial, trial: Trial) -> bool:
+    """Whether the model with two causes fits better than that of a trial, without more numbers."""
+    better = both.model.chi_square + TIE <= trial.model.chi_square
+    return better and both.model.numbers <= trial.model.numbers and not both.failure
+
+
+def _by_merit(trial: Trial) -> float:
+    return trial.merit
