@@ -1,13 +1,17 @@
 """A look is taken once, and a search ends after so many of them."""
 
+from inspect import signature
+
 import numpy as np
 import pytest
 from unit.assess.rig import REGISTRY, STEP, fitted, sweep
 
+import dashpot
 from dashpot.assess.contest import Bench
-from dashpot.assess.court import Court
+from dashpot.assess.court import MOST_LOOKS, Court
 from dashpot.assess.diagnose import diagnose
 from dashpot.assess.pursuit import Pursuer
+from dashpot.cli.diagnose import verb
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import prepare
 from dashpot.model.reading import parse_network
@@ -74,3 +78,10 @@ def test_a_search_of_few_looks_ends_with_what_it_has_and_says_so(rng):
     assert (short.verdict, len(short.named), short.pursuit.cut_short) == ("partly_explained", 1, True)
     assert any("--most-looks" in remark for remark in short.triage.remarks)
     assert not any("--most-looks" in remark for remark in whole.triage.remarks)
+
+
+def test_all_ways_to_ask_for_a_diagnosis_allow_as_many_looks():
+    options = {option.name: option.default for option in verb.params}
+    assert options["most_looks"] == MOST_LOOKS
+    for asked in (dashpot.diagnose, diagnose):
+        assert signature(asked).parameters["most_looks"].default == MOST_LOOKS
