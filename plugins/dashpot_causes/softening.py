@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"stiffness": "N/m", "speed": "m/s", "time": "s"}
+UNITS = {"stiffness": "N/m", "speed": "m/s", "time": "s", "exponent": "1"}
 SPEEDS = (0.3, 3.0)  # of the largest speed
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
 
@@ -28,13 +28,21 @@ class Softening(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring that its own motion softens, over speeds and times of warming."""
+        """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth."""
         places = [(speed * view.speed, time * view.duration) for speed, time in product(SPEEDS, TIMES)]
-        yield added_branch(
-            "softening",
-            "softening",
-            tuple(float(number) for number in range(len(places))),
-            lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1]},
-            UNITS,
-            unknowns=2,
-        )
+        yield _softening(places)
+        yield _softening(places, {"exponent": 1.0}, "softening with a free law of warmth")
+
+
+def _softening(
+    places: Sequence[tuple[float, float]], law: Mapping[str, float] | None = None, form: str = ""
+) -> Suspect:
+    return added_branch(
+        "softening",
+        "softening",
+        tuple(float(number) for number in range(len(places))),
+        lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1], **(law or {})},
+        UNITS,
+        unknowns=2 + len(law or {}),
+        form=form,
+    )

@@ -162,6 +162,10 @@ def test_a_self_heating_spring_follows_its_warmth():
     time, found = march("softening", 1e-3, 8.0, **numbers)
     warmth = integrate(lambda t, w: [((speed(t) / 0.05) ** 2 - w[0]) / 0.3], [0.0], time)[0]
     assert relative(found, 2e4 * place(time) / (1.0 + warmth)) < 1e-4
+    for exponent in (0.5, 4.0):
+        found = march("softening", 1e-3, 8.0, exponent=exponent, **numbers)[1]
+        left = (1.0 + (2.0 ** (1.0 / exponent) - 1.0) * warmth) ** -exponent
+        assert relative(found, 2e4 * place(time) * left) < 1e-4
 
 
 def test_a_creeping_spring_loses_its_force_along_the_logarithm_of_time():
