@@ -15,8 +15,8 @@ class Softening(Element):
 
     A warmth of one halves the stiffness, c = 2^(1/exponent) - 1: with an exponent of one F = stiffness x/(1 + warmth),
     with a large one it falls exponentially. At rest it cools again. The warmth gained in a step is that of its mean
-    squared velocity along the cubic path. Every record begins cold. Beside a spring it is the part of the stiffness that
-    warmth takes away. Not passive by itself, as a spring that cools under load takes up energy as heat.
+    squared velocity along the cubic path. Every record begins cold. Beside a spring it is the part of the stiffness
+    that warmth takes away. Not passive by itself, as a spring that cools under load takes up energy as heat.
     """
 
     picture = Symbol.SPRING
