@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -22,6 +24,7 @@ DWELLS = (0.1, 1e4)
 SLOW, FAST = 0.1, 3.0  # over the length of a run, times the end of the band: the range of a springpot
 MOST = 3
 FASTEST = 0.5  # over the angular frequency at the end of the measured band: what relaxes faster is a dashpot
+STILL = 0.5  # times that, once it is named
 
 
 class Relaxation(Cause):
@@ -42,10 +45,10 @@ class Relaxation(Cause):
         grid = np.geomspace(2.0 * view.dt, 0.3 * view.duration, PLACES)
         fastest = FASTEST / (2.0 * np.pi * end_of_band(view))
 
-        def relaxes(found: Mapping[str, float]) -> bool:
-            return all(time > fastest for name, time in found.items() if name.startswith("relaxation_time"))
+        def relaxes(found: Mapping[str, float], share: float = 1.0) -> bool:
+            return all(time > share * fastest for name, time in found.items() if name.startswith("relaxation_time"))
 
-        yield added_branch(
+        branches = added_branch(
             "maxwell",
             "relaxation",
             tuple(grid),
@@ -54,6 +57,7 @@ class Relaxation(Cause):
             most=MOST,
             admits=relaxes,
         )
+        yield replace(branches, stays=partial(relaxes, share=STILL))
         lowest = SLOW / view.duration
         decades = float(np.log10(FAST * end_of_band(view) / lowest))
         if decades > 1.0:

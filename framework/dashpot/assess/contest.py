@@ -293,7 +293,8 @@ def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
     found, now = (_new_numbers(base, trial.model, seen) for seen in (trial.model, model))
     if found.keys() != now.keys():
         now = _of_the_only_branch(found.keys(), model)
-    return found.keys() != now.keys() or trial.finding.candidate.suspect.admits(now)
+    suspect = trial.finding.candidate.suspect
+    return found.keys() != now.keys() or (suspect.stays or suspect.admits)(now)
 
 
 def _of_the_only_branch(words: Collection[str], model: Model) -> dict[str, float]:

@@ -29,12 +29,12 @@ def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
 
     The weaker one is found as the next.
     """
-    parts = parts_of(trial.finding, look.screen.findings)
+    parts = parts_of(trial.finding, court.admissible(look))
     if len({part.candidate.name for part in parts}) < 2:
         return None
     alone = court.try_out(parts[0], look)
     beside = court.glance(alone.model, look)
-    rest = parts_of(trial.finding, beside.screen.findings, parts[0])
+    rest = parts_of(trial.finding, court.admissible(beside), parts[0])
     both = court.try_out(rest[0], beside) if rest else alone
     return alone if _outdoes(both, trial) and not alone.failure else None
 

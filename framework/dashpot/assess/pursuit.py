@@ -86,7 +86,8 @@ class Pursuer:
             court.readmit_imitations(opposite[-1])
             kept = [entry for entry in accepted if entry.base and entry is not opposite[-1]]
             look = court.look(court.rebuild(kept, look.model, first.model, look.noise), look.noise)
-            accepted, look, ladder = self.settle_gains(*self.pursue(kept, look, first), first)
+            accepted, look = (kept, look) if court.effort.spent else self.pursue(kept, look, first)
+            accepted, look, ladder = self.settle_gains(accepted, look, first)
         left = [look.columns.residual[run.name] for run in court.bench.runs]
         error = balanced(beyond_sensors(left, court.bench.runs, court.bench.sensors))
         least_force = float(np.sqrt(1.0 - (1.0 - court.relevance) ** 2) * error)

@@ -85,7 +85,8 @@ class Suspect:
     ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
     those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
     a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths
-    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite. ``imitates`` are
+    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite; ``stays(numbers)``
+    the same of later refits, where that may be less strict. ``imitates`` are
     the words of causes whose law this one can make up with its many numbers: one of these that explains nearly as much
     by fewer is the cause.
 
@@ -110,6 +111,7 @@ class Suspect:
     largest: float = np.inf
     tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
+    stays: Callable[[Mapping[str, float]], bool] | None = None
     imitates: tuple[str, ...] = ()
 
 

@@ -48,10 +48,17 @@ def read_clock(time: np.ndarray, where: Callable[[int], str]) -> Clock:
 def lay_on_grid(time: np.ndarray, values: np.ndarray, step: float) -> np.ndarray:
     """Values on the even grid from the first sample on, by monotone cubics (no overshoot).
 
+    Raises Unusable where they rise more steeply than numbers can tell.
     Source: Fritsch, Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300.
     """
     from scipy.interpolate import PchipInterpolator
 
+    with np.errstate(over="ignore"):
+        steep = ~np.isfinite(np.diff(values) / np.diff(time))
+    if steep.any():
+        at = int(np.argmax(steep))
+        message = f"it jumps from {values[at]:.3g} to {values[at + 1]:.3g} within {time[at + 1] - time[at]:.3g} s"
+        raise Unusable([Trouble(message, "check the units, and whether the file is damaged")])
     count = int((time[-1] - time[0]) / step * (1 + 1e-12)) + 1
     return PchipInterpolator(time, values)(np.minimum(time[0] + step * np.arange(count), time[-1]))
 

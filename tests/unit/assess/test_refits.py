@@ -10,6 +10,7 @@ from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Bench, Trial, admitted, try_finding
 from dashpot.assess.court import Court
+from dashpot.assess.finalists import form_of
 from dashpot.assess.instead import part_of, plainer_form, simplified
 from dashpot.assess.noise import flat_noise
 from dashpot.assess.pursuit import Pursuer
@@ -253,7 +254,7 @@ def test_a_cause_that_turned_into_another_one_gets_its_name(rng):
 
 def test_numbers_of_a_branch_that_changed_its_name_are_known_where_it_is_the_only_one():
     """Without the relaxation that was named first, the second one has the name of the first."""
-    suspect = SimpleNamespace(admits=lambda found: found["order"] < 0.5)
+    suspect = SimpleNamespace(admits=lambda found: found["order"] < 0.5, stays=None)
     trial = Trial(SimpleNamespace(candidate=SimpleNamespace(suspect=suspect)), model_with("pot_2.order"), 0.0, 0.0)
     base = model_with("pot.order")
     assert not admitted(trial, base, model_with("pot.order"))
@@ -296,6 +297,8 @@ def test_a_resonance_that_makes_up_a_mass_and_a_dashpot_is_taken_apart(rng, forc
     assert (part is not None) is apart
     if part:
         assert part.finding.candidate.cause.word in ("moving_mass", "viscous_damping")
+        court.barred |= {form_of(one) for one in look.screen.findings if one.candidate.cause.word == "moving_mass"}
+        assert part_of(court, trial, look) is None
 
 
 ASTRAY = """\

@@ -117,3 +117,14 @@ def test_a_time_that_stands_still_is_told(tmp_path):
 
 def test_a_constant_time_is_told(tmp_path):
     assert "its time stands still at row 2" in why_set_aside(tmp_path, np.full(100, 3.0))
+
+
+def test_a_jump_too_steep_for_a_number_sets_the_run_aside(tmp_path, rng):
+    """On an uneven clock that is laid on an even grid; of a damaged file, mostly."""
+    time = np.cumsum(rng.uniform(0.5e-3, 1.5e-3, 400))
+    force = 10 * motion(time)
+    force[200:] = 1.7e308
+    np.savez(tmp_path / "run.npz", t=time, x=motion(time), F=force)
+    (tmp_path / "dataset.yaml").write_text(TEXT)
+    with pytest.raises(InputError, match="it jumps from .* to 1.7e\\+308 within"):
+        read_dataset(tmp_path, READERS)
