@@ -74,12 +74,19 @@ def test_a_shape_on_the_grid_is_found_with_its_strength(rng):
 
 
 def test_a_few_steps_from_there_reach_the_noise(rng):
-    true = np.array([2e5, 700.0, 8e3, 0.15, 12e3, 0.012, 20e3, 8.0, 12e3, 40.0])
-    true *= np.exp(rng.uniform(-0.5, 0.5, true.size))
-    objective, coordinates = posed(rng, TIRE, true, noise=10.0)
-    start = dictionary_start(objective, coordinates)
-    found = refine(objective, coordinates, start.point, budget=2 * 96 - start.evaluations)
-    assert found.loss < 1.01 * objective.losses(true[None])[0]
+    """Of five draws four do within the budget; the other one may still be on its way."""
+
+    def over_noise():
+        true = np.array([2e5, 700.0, 8e3, 0.15, 12e3, 0.012, 20e3, 8.0, 12e3, 40.0])
+        true *= np.exp(rng.uniform(-0.5, 0.5, true.size))
+        objective, coordinates = posed(rng, TIRE, true, noise=10.0)
+        start = dictionary_start(objective, coordinates)
+        found = refine(objective, coordinates, start.point, budget=2 * 96 - start.evaluations)
+        return found.loss / objective.losses(true[None])[0]
+
+    reached = np.sort([over_noise() for _ in range(5)])
+    assert reached[3] < 1.01
+    assert reached[4] < 1.1
 
 
 def test_no_start_where_the_force_is_not_a_sum_of_branches(rng):
