@@ -70,7 +70,8 @@ class Revision:
                 self.court.bar_imitation(last, entry)
                 return accepted[:-1], self.court.look(last.base, look.noise)
             opposite = not admitted(entry.trial, entry.base, look.model)
-            renamed = self.renamed(entry, kept, model, look) if opposite and not superfluous else None
+            turned = opposite and not superfluous and not self.court.effort.spent
+            renamed = self.renamed(entry, kept, model, look) if turned else None
             if renamed:
                 self.court.swap(entry, reasons.OPPOSITE)
                 changed = [*accepted[:number], renamed, *accepted[number + 1 :]]

@@ -250,6 +250,9 @@ def test_a_cause_that_turned_into_another_one_gets_its_name(rng):
     assert after.model.chi_square == pytest.approx(look.model.chi_square, abs=20.0)
     found = {slot.path: slot.value.number for slot in after.model.fitted.slots()}
     assert found["viscous_damping.damping"] == pytest.approx(150.0, rel=0.1)
+    court.effort.most = 0
+    (left,), _ = revision.prune(accepted, look)
+    assert left.finding.candidate.cause.word == "relaxation"
 
 
 def test_numbers_of_a_branch_that_changed_its_name_are_known_where_it_is_the_only_one():
