@@ -42,11 +42,16 @@ def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
 def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
     """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
 
-    That cause, found as the next, may not explain as much beside the trial itself.
+    Without that cause the error has to be larger by what is of interest at all. Found as the next, it may not explain
+    as much beside the trial itself.
     """
     for other in plainer(trial, ranked):
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
-        better = [both for both in _with_the_next(court, form, look) if _outdoes(both, trial)]
+        relevant = trial.model.chi_square * (1.0 - court.relevance) ** 2
+        better = [
+            both for both in _with_the_next(court, form, look)
+            if _outdoes(both, trial) and both.model.chi_square < relevant
+        ]  # fmt: skip
         if better and not form.failure:
             both = max(better, key=_by_merit)
             same = max(_with_the_next(court, trial, look), key=_by_merit, default=trial)

@@ -207,6 +207,8 @@ def test_where_a_springpot_beside_a_dashpot_explains_more_it_takes_the_place_of_
     assert plain.finding is springpot.finding
     assert court.look(plain.model, look.noise).screen.best.candidate.cause.word == "viscous_damping"
     assert plainer_form(court, springpot, [branches, springpot], look) is None
+    court.relevance = 0.1
+    assert plainer_form(court, branches, [branches, springpot], look) is None, "a dashpot is not of that interest"
 
 
 def test_branches_that_relax_each_by_itself_keep_their_place(rng):
