@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 STEPS = 30
 MEND_ROUNDS = 2
 TOLERANCE = 1e-5
+NEARLY = 1e-3  # of the loss in a step: near enough for a place to start from
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
 AT_END = 1e-3  # of a range
 DWINDLED = 0.03  # of the number in the file, where what is searched is a logarithm: zero is infinitely far
@@ -122,13 +123,14 @@ class Bench:
         noise: NoiseModel | None,
         mends: Sequence[Mend] = (),
         beat: float = np.inf,
+        tolerance: float = TOLERANCE,
     ) -> Model:
         """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
 
         The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter;
         the best turn counts. A network that will not come down to the chi square ``beat`` is left behind half way.
         """
-        turns = [self._fit(declared, start, noise, tuple(mends), beat)]
+        turns = [self._fit(declared, start, noise, tuple(mends), beat, tolerance)]
         for _ in range(MEND_ROUNDS if mends and turns[0].outcome is not Outcome.LEFT_BEHIND else 0):
             turns.append(self._fit(declared, turns[-1].fitted, noise, self._strengthened(turns[-1], noise)))
         return min(turns, key=lambda model: model.chi_square if np.isfinite(model.chi_square) else np.inf)
@@ -140,11 +142,12 @@ class Bench:
         noise: NoiseModel | None,
         mends: tuple[Mend, ...],
         beat: float = np.inf,
+        tolerance: float = TOLERANCE,
     ) -> Model:
         objective = self._objective(start, noise, mends)
         coordinates = search_coordinates(start)
         aim = np.sqrt(beat / objective.total)
-        found = refine(objective, coordinates, coordinates.start, STEPS, TOLERANCE,
+        found = refine(objective, coordinates, coordinates.start, STEPS, tolerance,
                        hopeless=lambda before, after: after - REACH * (before - after) > aim)  # fmt: skip
         fitted = with_point(start, coordinates, found.point)
         chi_square = found.loss**2 * objective.total
@@ -193,7 +196,7 @@ class Bench:
         places = np.array([compile_network(start).start for start in starts])
         return int(np.argmin(self._objective(starts[0], noise, mends).losses(places)))
 
-    def revive(self, model: Model, noise: NoiseModel) -> Model:
+    def revive(self, model: Model, noise: NoiseModel, beat: float = np.inf) -> Model:
         """The model, or a better one: numbers that what was missing had driven to an end of their range start anew.
 
         The others come to them first: they would else be driven away again.
@@ -202,13 +205,13 @@ class Bench:
         if not numbers:
             return model
         back = self.put_back(model, numbers, noise)
-        other = self.fit(model.declared, back.fitted, noise, back.mends)
+        other = self.fit(model.declared, back.fitted, noise, back.mends, min(beat, model.chi_square))
         return other if other.chi_square < model.chi_square else model
 
     def put_back(self, model: Model, numbers: Mapping[str, Value], noise: NoiseModel) -> Model:
-        """The model with some numbers of its file, fitted by all others."""
+        """The model with some numbers of its file, all others nearly fitted to them."""
         held = model.fitted.with_values({path: value.as_role("fixed") for path, value in numbers.items()})
-        around = self.fit(model.declared, held, noise, model.mends)
+        around = self.fit(model.declared, held, noise, model.mends, tolerance=NEARLY)
         fitted = around.fitted.with_values(numbers)
         coordinates = search_coordinates(fitted)
         return replace(around, fitted=fitted, coordinates=coordinates, point=coordinates.start)
@@ -257,13 +260,14 @@ def try_finding(
     suspect = finding.candidate.suspect
     try:
         if suspect.mends:
-            model = bench.fit(base.declared, base.fitted, noise, (*base.mends, make_mend(bench.view(base), finding)))
+            mends = (*base.mends, make_mend(bench.view(base), finding))
+            model = bench.fit(base.declared, base.fitted, noise, mends, beat)
         else:
             model = bench.extend(base, finding, noise, beat)
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     if model.outcome is not Outcome.LEFT_BEHIND:
-        model = bench.revive(model, noise)
+        model = bench.revive(model, noise, beat)
     if suspect.mends and suspect.sign:
         positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
         if 0 < positive.size < len(finding.atoms):

@@ -168,6 +168,10 @@ class Court:
         change = self.share_of_change(look.model, trial.model)
         return gain, self.objection(trial, gain, change, look, explained)
 
+    def leaves_room(self, model: Model, look: Look) -> bool:
+        """Whether all suspects of a look together could make the error of a model smaller by what is of interest."""
+        return model.chi_square * (1.0 - self.relevance) ** 2 > look.floor
+
     def share_of_change(self, before: Model, after: Model) -> float:
         """What the change from one model to another makes of the plain error on the training runs."""
         return share_of_change(before, after, self.bench.runs, self.bench.sensors)

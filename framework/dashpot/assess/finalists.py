@@ -106,12 +106,13 @@ def plainer(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:
 def to_beat(trials: Sequence[Trial], finding: Finding, look: Look) -> float:
     """The chi square from which on the refit of a finding comes near the best trial so far.
 
-    Of two laws one of which may imitate the other both are refitted to their end.
+    Of two laws one of which may imitate the other both are refitted as long as they may come near enough for that.
     """
     best = max(trials, key=lambda trial: trial.merit, default=None)
-    if best is None or best.failure or imitates(finding, best.finding) or imitates(best.finding, finding):
+    if best is None or best.failure:
         return np.inf
-    return look.model.chi_square - best.merit + tie_width(best)
+    related = imitates(finding, best.finding) or imitates(best.finding, finding)
+    return look.model.chi_square - best.merit + max(tie_width(best), 2.0 * IMITATED * best.gain * related)
 
 
 def parts_of(finding: Finding, findings: Iterable[Finding], less: Finding | None = None) -> list[Finding]:

@@ -45,7 +45,7 @@ def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look
     Without that cause the error has to be larger by what is of interest at all. Found as the next, it may not explain
     as much beside the trial itself.
     """
-    for other in plainer(trial, ranked):
+    for other in plainer(trial, ranked) if court.leaves_room(trial.model, look) else ():
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
         relevant = trial.model.chi_square * (1.0 - court.relevance) ** 2
         better = [

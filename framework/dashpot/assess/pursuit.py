@@ -292,11 +292,11 @@ class Pursuer:
         """The best trial of each form, from the present numbers or with those that went astray put back first.
 
         Numbers that a strong effect has driven far away do not always find their way back beside its cause, and do not
-        let the screen see it.
+        let the screen see it. Where a trial leaves no more than noise there is nothing else to see.
         """
         court, astray = self.court, look.model.astray
         best = {form_of(trial.finding): trial for trial in trials}
-        if not (trials and astray):
+        if not (astray and trials and all(court.leaves_room(trial.model, look) for trial in trials)):
             return trials
         back = court.put_back(look, astray)
         for finding in choose_finalists(court.admissible(back), back):

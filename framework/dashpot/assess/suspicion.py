@@ -42,6 +42,11 @@ class Look:
     screen: Screen
     unavailable: tuple[tuple[str, str], ...]
 
+    @property
+    def floor(self) -> float:
+        """What chi square would be if all suspects at once were taken out, to first order: that of the noise."""
+        return self.model.chi_square - self.screen.together
+
 
 def look_at(bench: Bench, model: Model, causes: Sequence[type[Cause]], noise: NoiseModel | None, seed: int) -> Look:
     """Learn the noise, refit the model under it, screen all suspects."""

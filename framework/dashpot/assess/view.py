@@ -13,6 +13,7 @@ from dashpot.data.drive import moved_drive
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.kernel.system import CompiledSystem
 from dashpot.model.element import Element
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
 from dashpot.text.problem import InputError, Place, nearest
@@ -79,12 +80,15 @@ class ModelView:
 
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) of the model along a changed deflection. ValueError for a view without its network."""
-        if self.network is None:
-            raise ValueError("expected a view that knows its network, got one made of forces alone")
         scored = self.scored[run]
         moved = replace(scored, drive=moved_drive(scored.drive, change))
-        objective = Objective(compile_network(self.network), [moved])
-        return objective.forces(objective.network.start)[0][0]
+        return Objective(self._compiled, [moved]).forces(self._compiled.start)[0][0]
+
+    @cached_property
+    def _compiled(self) -> CompiledNetwork | CompiledSystem:
+        if self.network is None:
+            raise ValueError("expected a view that knows its network, got one made of forces alone")
+        return compile_network(self.network)
 
     def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
         """The forces (m, n) of an element with each of m sets of values; what a set leaves out has its default.
