@@ -11,17 +11,17 @@ from dashpot.model.picture import Symbol
 
 
 class Mullins(Element):
-    """A spring that is soft below its largest deflection so far: F = stiffness x exp(-(reach^2 - x^2)/depth^2).
+    """A spring that is soft below its largest deflection so far: F = stiffness x (1 - tanh((reach^2 - x^2)/depth^2)).
 
     The Mullins effect as a pseudo-elastic law, reach = max |x|: on virgin ground nothing is lost, on the way there the
     more, the further the largest energy so far is above the present one. Every record begins with a fresh specimen.
     """
 
     picture = Symbol.SPRING
-    source = "Ogden and Roxburgh, Proc. R. Soc. A 455 (1999) 2861, with an exponential in place of the error function"
+    source = "Dorfmann and Ogden, Int. J. Solids and Structures 40 (2003) 2699, with the energy of a spring"
 
     stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
-    depth = Parameter("m", "root of the difference of squares that leaves 1/e", bounds=(1e-6, 10.0), symbol="x_m")
+    depth = Parameter("m", "root of the difference of squares that leaves 24 %", bounds=(1e-6, 10.0), symbol="x_m")
     reach = State("m", "largest deflection to either side so far")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
@@ -31,8 +31,14 @@ class Mullins(Element):
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy that the way back to zero gives."""
-        return 0.5 * p.stiffness * p.depth * p.depth * (_left(x.new, z.reach, p) - _left(0.0, z.reach, p))
+        way = np.log1p(_grip(x.new, z.reach, p)) - np.log1p(_grip(0.0, z.reach, p))
+        return 0.5 * p.stiffness * p.depth * p.depth * way
 
 
 def _left(x: Any, reach: Any, p: Any) -> Any:
-    return np.exp((x * x - reach * reach) / (p.depth * p.depth))
+    grip = _grip(x, reach, p)
+    return 2.0 * grip / (1.0 + grip)
+
+
+def _grip(x: Any, reach: Any, p: Any) -> Any:
+    return np.exp(2.0 * (x * x - reach * reach) / (p.depth * p.depth))

@@ -169,8 +169,11 @@ class Court:
         return gain, self.objection(trial, gain, change, look, explained)
 
     def leaves_room(self, model: Model, look: Look) -> bool:
-        """Whether all suspects of a look together could make the error of a model smaller by what is of interest."""
-        return model.chi_square * (1.0 - self.relevance) ** 2 > look.floor
+        """Whether all suspects of a look together could make the error of a model smaller by what is of interest.
+
+        The floor of the look holds to first order: below it nothing is known.
+        """
+        return not model.chi_square * (1.0 - self.relevance) ** 2 <= look.floor <= model.chi_square
 
     def share_of_change(self, before: Model, after: Model) -> float:
         """What the change from one model to another makes of the plain error on the training runs."""
@@ -190,20 +193,20 @@ class Court:
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
-        if explained and max(fall, change) < (least := self.least_later_gain(trial.finding, look, explained)):
+        if explained and max(fall, change) < (least := self.least_later_gain(trial, look, explained)):
             return reasons.TOO_LITTLE.format(least=least)
         if not self.holds(look.model, trial.model, gain):
             return reasons.NOT_SUPPORTED
         weak = bool(explained) and max(fall, change) < SMALLEST_LATER_GAIN
         return reasons.FURTHER_NOT_SUPPORTED if weak and gain and gain.value <= 0.0 else ""
 
-    def least_later_gain(self, finding: Finding, look: Look, explained: float) -> float:
+    def least_later_gain(self, found: Finding | Trial, look: Look, explained: float) -> float:
         """The share by which a later cause has to make the error smaller to be worth a name.
 
         Where much is ``explained`` (fall of chi square) its form may be wrong by as much; where little is, it can not,
-        nor where one suspect explains nearly all that is left.
+        nor where one suspect explains nearly all that is left, as it is ``found`` by the look or by its refit.
         """
-        alone = finding.gain > ALL_OF_IT * look.screen.together
+        alone = found.gain > ALL_OF_IT * look.screen.together
         beyond = (BEYOND_FORM_ALONE if alone else BEYOND_FORM) * explained / look.model.chi_square
         return max(self.relevance, min(SMALLEST_LATER_GAIN, float(1.0 - np.sqrt(max(1.0 - beyond, 0.0)))))
 

@@ -40,18 +40,14 @@ def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
 
 
 def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
-    """Another form of the same cause that, beside one more cause, explains more than a trial without more numbers.
+    """Another form of the same cause with fewer numbers that explains more beside one more cause.
 
-    Without that cause the error has to be larger by what is of interest at all. Found as the next, it may not explain
-    as much beside the trial itself.
+    More than the trial alone, by what is of interest at all, and more than that beside its own next cause.
     """
     for other in plainer(trial, ranked) if court.leaves_room(trial.model, look) else ():
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
         relevant = trial.model.chi_square * (1.0 - court.relevance) ** 2
-        better = [
-            both for both in _with_the_next(court, form, look)
-            if _outdoes(both, trial) and both.model.chi_square < relevant
-        ]  # fmt: skip
+        better = [both for both in _with_the_next(court, form, look) if both.model.chi_square < relevant]
         if better and not form.failure:
             both = max(better, key=_by_merit)
             same = max(_with_the_next(court, trial, look), key=_by_merit, default=trial)
