@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 from dashpot.assess.contest import Model, Trial
 from dashpot.assess.gain import Gain
@@ -25,6 +27,24 @@ class Accepted:
     others: tuple[Trial, ...] = ()
     base: Model | None = None
     simpler: tuple[Trial, ...] = ()
+
+
+def certain_faults(accepted: Iterable[Accepted]) -> set[str]:
+    """The words of the faults of single runs that look like nothing else, or of which two have but one in common."""
+    local = [entry for entry in accepted if entry.finding.candidate.suspect.local]
+    words = [{entry.finding.candidate.cause.word, *entry.rivals} for entry in local]
+    common = (one & other for one, other in combinations(words, 2))
+    return {word for found in (*words, *common) if len(found) == 1 for word in found}
+
+
+def without_doubt(accepted: Iterable[Accepted], known: Collection[str]) -> list[Accepted]:
+    """The causes; faults of single runs whose word is ``known`` for certain have no rivals."""
+    return [
+        replace(entry, rivals=(), others=())
+        if entry.finding.candidate.suspect.local and entry.finding.candidate.cause.word in known
+        else entry
+        for entry in accepted
+    ]
 
 
 @dataclass(frozen=True)

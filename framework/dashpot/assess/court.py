@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -154,6 +154,21 @@ class Court:
         mends = [mend for mend in look.model.mends if any(mend.finding is finding for finding in findings)]
         start = self.bench.start_from(declared, look.model.fitted)
         return self.bench.as_it_stands(declared, start, look.noise, mends)
+
+    def agreed(
+        self, accepted: Sequence[Accepted], known: Collection[str], look: Look
+    ) -> tuple[list[Accepted], Look] | None:
+        """The causes with a fault alike two under the word that is ``known`` of other faults, and a look at that."""
+        for number, entry in enumerate(accepted):
+            faults = [other for other in entry.others if other.finding.candidate.suspect.local]
+            same = [other for other in faults if other.finding.candidate.cause.word in known]
+            if same and entry.finding.candidate.suspect.local and entry.finding.candidate.cause.word not in known:
+                own = same[0].model.mends[-1]
+                mends = [own if mend.finding is entry.finding else mend for mend in look.model.mends]
+                model = self.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
+                instead = replace(entry, finding=same[0].finding, trial=same[0], rivals=(), others=())
+                return [*accepted[:number], instead, *accepted[number + 1 :]], self.look(model, look.noise)
+        return None
 
     def extended(self, kept: Sequence[Accepted], first: Model) -> NetworkSpec:
         """The first model's network with the patches of some causes, as a file declares it."""

@@ -6,7 +6,7 @@ fake, and when it makes runs better that nobody fitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from dashpot.assess import reasons
-from dashpot.assess.accepted import Accepted, Rejection
+from dashpot.assess.accepted import Accepted, Rejection, certain_faults, without_doubt
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
 from dashpot.assess.erring import beyond_sensors
@@ -132,11 +132,14 @@ class Pursuer:
         self.court.rejected.extend(other.court.rejected)
         return instead, seen
 
-    def faults_of_held_out(self, look: Look, last: Model, explained: float) -> list[Accepted]:
+    def faults_of_held_out(
+        self, look: Look, last: Model, explained: float, known: Collection[str] = ()
+    ) -> list[Accepted]:
         """Faults of held-out runs as further causes, each with the last model less all faults so far.
 
         They have to make these runs better for certain, by as much as any cause after the first, and by more than what
-        is ``explained`` already (the fall of chi square) may be wrong by in its form.
+        is ``explained`` already (the fall of chi square) may be wrong by in its form. Of faults alike it is one whose
+        word is ``known`` of other runs.
         """
         court, found = self.court, []
         if not court.held_out:
@@ -146,7 +149,7 @@ class Pursuer:
         directions = known_directions(court.bench, look.model, look.noise)
         jury = Jury(replace(court.bench, runs=court.held_out, unseen=()), directions, court.causes, court.seed)
         for _ in court.held_out:
-            fault = jury.faulty(replace(look.model, mends=last.mends))
+            fault = jury.faulty(replace(look.model, mends=last.mends), known)
             if fault is None:
                 break
             finding, mend, rivals = fault
@@ -172,7 +175,10 @@ class Pursuer:
         court = self.court
         ladder = self.polish_ladder(first.model, accepted, look)
         explained = max(first.model.chi_square - look.model.chi_square, 0.0) if accepted else 0.0
-        faults = self.faults_of_held_out(look, ladder[-1], explained)
+        faults = self.faults_of_held_out(look, ladder[-1], explained, certain_faults(accepted))
+        known = certain_faults([*accepted, *faults])
+        if agreed := court.agreed(accepted, known, look):
+            return self.settle_gains(*agreed, first)
         gains = [court.gain_beside(faults, before, after) for before, after in pairwise(ladder)]
         for number in self.useless(gains):
             gains[number] = self.gain_of_last(number, accepted, look, ladder) or gains[number]
@@ -181,7 +187,7 @@ class Pursuer:
             useless = []
         if not useless:
             proved = [replace(entry, gain=gain) for entry, gain in zip(accepted, gains, strict=True)]
-            return [*proved, *faults], look, [*ladder, *(fault.trial.model for fault in faults)]
+            return without_doubt([*proved, *faults], known), look, [*ladder, *(fault.trial.model for fault in faults)]
         entry = accepted[useless[-1]]
         court.reject(entry.finding, reasons.NOT_SUPPORTED, entry.expected_gain, gains[useless[-1]])
         kept = [other for other in accepted if other is not entry]

@@ -5,7 +5,7 @@ Looked for at the end, with the final model, whose numbers are known from the tr
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,8 +37,11 @@ class Jury:
     causes: Sequence[type[Cause]]
     seed: int
 
-    def faulty(self, model: Model) -> tuple[Finding, Mend, tuple[str, ...]] | None:
-        """The most significant fault of single runs that is also worth a word, and words of those alike; or None."""
+    def faulty(self, model: Model, known: Collection[str] = ()) -> tuple[Finding, Mend, tuple[str, ...]] | None:
+        """The most significant fault of single runs that is also worth a word, and words of those alike; or None.
+
+        Of faults alike it is one of a word that is ``known`` of other runs for certain.
+        """
         columns, view = self._columns(model)
         if columns is None:
             return None
@@ -50,6 +53,8 @@ class Jury:
         if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
             return None
         near = [one for one in seen.findings if one.merit > finding.merit - tie_width(finding)]
+        if certain := [one for one in near if one.candidate.cause.word in known]:
+            return certain[0], make_mend(view, certain[0]), ()
         words = dict.fromkeys(one.candidate.cause.word for one in near)
         return finding, make_mend(view, finding), tuple(word for word in words if word != finding.candidate.cause.word)
 

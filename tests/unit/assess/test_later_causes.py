@@ -69,7 +69,7 @@ def test_a_cause_is_not_refused_for_the_faults_of_held_out_runs_alone(monkeypatc
     """They are looked for beside the cause, and taken out of the runs before and after it."""
     asked = []
 
-    def faults_of_held_out(self, look, last, explained):
+    def faults_of_held_out(self, look, last, explained, known=()):
         asked.append((look.model, last, explained))
         return ["a fault"]
 

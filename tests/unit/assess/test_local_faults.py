@@ -61,6 +61,14 @@ def test_the_fault_of_a_run_is_named_with_its_size(rng, run, word, shape, size):
     assert 0.0 < found[0]["gain"] < 1.0
 
 
+def test_a_fault_that_looks_like_two_has_the_name_of_that_which_another_run_has_for_certain(rng):
+    """1.5 N on a force of 1 kN that hardly changes may be a gain of 0.15 %; 10 N on one that does are an offset."""
+    sizes = {"r0": 1.5, "r1": 10.0}
+    (found,) = causes(dataset(rng, lambda name, _: sizes.get(name, 0.0)))
+    assert (found["cause"], found["indistinguishable_from"]) == ("offset", [])
+    assert {"offset of r0", "offset of r1"} <= found["parameters"].keys()
+
+
 def test_hum_of_all_runs_is_taken_out_of_the_held_out_ones_too(rng):
     """30 N at 50 Hz and a fifth of it at 150 Hz, of another phase in every run: the noise is left."""
 
