@@ -10,7 +10,7 @@ import numpy as np
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Model, admitted, measured_from
-from dashpot.assess.court import REFIT_MAY_DOUBLE, Court, within_form
+from dashpot.assess.court import REFIT_MAY_DOUBLE, SHARE_OF_FORM, Court, within_form
 from dashpot.assess.finalists import TIE, choose_finalists, makes_up
 from dashpot.assess.instead import simplified
 from dashpot.assess.screen import Finding
@@ -126,14 +126,17 @@ class Revision:
         """Put another cause in the place of one that won only because the ``newest`` one was still missing.
 
         Without a newest one it is the last; what was put in is the newest to the others. Where it explains less than
-        the newest one did, it comes last.
+        the newest one did, it comes last. One of two of a kind may only make up what the form of the other one misses.
         """
         newest = next((entry for entry in accepted if entry is newest), accepted[-1])
         older = [entry for entry in accepted if entry is not newest]
         for entry in older if len(accepted) <= MOST_EXCHANGED and not self.court.effort.spent else ():
             kept = [other for other in accepted if other is not entry]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
-            instead = self.better_than(entry, model, look, kept)
+            twice = any(other.finding.candidate.name == entry.finding.candidate.name for other in kept)
+            instead = self.better_than(
+                entry, model, look, kept, SHARE_OF_FORM * self.fall_to(look) if twice else -np.inf
+            )
             if instead is not None:
                 self.court.swap(entry, reasons.BETTER_BESIDE_THE_LATER)
                 weak = instead.trial.gain < newest.trial.gain
@@ -141,10 +144,13 @@ class Revision:
                 return self.exchange(changed, self.court.look(instead.trial.model, look.noise), instead)
         return accepted, look
 
-    def better_than(self, entry: Accepted, model: Model, look: Look, kept: Sequence[Accepted]) -> Accepted | None:
+    def better_than(
+        self, entry: Accepted, model: Model, look: Look, kept: Sequence[Accepted], least: float = -np.inf
+    ) -> Accepted | None:
         """Another cause that does better than an accepted one beside those that are ``kept``, the ``model``, or None.
 
-        Where there is one, the best of all takes the place, with its rivals.
+        Where there is one, the best of all takes the place, with its rivals. ``least`` is the least fall of chi square
+        that it has to bring.
         """
         glance = self.court.glance(model, look)
         for finding in self.others_than(entry, glance, model.chi_square - look.model.chi_square):
@@ -153,7 +159,8 @@ class Revision:
                 continue
             trial = simplified(self.court, trial, glance)
             gain = self.court.gain_of(look.model, trial.model)
-            if succeeds(trial.model, look) and (gain is None or gain.value >= -self.court.relevance):
+            enough = succeeds(trial.model, look) and look.model.chi_square - trial.model.chi_square > least
+            if enough and (gain is None or gain.value >= -self.court.relevance):
                 found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
                 winners = [one for one in self.contest(glance, explained) if succeeds(one.trial.model, look)]
