@@ -23,7 +23,7 @@ LOWEST = 0.15  # of the end of the measured band
 BELOW = 3.0  # times lower than where resonances are looked for
 OVERDAMPED = 1.0  # damping ratio from which on it is relaxation
 SMALLEST_MASS = 1.01e-3  # kg
-MAKES_UP = ("moving_mass", "viscous_damping")  # a resonance far beyond the band
+MAKES_UP = ("moving_mass", "viscous_damping", "relaxation")  # a resonance far beyond the band
 
 
 class Resonance(Cause):

@@ -26,7 +26,7 @@ from dashpot.model.reading import parse_network
 
 SHARE_OF_FORM = 5e-3  # of what is explained already: forms are never quite right
 FORM_ERROR = 0.05
-SMALLEST_GAIN = 2.5e-3  # an effect of 0.07 of the noise: forms that are never quite right stay below
+SMALLEST_GAIN = 1.5e-3  # an effect of 0.055 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
 ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is shared out among many

@@ -25,7 +25,7 @@ def simplified(court: Court, trial: Trial, look: Look) -> Trial:
 
 
 def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
-    """The stronger one of two causes whose laws a trial makes up, if both explain more without more numbers.
+    """The stronger one of two causes whose laws a trial makes up, if both explain more: with more numbers what matters.
 
     The weaker one is found as the next.
     """
@@ -36,7 +36,7 @@ def part_of(court: Court, trial: Trial, look: Look) -> Trial | None:
     beside = court.glance(alone.model, look)
     rest = parts_of(trial.finding, court.admissible(beside), parts[0])
     both = court.try_out(rest[0], beside) if rest else alone
-    return alone if _outdoes(both, trial) and not alone.failure else None
+    return alone if _outdoes(court, both, trial, look) and not alone.failure else None
 
 
 def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
@@ -65,10 +65,13 @@ def _with_the_next(court: Court, trial: Trial, look: Look) -> list[Trial]:
     return [each for each in (court.try_out(one, beside) for one in others) if not each.failure]
 
 
-def _outdoes(both: Trial, trial: Trial) -> bool:
-    """Whether the model with two causes fits better than that of a trial, without more numbers."""
-    better = both.model.chi_square + TIE <= trial.model.chi_square
-    return better and both.model.numbers <= trial.model.numbers and not both.failure
+def _outdoes(court: Court, both: Trial, trial: Trial, look: Look) -> bool:
+    """Whether the model with two causes fits better than that of a trial; with more numbers by what is of interest."""
+    more = both.model.numbers - trial.model.numbers
+    least = TIE + max(more, 0) * np.log(look.screen.samples)
+    needed = (1.0 - court.relevance) ** 2 if more > 0 else 1.0
+    better = both.model.chi_square <= min(trial.model.chi_square - least, needed * trial.model.chi_square)
+    return better and not both.failure
 
 
 def _by_merit(trial: Trial) -> float:

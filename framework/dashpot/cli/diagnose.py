@@ -18,7 +18,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
-@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.25, show_default=True,
+@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
               help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
 @click.option("--most-looks", metavar="N", type=click.IntRange(1), default=24, show_default=True,
               help="After how many looks at all suspects the search for causes ends.")  # fmt: skip

@@ -180,7 +180,7 @@ def diagnose(
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
     jobs: int = 1,
-    relevance: float = 2.5e-3,
+    relevance: float = 1.5e-3,
     most_looks: int = 24,
     registry: Registry | None = None,
 ) -> Diagnosis:
