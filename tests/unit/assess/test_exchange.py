@@ -6,8 +6,11 @@ from types import SimpleNamespace
 import pytest
 
 from dashpot.assess.accepted import Accepted
-from dashpot.assess.court import Effort
+from dashpot.assess.court import SHARE_OF_FORM, Effort
 from dashpot.assess.revision import MOST_EXCHANGED, Revision, succeeds
+
+
+EXPLAINED = 1e4
 
 
 class Court:
@@ -29,18 +32,21 @@ class Court:
 
 
 class Scripted(Revision):
-    """``better`` says by (cause, others) what explains more."""
+    """``better`` says by (cause, others) what explains more, ``falls`` by how much it lowers chi square."""
 
-    better = {}
+    better, falls = {}, {}
 
-    def better_than(self, entry, model, look, kept):
+    def fall_to(self, look):
+        return EXPLAINED
+
+    def better_than(self, entry, model, look, kept, least):
         word = self.better.get((entry.word, *model))
-        return accepted(word) if word else None
+        return accepted(word) if word and self.falls.get(word, 20.0) > least else None
 
 
 def accepted(word):
     suspect = SimpleNamespace(local=word in ("gain", "offset"))
-    finding = SimpleNamespace(candidate=SimpleNamespace(suspect=suspect))
+    finding = SimpleNamespace(candidate=SimpleNamespace(suspect=suspect, name=(word, "")))
     trial = SimpleNamespace(model=word, gain=1.0 if word == "weak" else 2.0)
     return SimpleNamespace(word=word, trial=trial, finding=finding)
 
@@ -80,6 +86,13 @@ def test_what_was_put_in_lets_the_later_one_give_way_too(exchange):
 def test_the_newest_cause_does_not_give_way(exchange):
     assert exchange(["friction", "drift"], {("drift", "friction"): "offset"}) == (["friction", "drift"], [])
     assert exchange(["friction"], {("friction",): "drift"}) == (["friction"], [])
+
+
+@pytest.mark.parametrize("fall", [0.8 * SHARE_OF_FORM * EXPLAINED, 1.2 * SHARE_OF_FORM * EXPLAINED])
+def test_one_of_two_of_a_kind_gives_way_only_for_more_than_a_form_may_err_by(exchange, monkeypatch, fall):
+    monkeypatch.setattr(Scripted, "falls", {"friction": fall})
+    found, _ = exchange(["softening", "softening"], {("softening", "softening"): "friction"})
+    assert found == (["friction", "softening"] if fall > SHARE_OF_FORM * EXPLAINED else ["softening", "softening"])
 
 
 def test_beside_many_causes_none_is_exchanged(exchange):

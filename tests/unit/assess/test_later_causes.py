@@ -30,6 +30,13 @@ def test_no_more_is_ever_asked_than_one_per_cent():
     assert COURT.least_later_gain(SimpleNamespace(gain=10.0), look, 1e8) == SMALLEST_LATER_GAIN
 
 
+@pytest.mark.parametrize(("chi_square", "room"), [(1.0005e5, False), (1.01e5, True), (0.9e5, True)])
+def test_where_nothing_of_interest_is_left_there_is_no_room_for_another_cause(chi_square, room):
+    """All suspects together leave 1e5, to first order; a model below that shows that nothing is known of it."""
+    look = SimpleNamespace(floor=1e5)
+    assert COURT.leaves_room(SimpleNamespace(chi_square=chi_square), look) is room
+
+
 @dataclass(frozen=True)
 class Mended:
     """A model that is known by the faults taken out of it."""
@@ -39,7 +46,7 @@ class Mended:
 
 @pytest.mark.parametrize(("with_fault", "without", "told"), [
     (0.001, 0.05, Gain(0.05, (0.05, 0.05), LESS_FAULTS)),
-    (0.001, 0.002, Gain(0.001, (0.001, 0.001))),
+    (0.001, 0.0014, Gain(0.001, (0.001, 0.001))),
     (0.02, 0.05, Gain(0.02, (0.02, 0.02))),
 ])  # fmt: skip
 def test_the_fault_of_a_held_out_run_does_not_hide_a_gain(monkeypatch, with_fault, without, told):

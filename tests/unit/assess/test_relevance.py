@@ -31,8 +31,8 @@ def test_a_smaller_gain_than_the_user_cares_for_is_refused(fall, relevance, refu
     assert ("of no practical relevance" in refusal(fall, relevance=relevance)) is refused
 
 
-def test_without_a_word_a_quarter_of_a_hundredth_is_enough():
-    assert "0.25%" in refusal(0.9 * SMALLEST_GAIN)
+def test_without_a_word_fifteen_of_ten_thousand_are_enough():
+    assert "0.15%" in refusal(0.9 * SMALLEST_GAIN)
     assert refusal(1.1 * SMALLEST_GAIN) == ""
 
 
