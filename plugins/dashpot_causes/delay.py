@@ -33,7 +33,7 @@ class Delay(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A shift of the model's force by a small time, or a low-pass, unless the network has a delay already."""
         if "force.delay" not in network.measurement:
-            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, quantity="delay", unit="s")
+            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, usual=1, unknowns=0, quantity="delay", unit="s")
             yield Suspect("low-pass of first order", LAGS, _lagging, unchanged, most=2, mends=True,
                           quantity="share", unit="1", tell=_tell)  # fmt: skip
 

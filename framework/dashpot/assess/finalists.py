@@ -76,13 +76,18 @@ def in_doubt(imitation: Trial, chosen: Trial) -> bool:
 
 def settle_ties(near: Sequence[Trial]) -> tuple[Trial, tuple[Trial, ...]]:
     """Among trials that fit alike the one with fewest numbers; the best of every other cause or place is its rival."""
-    chosen = min(near, key=lambda other: (other.model.numbers, -other.merit))
+    chosen = min(near, key=lambda other: (other.model.numbers, unusual(other.finding), -other.merit))
     best: dict[tuple[str, str], Trial] = {}
     for other in near:
         if not idles(other, chosen) and not contains(other, chosen):
             best.setdefault(other.finding.candidate.name, other)
     best.pop(chosen.finding.candidate.name)
     return chosen, tuple(best.values())
+
+
+def unusual(finding: Finding) -> bool:
+    """Whether a strength is negative where they are mostly positive, as that of a force that comes too early."""
+    return bool(finding.candidate.suspect.usual and np.any(finding.strengths < 0.0))
 
 
 def simpler(chosen: Trial, ranked: Sequence[Trial]) -> tuple[Trial, ...]:

@@ -76,9 +76,10 @@ class Suspect:
     """One form of a cause.
 
     ``columns(view, run)`` answers its force (m, n) at unit strength for each place of ``grid`` (m,); with ``joint`` all
-    columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts what the
-    cure leaves to be found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with
-    start values; at most ``most`` atoms of the grid act together.
+    columns act together with a strength each. ``sign`` 1 admits positive strengths only; with ``usual`` 1 they are
+    mostly, and of causes alike one with a negative strength comes last. ``unknowns`` counts what the cure leaves to be
+    found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with start values; at most
+    ``most`` atoms of the grid act together.
 
     With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
     text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
@@ -101,6 +102,7 @@ class Suspect:
     extend: Callable[[str, Sequence[Atom]], str]
     joint: bool = False
     sign: Literal[0, 1] = 1
+    usual: Literal[0, 1] = 0
     unknowns: int = 1
     most: int = 1
     mends: bool = False

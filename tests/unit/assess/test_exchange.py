@@ -9,7 +9,6 @@ from dashpot.assess.accepted import Accepted
 from dashpot.assess.court import SHARE_OF_FORM, Effort
 from dashpot.assess.revision import MOST_EXCHANGED, Revision, succeeds
 
-
 EXPLAINED = 1e4
 
 

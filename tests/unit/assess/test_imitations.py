@@ -2,16 +2,17 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from dashpot.assess.court import Court
 from dashpot.assess.finalists import imitated, in_doubt, makes_up, settle_ties
 
 
-def trial(word, gain, numbers, imitates=(), failure=""):
-    suspect = SimpleNamespace(imitates=imitates)
+def trial(word, gain, numbers, imitates=(), failure="", usual=0, strength=1.0):
+    suspect = SimpleNamespace(imitates=imitates, usual=usual)
     candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect, site=None)
-    finding = SimpleNamespace(candidate=candidate)
+    finding = SimpleNamespace(candidate=candidate, strengths=np.array([strength]))
     return SimpleNamespace(
         finding=finding, model=SimpleNamespace(numbers=numbers), gain=gain, merit=gain - 12.0 * numbers, failure=failure
     )
@@ -60,6 +61,18 @@ def test_a_law_that_contains_another_one_is_its_rival_only_where_it_leads(more, 
     chosen, others = settle_ties([plain, larger])
     assert chosen is plain
     assert len(others) == rivals
+
+
+@pytest.mark.parametrize(("strength", "named"), [(6e-5, "delay"), (-6e-5, "viscous_damping")])
+def test_of_causes_alike_one_of_an_unusual_sign_comes_last(strength, named):
+    """A force that comes too early looks like a dashpot, by one number each."""
+    delay = trial("delay", 1000.0, 1, usual=1, strength=strength)
+    dashpot = trial("viscous_damping", 998.0, 1)
+    for each in (delay, dashpot):
+        each.finding.candidate.name = (each.finding.candidate.cause.word, "")
+    chosen, others = settle_ties([delay, dashpot])
+    assert chosen.finding.candidate.cause.word == named
+    assert len(others) == 1
 
 
 def test_an_imitation_comes_again_when_what_it_imitates_is_gone():
