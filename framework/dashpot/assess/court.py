@@ -31,6 +31,7 @@ SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its o
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
 ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is shared out among many
 BEYOND_FORM_ALONE = 0.007
+ROOM = 2.0  # times what is of interest
 REFIT_MAY_DOUBLE = 0.5
 LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
@@ -184,11 +185,12 @@ class Court:
         return gain, self.objection(trial, gain, change, look, explained)
 
     def leaves_room(self, model: Model, look: Look) -> bool:
-        """Whether all suspects of a look together could make the error of a model smaller by what is of interest.
+        """Whether all suspects of a look together could make the error of a model smaller by twice what is of interest.
 
-        The floor of the look holds to first order: below it nothing is known.
+        Together they explain more than any one of them. The floor of the look holds to first order: below it nothing is
+        known.
         """
-        return not model.chi_square * (1.0 - self.relevance) ** 2 <= look.floor <= model.chi_square
+        return not model.chi_square * (1.0 - ROOM * self.relevance) ** 2 <= look.floor <= model.chi_square
 
     def share_of_change(self, before: Model, after: Model) -> float:
         """What the change from one model to another makes of the plain error on the training runs."""
