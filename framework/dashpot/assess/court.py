@@ -29,6 +29,8 @@ FORM_ERROR = 0.05
 SMALLEST_GAIN = 1.5e-3  # an effect of 0.055 of the noise: forms that are never quite right stay below
 SMALLEST_LATER_GAIN = 0.01  # what is left once a cause is found is partly its own form, not a further cause
 BEYOND_FORM = 0.03  # of what is explained already: no form is that wrong
+ALL_BUT_NOISE = 0.98  # of what all suspects together explain: no form leaves just what a single other law makes
+CLEAR = 1e3  # a fall of chi square of hundreds of suspects that noise hardly changes
 ALL_OF_IT = 0.8  # of what all suspects together explain: what a form leaves is shared out among many
 BEYOND_FORM_ALONE = 0.007
 ROOM = 2.0  # times what is of interest
@@ -206,7 +208,8 @@ class Court:
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
-        if within_form(trial.gain, look.model.chi_square, explained):
+        form = within_form(trial.gain, look.model.chi_square, explained)
+        if form and trial.gain < ALL_BUT_NOISE * max(look.screen.together, CLEAR):
             return "explains no more than the accepted causes may be wrong by in their form"
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"

@@ -10,6 +10,7 @@ from dashpot.assess.court import ALL_OF_IT, LESS_FAULTS, SMALLEST_GAIN, SMALLEST
 from dashpot.assess.gain import Gain
 from dashpot.assess.pursuit import Pursuer
 
+WITHIN = "explains no more than the accepted causes may be wrong by in their form"
 COURT = Court(None, (), (), 0)
 
 
@@ -28,6 +29,17 @@ def test_less_is_asked_of_a_suspect_that_explains_nearly_all_that_is_left(share,
 def test_no_more_is_ever_asked_than_one_per_cent():
     look = SimpleNamespace(model=SimpleNamespace(chi_square=1e5), screen=SimpleNamespace(together=1000.0))
     assert COURT.least_later_gain(SimpleNamespace(gain=10.0), look, 1e8) == SMALLEST_LATER_GAIN
+
+
+@pytest.mark.parametrize(
+    ("gain", "together", "form"), [(2990.0, 3000.0, ""), (2900.0, 3000.0, WITHIN), (500.0, 400.0, WITHIN)]
+)
+def test_what_a_single_law_explains_to_the_noise_is_no_error_of_a_form(gain, together, form):
+    """A strong cause may be wrong by 5000 in its form; what is left of a form is shared out among many suspects."""
+    trial = SimpleNamespace(failure="", merit=gain - 20.0, gain=gain, model=SimpleNamespace(chi_square=1e5 - gain))
+    screen = SimpleNamespace(threshold=10.0, together=together)
+    look = SimpleNamespace(screen=screen, model=SimpleNamespace(chi_square=1e5))
+    assert COURT.objection(trial, None, 0.03, look, 1e6) == form
 
 
 @pytest.mark.parametrize(("chi_square", "room"), [(1.0005e5, False), (1.01e5, True), (0.9e5, True)])
