@@ -149,8 +149,8 @@ class Revision:
     ) -> Accepted | None:
         """Another cause that does better than an accepted one beside those that are ``kept``, the ``model``, or None.
 
-        Where there is one, the best of all takes the place, with its rivals. ``least`` is the least fall of chi square
-        that it has to bring.
+        Where there is one, the best of all takes the place, with its rivals, unless that is the cause which was there:
+        what does better only imitates it. ``least`` is the least fall of chi square that it has to bring.
         """
         glance = self.court.glance(model, look)
         for finding in self.others_than(entry, glance, model.chi_square - look.model.chi_square):
@@ -163,8 +163,10 @@ class Revision:
             if enough and (gain is None or gain.value >= -self.court.relevance):
                 found = Accepted(trial.finding, trial, self.court.foresee(finding, glance), gain, (), base=model)
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
-                winners = [one for one in self.contest(glance, explained) if succeeds(one.trial.model, look)]
-                return winners[0] if len(winners) == 1 else found
+                winners = self.contest(glance, explained)
+                better = [one for one in winners if succeeds(one.trial.model, look)]
+                imitation = _names([entry]) & (_names(winners) - _names(kept))
+                return better[0] if len(better) == 1 else None if imitation else found
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:
@@ -172,6 +174,10 @@ class Revision:
         name = entry.finding.candidate.name
         found = choose_finalists(self.court.admissible(look, exchange=True), look)
         return [one for one in found if one.candidate.name != name and one.gain > REFIT_MAY_DOUBLE * fall][:MOST_OTHERS]
+
+
+def _names(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
+    return {entry.finding.candidate.name for entry in accepted}
 
 
 def succeeds(model: Model, look: Look, lead: float = TIE) -> bool:

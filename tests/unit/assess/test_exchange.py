@@ -250,3 +250,19 @@ def test_a_cause_is_superfluous_only_where_the_others_stay_what_they_say(monkeyp
     kept, _ = Revision(court, fit_of(5000.0), None).prune(entries, look)
     assert [entry.word for entry in kept] == list(words[1:] if stands else words)
     assert bool(court.barred) is stands
+
+
+@pytest.mark.parametrize(("winner", "kept", "given"), [
+    ("drift", "offset", None),
+    ("gain", "offset", "friction"),
+    ("drift", "drift", "friction"),
+])  # fmt: skip
+def test_what_only_imitates_a_cause_does_not_take_its_place(winner, kept, given):
+    """Friction fits a little better by its many numbers; before all others the cause that was there wins again."""
+    found = named(winner, 199.0)
+    winners = [Accepted(found, trial(found), 0.0, None, ())]
+    revision = Single(Contested(), fit_of(900.0), lambda look, explained: winners)
+    look = Fitted(SimpleNamespace(numbers=5, chi_square=200.0))
+    others = [SimpleNamespace(finding=named(kept, 0.0))]
+    better = revision.better_than(SimpleNamespace(finding=named("drift", 0.0)), fit_of(300.0), look, others)
+    assert (better and better.finding.candidate.name[0]) == given
