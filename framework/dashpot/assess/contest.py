@@ -129,6 +129,7 @@ class Bench:
 
         The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter;
         the best turn counts. A network that will not come down to the chi square ``beat`` is left behind half way.
+        The first turn ends with a step that lowers the loss by less than ``tolerance`` of it.
         """
         turns = [self._fit(declared, start, noise, tuple(mends), beat, tolerance)]
         for _ in range(MEND_ROUNDS if mends and turns[0].outcome is not Outcome.LEFT_BEHIND else 0):

@@ -133,10 +133,9 @@ class Revision:
         for entry in older if len(accepted) <= MOST_EXCHANGED and not self.court.effort.spent else ():
             kept = [other for other in accepted if other is not entry]
             model = self.court.rebuild(kept, look.model, self.first, look.noise)
-            twice = any(other.finding.candidate.name == entry.finding.candidate.name for other in kept)
-            instead = self.better_than(
-                entry, model, look, kept, SHARE_OF_FORM * self.fall_to(look) if twice else -np.inf
-            )
+            twice = _names([entry]) & _names(kept)
+            least = SHARE_OF_FORM * self.fall_to(look) if twice else -np.inf
+            instead = self.better_than(entry, model, look, kept, least)
             if instead is not None:
                 self.court.swap(entry, reasons.BETTER_BESIDE_THE_LATER)
                 weak = instead.trial.gain < newest.trial.gain
@@ -165,8 +164,9 @@ class Revision:
                 explained = max(self.first.chi_square - model.chi_square, 0.0) if kept else 0.0
                 winners = self.contest(glance, explained)
                 better = [one for one in winners if succeeds(one.trial.model, look)]
-                imitation = _names([entry]) & (_names(winners) - _names(kept))
-                return better[0] if len(better) == 1 else None if imitation else found
+                if len(better) == 1:
+                    return better[0]
+                return None if _names([entry]) & (_names(winners) - _names(kept)) else found
         return None
 
     def others_than(self, entry: Accepted, look: Look, fall: float) -> list[Finding]:

@@ -102,7 +102,6 @@ class Suspect:
     extend: Callable[[str, Sequence[Atom]], str]
     joint: bool = False
     sign: Literal[0, 1] = 1
-    usual: Literal[0, 1] = 0
     unknowns: int = 1
     most: int = 1
     mends: bool = False
@@ -115,6 +114,7 @@ class Suspect:
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
     stays: Callable[[Mapping[str, float]], bool] | None = None
     imitates: tuple[str, ...] = ()
+    usual: Literal[0, 1] = 0
 
 
 class Cause(ABC):
