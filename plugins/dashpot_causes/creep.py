@@ -11,7 +11,7 @@ from dashpot.model.network import NetworkSpec
 
 UNITS = {"stiffness": "N/m", "shortest": "s", "decades": "1"}
 PLACES = 4
-DECADES = 3.0
+LASTS = 10.0  # times the length of a run
 
 
 class Creep(Cause):
@@ -30,11 +30,12 @@ class Creep(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A fall per decade of time that begins at one of some times."""
         begins = tuple(np.geomspace(2.0 * view.dt, 0.2 * view.duration, PLACES))
+        end = LASTS * view.duration
         yield added_branch(
             "creep",
             "creep",
             begins,
-            lambda slope, begin: {"stiffness": slope, "shortest": begin, "decades": DECADES},
+            lambda slope, begin: {"stiffness": slope, "shortest": begin, "decades": min(np.log10(end / begin), 6.0)},
             UNITS,
             fixed=("decades",),
         )

@@ -28,10 +28,20 @@ class Softening(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth."""
+        """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth.
+
+        Another one softens with time, however it moves.
+        """
         places = [(speed * view.speed, time * view.duration) for speed, time in product(SPEEDS, TIMES)]
         yield _softening(places)
         yield _softening(places, {"exponent": 1.0}, "softening with a free law of warmth")
+        yield added_branch(
+            "fading_spring",
+            "softening",
+            tuple(time * view.duration for time in TIMES),
+            lambda k, time: {"stiffness": k, "time": time},
+            UNITS,
+        )
 
 
 def _softening(

@@ -21,6 +21,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.dahl import Dahl
     from dashpot_elements.damper import Damper
     from dashpot_elements.end_stop import EndStop
+    from dashpot_elements.fading_spring import FadingSpring
     from dashpot_elements.hydro import Hydro
     from dashpot_elements.inerter import Inerter
     from dashpot_elements.iwan import Iwan
@@ -35,6 +36,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.spring import Spring
     from dashpot_elements.springpot import Springpot
     from dashpot_elements.stribeck import Stribeck
+    from dashpot_elements.stribeck_curve import StribeckCurve
     from dashpot_elements.vibration_absorber import VibrationAbsorber
 
     return [
@@ -56,6 +58,7 @@ def dashpot_elements() -> list[type]:
         Dahl,
         Prandtl,
         Stribeck,
+        StribeckCurve,
         LooseFriction,
         BoucWen,
         Iwan,
@@ -63,5 +66,6 @@ def dashpot_elements() -> list[type]:
         BeddingIn,
         Mullins,
         Softening,
+        FadingSpring,
         Inerter,
     ]

@@ -11,6 +11,8 @@ from dashpot.expr.node import Node, compute, walk
 
 Tables = Mapping[str, Callable[[Any, int], Any]]
 
+_recipes: dict[tuple[int, ...], Recipe] = {}
+
 
 def interpret(roots: Sequence[Node], values: Mapping[str, Any], tables: Tables | None = None) -> list[Any]:
     """The values of the roots for the given symbols; arrays broadcast as in numpy.
@@ -18,7 +20,10 @@ def interpret(roots: Sequence[Node], values: Mapping[str, Any], tables: Tables |
     ``tables`` maps the name of a curve to a function of (argument, derivative order). Raises KeyError for a symbol or
     curve without a value.
     """
-    return Recipe(roots)(values, tables)
+    marks = tuple(root.serial for root in roots)
+    if marks not in _recipes:
+        _recipes[marks] = Recipe(roots)
+    return _recipes[marks](values, tables)
 
 
 class Recipe:

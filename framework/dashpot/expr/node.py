@@ -15,6 +15,7 @@ import numpy as np
 
 _interned: dict[tuple[Any, ...], Node] = {}
 _serial = itertools.count()
+_symbols: dict[int, frozenset[str]] = {}
 
 # numpy's name of a ufunc -> our name; the two differ only where numpy has aliases
 UFUNCS = {
@@ -177,9 +178,13 @@ def is_logical(node: Node) -> bool:
     return node.operation in LOGICAL or isinstance(node.payload, bool)
 
 
-def symbols_of(node: Node) -> set[str]:
+def symbols_of(node: Node) -> frozenset[str]:
     """The names of all symbols that a node needs."""
-    return {inner.payload for inner in walk([node]) if inner.operation == "symbol"}
+    if node.serial not in _symbols:
+        for inner in walk([node]):
+            own = [inner.payload] if inner.operation == "symbol" else []
+            _symbols[inner.serial] = frozenset(own).union(*(_symbols[arg.serial] for arg in inner.arguments))
+    return _symbols[node.serial]
 
 
 def _intern(operation: str, arguments: tuple[Node, ...], payload: Any) -> Node:
