@@ -168,6 +168,12 @@ def test_a_self_heating_spring_follows_its_warmth():
         assert relative(found, 2e4 * place(time) * left) < 1e-4
 
 
+def test_a_fading_spring_follows_the_clock_and_nothing_else():
+    time, found = march("fading_spring", 1e-3, 8.0, stiffness=2e4, time=0.4)
+    # at the first sample a step has passed
+    assert found == pytest.approx(2e4 * place(time) * np.exp(-(time + 1e-3) / 0.4), abs=1e-9)
+
+
 def test_a_creeping_spring_loses_its_force_along_the_logarithm_of_time():
     # held from the first sample on: a step from the unloaded specimen
     held, time = 4e-3, 0.1 * np.arange(20_001)

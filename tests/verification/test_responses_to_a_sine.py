@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.special import gamma
+from scipy.special import dawsn, gamma
 from verification.alone import dynamic_stiffness, last_cycle
 
 
@@ -120,6 +120,17 @@ def test_a_power_law_damper_has_the_equivalent_damping_of_a_sine(exponent):
     shape = 2.0 / np.sqrt(np.pi) * gamma(0.5 * exponent + 1.0) / gamma(0.5 * exponent + 1.5)
     ratio = 2.0 * np.pi * frequency * amplitude / 0.1
     assert b[0] == pytest.approx(80.0 * ratio**exponent * shape, rel=2e-4)
+    assert np.abs(a).max() < 1e-9 * b[0]
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.3, 2.0])
+def test_a_contact_whose_friction_falls_with_speed_takes_the_work_of_its_mean_limit(speed):
+    amplitude, frequency = 5e-3, 5.0
+    numbers = {"limit": 40.0, "breakaway": 100.0, "stribeck_velocity": speed, "creep_velocity": 1e-5}
+    _, a, b = harmonics("stribeck_curve", amplitude, frequency, 1, 20_000, **numbers)
+    # the mean of exp(-(r cos)^2) over the travel of a stroke is Dawson's integral of r over r
+    ratio = 2.0 * np.pi * frequency * amplitude / speed
+    assert b[0] == pytest.approx(4.0 / np.pi * (40.0 + 60.0 * dawsn(ratio) / ratio), rel=1e-3)
     assert np.abs(a).max() < 1e-9 * b[0]
 
 
