@@ -28,7 +28,9 @@ class Creep(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A fall per decade of time that begins at one of some times."""
+        """A fall per decade of time that begins at one of some times: of every change of deflection, or of the preload
+        alone with which the run begins.
+        """
         begins = tuple(np.geomspace(2.0 * view.dt, 0.2 * view.duration, PLACES))
         end = LASTS * view.duration
         yield added_branch(
@@ -38,4 +40,11 @@ class Creep(Cause):
             lambda slope, begin: {"stiffness": slope, "shortest": begin, "decades": min(np.log10(end / begin), 6.0)},
             UNITS,
             fixed=("decades",),
+        )
+        yield added_branch(
+            "preload_creep",
+            "creep",
+            begins,
+            lambda slope, begin: {"stiffness": slope, "shortest": begin},
+            UNITS,
         )

@@ -31,6 +31,7 @@ def dashpot_elements() -> list[type]:
     from dashpot_elements.mullins import Mullins
     from dashpot_elements.power_law_damper import PowerLawDamper
     from dashpot_elements.prandtl import Prandtl
+    from dashpot_elements.preload_creep import PreloadCreep
     from dashpot_elements.quadratic_damper import QuadraticDamper
     from dashpot_elements.softening import Softening
     from dashpot_elements.spring import Spring
@@ -52,6 +53,7 @@ def dashpot_elements() -> list[type]:
         Maxwell,
         Springpot,
         Creep,
+        PreloadCreep,
         Hydro,
         VibrationAbsorber,
         Coulomb,

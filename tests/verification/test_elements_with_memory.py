@@ -186,6 +186,15 @@ def test_a_creeping_spring_loses_its_force_along_the_logarithm_of_time():
     assert lost[within] == pytest.approx(expected[within], rel=0.03)
 
 
+def test_a_preload_creeps_and_what_moves_on_top_of_it_does_not():
+    time = 1e-2 * np.arange(2001)
+    drive = drive_from_path(1e-2, 3e-3 + place(time), speed(time), AMPLITUDE * OMEGA**2 * np.cos(OMEGA * time))
+    network = network_of("preload_creep", stiffness=1e4, shortest=0.5)
+    force = network.simulate(network.prepare(drive))
+    # at the first sample a step has passed
+    assert force == pytest.approx(-1e4 * 3e-3 * np.log10(1.0 + (time + 1e-2) / 0.5), abs=1e-9)
+
+
 @pytest.mark.parametrize("order", [0.1, 0.3, 0.5])
 @pytest.mark.parametrize("dwell", [3.0, 40.0])
 def test_a_springpot_still_feels_the_deflection_under_which_it_has_rested(order, dwell):

@@ -21,8 +21,8 @@ from dashpot.text.quantity import force_dimension
 SEEDS = st.integers(0, 2**32 - 1)
 KINDS = st.sampled_from(sorted(MOTIONS))
 ODD = ["backlash", "bedding_in", "bouc_wen", "clearance", "coulomb", "dahl", "damper", "fading_spring", "inerter",
-       "iwan", "loose_friction", "maxwell", "mullins", "power_law_damper", "prandtl", "quadratic_damper", "softening",
-       "spring", "stribeck", "stribeck_curve"]  # fmt: skip
+       "iwan", "loose_friction", "maxwell", "mullins", "power_law_damper", "prandtl", "preload_creep",
+       "quadratic_damper", "softening", "spring", "stribeck", "stribeck_curve"]  # fmt: skip
 RATE_INDEPENDENT = {
     "dahl": {"stiffness": 6e4, "limit": 15.0},
     "prandtl": {"stiffness": 6e4, "limit": 15.0},
