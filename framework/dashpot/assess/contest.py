@@ -291,13 +291,19 @@ def measured_from(model: Model, trial: Trial) -> Trial:
     return replace(trial, gain=gain, merit=trial.merit - trial.gain + gain)
 
 
-def admitted(trial: Trial, base: Model | None, model: Model) -> bool:
-    """Whether a later model still has numbers by which a trial, an extension of ``base``, is what its cause says."""
+def admitted(trial: Trial, base: Model | None, model: Model, first: Model | None = None) -> bool:
+    """Whether a later model still has numbers by which a trial, an extension of ``base``, is what its cause says.
+
+    Its branches may have other names now, where they are the only ones with such numbers, or all that was added to the
+    ``first`` model.
+    """
     if base is None:
         return True
     found, now = (_new_numbers(base, trial.model, seen) for seen in (trial.model, model))
     if found.keys() != now.keys():
         now = _of_the_only_branch(found.keys(), model)
+    if first and found.keys() != now.keys():
+        now = _new_numbers(first, model, model)
     suspect = trial.finding.candidate.suspect
     return found.keys() != now.keys() or (suspect.stays or suspect.admits)(now)
 
@@ -340,3 +346,15 @@ def inherit_numbers(declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
         slot.path: replace(known[slot.path], node=slot.value.node) for slot in declared.slots() if slot.path in known
     }
     return declared.with_values(shared)
+
+
+def with_numbers_of(network: NetworkSpec, fitted: NetworkSpec, names: Mapping[str, str]) -> NetworkSpec:
+    """A network with the numbers that its branches have in another one under other ``names``."""
+    known = {slot.path: slot.value for slot in fitted.slots()}
+    values = {}
+    for slot in network.slots():
+        branch, _, word = slot.path.rpartition(".")
+        path = f"{names.get(branch, branch)}.{word}"
+        if path in known:
+            values[slot.path] = replace(known[path], node=slot.value.node)
+    return network.with_values(values)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
-from dashpot.assess.contest import Bench, Model, Trial, measured_from, try_finding
+from dashpot.assess.contest import Bench, Model, Trial, measured_from, try_finding, with_numbers_of
 from dashpot.assess.erring import less_sensor_errors
 from dashpot.assess.finalists import Form, form_of
 from dashpot.assess.foresight import foreseen_gain
@@ -151,12 +152,27 @@ class Court:
         starts = [self.bench.start_from(declared, numbers) for numbers in (model.fitted, *earlier)]
         return self.bench.fit(declared, starts[self.bench.nearest(starts, noise, mends)], noise, mends)
 
-    def reduced(self, kept: Sequence[Accepted], look: Look, first: Model) -> Model:
-        """The model of a look with the patches of some of its causes only, its numbers as they are."""
-        declared, findings = self.extended(kept, first), [entry.finding for entry in kept]
+    def reduced(self, accepted: Sequence[Accepted], less: Accepted, look: Look, first: Model) -> Model:
+        """The model of a look, the first one with the patches of what is ``accepted``, without one of these.
+
+        Its numbers are as they are, whatever the names of their branches without that cause.
+        """
+        kept = [entry for entry in accepted if entry is not less]
+        findings = [entry.finding for entry in kept]
         mends = [mend for mend in look.model.mends if any(mend.finding is finding for finding in findings)]
+        declared = self.extended(kept, first)
         start = self.bench.start_from(declared, look.model.fitted)
+        now = {id(entry): names for entry, names in zip(accepted, self.branches(accepted, first), strict=True)}
+        before = {new: old for entry, names in zip(kept, self.branches(kept, first), strict=True)
+                  for new, old in zip(names, now[id(entry)], strict=True)}  # fmt: skip
+        start = with_numbers_of(start, look.model.fitted, before)
         return self.bench.as_it_stands(declared, start, look.noise, mends)
+
+    def branches(self, accepted: Sequence[Accepted], first: Model) -> list[list[str]]:
+        """The names of the branches that each cause adds to the first model, one after the other."""
+        names = [{leaf.name: None for leaf in self.extended(accepted[:count], first).leaves()}
+                 for count in range(len(accepted) + 1)]  # fmt: skip
+        return [[name for name in after if name not in before] for before, after in pairwise(names)]
 
     def agreed(
         self, accepted: Sequence[Accepted], known: Collection[str], look: Look

@@ -71,7 +71,7 @@ class Revision:
                 return accepted[:-1], self.court.look(last.base, look.noise)
             opposite = not admitted(entry.trial, entry.base, look.model)
             turned = opposite and not superfluous and not self.court.effort.spent
-            renamed = self.renamed(entry, kept, model, look) if turned else None
+            renamed = self.renamed(entry, accepted, model, look) if turned else None
             if renamed:
                 self.court.swap(entry, reasons.OPPOSITE)
                 changed = [*accepted[:number], renamed, *accepted[number + 1 :]]
@@ -91,14 +91,14 @@ class Revision:
         price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
         fall = model.chi_square - look.model.chi_square
         little = fall < price + look.screen.threshold or within_form(fall, model.chi_square, self.fall_to(look))
-        return little and all(admitted(other.trial, other.base, model) for other in kept)
+        return little and all(admitted(other.trial, other.base, model, self.first) for other in kept)
 
-    def renamed(self, entry: Accepted, kept: Sequence[Accepted], model: Model, look: Look) -> Accepted | None:
+    def renamed(self, entry: Accepted, accepted: Sequence[Accepted], model: Model, look: Look) -> Accepted | None:
         """The cause that a cause has become by its numbers: one that does as well beside those as they stand, or None.
 
-        ``model`` is that without it.
+        ``model`` is that of all others that are accepted.
         """
-        reduced = self.court.glance(self.court.reduced(kept, look, self.first), look)
+        reduced = self.court.glance(self.court.reduced(accepted, entry, look, self.first), look)
         found = choose_finalists(self.court.admissible(reduced, exchange=True), reduced)
         for finding in (one for one in found if one.candidate.name != entry.finding.candidate.name):
             trial = self.court.try_out(finding, reduced)
