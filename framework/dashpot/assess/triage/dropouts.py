@@ -49,24 +49,26 @@ def _jumps(x: Array, noise: float) -> dict[int, float]:
     """The first sample after each jump, and its size in m."""
     third = np.abs(np.diff(x, 3))
     usual = 1.4826 * float(np.median(third)) + noise
+    peaks = np.flatnonzero(third > SUSPECT * usual) + 2
+    peaks = peaks[(peaks > SIDE) & (peaks < x.size - SIDE - 2)]
+    places = peaks[:, None] + np.arange(-1, 3)
+    sizes = _steps(x, places, noise)
     found: dict[int, float] = {}
-    for peak in np.flatnonzero(third > SUSPECT * usual):
-        at = int(peak) + 2
-        if not SIDE < at < x.size - SIDE - 2 or any(abs(at - known) < SIDE for known in found):
-            continue
-        sizes = {place: _jump(x, place, noise) for place in range(at - 1, at + 3)}
-        place = max(sizes, key=lambda k: abs(sizes[k]))
-        if sizes[place]:
-            found[place] = sizes[place]
+    for at, near, steps in zip(peaks.tolist(), places, sizes, strict=True):
+        best = int(np.argmax(np.abs(steps)))
+        if steps[best] and not any(abs(at - known) < SIDE for known in found):
+            found[int(near[best])] = float(steps[best])
     return found
 
 
-def _jump(x: Array, at: int, noise: float) -> float:
-    """The step between what comes before ``at`` and what comes after, both continued; 0 where it is none."""
-    t = np.arange(SIDE) + 0.5
-    before = np.polynomial.Polynomial.fit(-t[::-1], x[at - SIDE : at], DEGREE).convert()
-    after = np.polynomial.Polynomial.fit(t, x[at : at + SIDE], DEGREE).convert()
-    left = np.concatenate([x[at - SIDE : at] - before(-t[::-1]), x[at : at + SIDE] - after(t)])
-    step = float(after(0.0) - before(0.0))
-    speed = max(abs(before.deriv()(0.0)), abs(after.deriv()(0.0)))
-    return step if abs(step) > max(CERTAIN * max(noise, float(np.std(left))), speed) else 0.0
+def _steps(x: Array, places: NDArray[np.intp], noise: float) -> Array:
+    """The steps between what comes before places and what comes after, both continued; 0 where it is none."""
+    sides = [x[places[..., None] + np.arange(-SIDE, 0)], x[places[..., None] + np.arange(SIDE)]]
+    times = [np.arange(-SIDE, 0) + 0.5, np.arange(SIDE) + 0.5]
+    powers = [np.vander(time, DEGREE + 1, increasing=True) for time in times]
+    before, after = (side @ np.linalg.pinv(power).T for side, power in zip(sides, powers, strict=True))
+    fitted = np.concatenate([before @ powers[0].T, after @ powers[1].T], axis=-1)
+    scatter = np.std(np.concatenate(sides, axis=-1) - fitted, axis=-1)
+    step, speed = after[..., 0] - before[..., 0], np.maximum(np.abs(before[..., 1]), np.abs(after[..., 1]))
+    certain = np.abs(step) > np.maximum(CERTAIN * np.maximum(noise, scatter), speed)
+    return np.where(certain, step, 0.0)
