@@ -10,7 +10,7 @@ from .loop import Loop, mean_loop
 from .monotone import fit_rising
 
 _KNOT_DISTANCE = 1e-3
-_FEWEST_KNOTS, _MOST_KNOTS = 8, 24
+_FEWEST_KNOTS, _MOST_KNOTS = 16, 24
 _INTERIOR = (0.25, 0.75)
 _JUMP_SHARE = 1.0 - np.exp(-1.0)
 
@@ -48,7 +48,7 @@ class FrictionStart:
 def extract_backbone(displacement: np.ndarray, force: np.ndarray, knots: int | None = None) -> Backbone:
     """Take the mid line of a slow loop, displacement (n,) m and force (n,) N, as a smooth rising table.
 
-    Knots stand about a millimetre apart, 8 to 24 of them unless their number is given. Near its ends the mid line is
+    Knots stand about a millimetre apart, 16 to 24 of them unless their number is given. Near its ends the mid line is
     not the backbone yet: friction bends it by up to its own limit; see `correct_backbone`.
     Raises ValueError when nothing moves.
     """

@@ -136,7 +136,7 @@ def test_the_first_of_several_loops_is_left_out():
     assert table.loops == 3
 
 
-@pytest.mark.parametrize(("stroke", "knots"), [(0.002, 8), (0.015, 16), (0.2, 24)])
+@pytest.mark.parametrize(("stroke", "knots"), [(0.002, 16), (0.02, 21), (0.2, 24)])
 def test_knots_stand_a_millimetre_apart_within_limits(stroke, knots):
     displacement = path(0.0, stroke, 0.0)
     table = extract_backbone(displacement, 1e5 * displacement)
