@@ -9,8 +9,9 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"stiffness": "N/m", "depth": "m", "exponent": "1"}
+UNITS = {"stiffness": "N/m", "depth": "m", "exponent": "1", "widening": "1"}
 PLACES = 6
+WIDENING = 0.1
 
 
 class BeddingIn(Cause):
@@ -40,3 +41,12 @@ class BeddingIn(Cause):
             unknowns=2,
         )
         yield added_branch("mullins", "bedding_in", grid, lambda k, depth: {"stiffness": k, "depth": depth}, UNITS)
+        yield added_branch(
+            "mullins",
+            "bedding_in",
+            grid,
+            lambda k, depth: {"stiffness": k, "depth": depth, "widening": WIDENING},
+            UNITS,
+            unknowns=2,
+            form="mullins, the wider the further it went",
+        )

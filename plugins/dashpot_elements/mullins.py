@@ -11,17 +11,20 @@ from dashpot.model.picture import Symbol
 
 
 class Mullins(Element):
-    """A spring that is soft below its largest deflection so far: F = stiffness x (1 - tanh((reach^2 - x^2)/depth^2)).
+    """A spring that is soft below its largest deflection so far: F = stiffness x (1 - tanh((reach^2 - x^2)/d^2)).
 
-    The Mullins effect as a pseudo-elastic law, reach = max |x|: on virgin ground nothing is lost, on the way there the
-    more, the further the largest energy so far is above the present one. Every record begins with a fresh specimen.
+    The Mullins effect as a pseudo-elastic law, reach = max |x| and d^2 = depth^2 + widening reach^2: on virgin ground
+    nothing is lost, on the way there the more, the further the largest energy so far is above the present one. Every
+    record begins with a fresh specimen.
     """
 
     picture = Symbol.SPRING
-    source = "Dorfmann and Ogden, Int. J. Solids and Structures 40 (2003) 2699, with the energy of a spring"
+    source = "Dorfmann and Ogden, Int. J. Solids and Structures 41 (2004) 1855, with the energy of a spring"
 
     stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
     depth = Parameter("m", "root of the difference of squares that leaves 24 %", bounds=(1e-6, 10.0), symbol="x_m")
+    widening = Parameter("1", "share of the largest energy so far that is added", bounds=(0.0, 10.0), scale="linear",
+                         symbol="beta", default=0.0)  # fmt: skip
     reach = State("m", "largest deflection to either side so far")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
@@ -32,7 +35,7 @@ class Mullins(Element):
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy that the way back to zero gives."""
         way = np.log1p(_grip(x.new, z.reach, p)) - np.log1p(_grip(0.0, z.reach, p))
-        return 0.5 * p.stiffness * p.depth * p.depth * way
+        return 0.5 * p.stiffness * _width(z.reach, p) * way
 
 
 def _left(x: Any, reach: Any, p: Any) -> Any:
@@ -41,4 +44,8 @@ def _left(x: Any, reach: Any, p: Any) -> Any:
 
 
 def _grip(x: Any, reach: Any, p: Any) -> Any:
-    return np.exp(2.0 * (x * x - reach * reach) / (p.depth * p.depth))
+    return np.exp(2.0 * (x * x - reach * reach) / _width(reach, p))
+
+
+def _width(reach: Any, p: Any) -> Any:
+    return p.depth * p.depth + p.widening * reach * reach

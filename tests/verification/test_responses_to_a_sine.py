@@ -213,13 +213,15 @@ def test_a_specimen_beds_in_once():
     assert later == pytest.approx(stiffness * x / (1.0 + amplitude / depth), rel=1e-12, abs=1e-9)
 
 
-def test_a_specimen_is_soft_on_the_way_to_where_it_was():
+@pytest.mark.parametrize("widening", [0.0, 0.4])
+def test_a_specimen_is_soft_on_the_way_to_where_it_was(widening):
     amplitude, depth, stiffness = 3e-3, 2e-3, 5e4
-    _, x, first = last_cycle("mullins", amplitude, 3.0, 1, 400, stiffness=stiffness, depth=depth)
+    numbers = {"stiffness": stiffness, "depth": depth, "widening": widening}
+    _, x, first = last_cycle("mullins", amplitude, 3.0, 1, 400, **numbers)
     virgin = np.abs(x) >= np.maximum.accumulate(np.abs(x))
     assert first[virgin] == pytest.approx(stiffness * x[virgin], rel=1e-12, abs=1e-9)
-    _, x, later = last_cycle("mullins", amplitude, 3.0, 2, 400, stiffness=stiffness, depth=depth)
-    left = 1.0 - np.tanh((amplitude**2 - x**2) / depth**2)
+    _, x, later = last_cycle("mullins", amplitude, 3.0, 2, 400, **numbers)
+    left = 1.0 - np.tanh((amplitude**2 - x**2) / (depth**2 + widening * amplitude**2))
     assert later == pytest.approx(stiffness * x * left, rel=1e-12, abs=1e-9)
 
 
