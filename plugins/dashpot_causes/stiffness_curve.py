@@ -15,6 +15,7 @@ from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 KNOTS = (6, 12, 24)
+POWERS = (2.0, 3.0)
 
 
 class StiffnessCurve(Cause):
@@ -30,11 +31,41 @@ class StiffnessCurve(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A correction curve through few or through many knots over the covered deflections."""
+        """A square and a cube of the deflection; a correction curve through few or many knots over what is covered."""
+        bent = _Powers(float(np.abs(view.reach).max()))
+        yield Suspect("a polynomial", POWERS, bent, bent.extend, sign=0, unknowns=0, most=len(POWERS),
+                      quantity="force at the end of the reach", unit="N")  # fmt: skip
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
             yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0,
                           quantity="force at a knot", unit="N", imitates=("end_stop",))  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Powers:
+    """Powers of the deflection that are one at ``far``."""
+
+    far: float
+
+    def __call__(self, view: View, run: str) -> Array:
+        return np.array([(view.displacement(run) / self.far) ** power for power in POWERS])
+
+    def extend(self, text: str, atoms: Sequence[Atom]) -> str:
+        """A spring with these powers; those between that are not wanted are zero."""
+        strengths = {power: strength / self.far**power for strength, power in atoms}
+        span = 30.0 * max(abs(strength) for strength, _ in atoms)
+        terms = ["0 N/m"]
+        for power in np.arange(2.0, max(strengths) + 1.0):
+            unit, most = f"N/m^{power:.0f}", span / self.far**power
+            bounds = f"bounds: [{pretty(-most, unit)}, {pretty(most, unit)}]"
+            found = power in strengths
+            terms.append(f"{{start: {pretty(strengths[power], unit, 6)}, {bounds}}}" if found else f"0 {unit}")
+        lines = [
+            f"{free_name(text, 'stiffness_correction')}:",
+            "  element: spring",
+            f"  stiffness: {{polynomial: [{', '.join(terms)}]}}",
+        ]
+        return add_branch(text, "\n".join(lines))
 
 
 @dataclass(frozen=True)

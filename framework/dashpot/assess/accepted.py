@@ -37,6 +37,16 @@ def certain_faults(accepted: Iterable[Accepted]) -> set[str]:
     return {word for found in (*words, *common) if len(found) == 1 for word in found}
 
 
+def likely_fault(accepted: Iterable[Accepted]) -> set[str]:
+    """The word of the fault of single runs that explains most, if all other such faults may be that as well."""
+    local = sorted(
+        (entry for entry in accepted if entry.finding.candidate.suspect.local), key=lambda one: -one.trial.gain
+    )
+    words = [{entry.finding.candidate.cause.word, *entry.rivals} for entry in local]
+    first = {entry.finding.candidate.cause.word for entry in local[:1]}
+    return first if all(first <= found for found in words) else set()
+
+
 def without_doubt(accepted: Iterable[Accepted], known: Collection[str]) -> list[Accepted]:
     """The causes; faults of single runs whose word is ``known`` for certain have no rivals."""
     return [

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from dashpot.assess import reasons
-from dashpot.assess.accepted import Accepted, Rejection, certain_faults, without_doubt
+from dashpot.assess.accepted import Accepted, Rejection, certain_faults, likely_fault, without_doubt
 from dashpot.assess.contest import Model, Trial, admitted
 from dashpot.assess.court import BEYOND_FORM, FORM_ERROR, SMALLEST_LATER_GAIN, Court
 from dashpot.assess.erring import beyond_sensors
@@ -175,9 +175,10 @@ class Pursuer:
         court = self.court
         ladder = self.polish_ladder(first.model, accepted, look)
         explained = max(first.model.chi_square - look.model.chi_square, 0.0) if accepted else 0.0
-        faults = self.faults_of_held_out(look, ladder[-1], explained, certain_faults(accepted))
+        likely = certain_faults(accepted) or likely_fault(accepted)
+        faults = self.faults_of_held_out(look, ladder[-1], explained, likely)
         known = certain_faults([*accepted, *faults])
-        if agreed := court.agreed(accepted, known, look):
+        if agreed := court.agreed(accepted, known or likely, look):
             return self.settle_gains(*agreed, first)
         gains = [court.gain_beside(faults, before, after) for before, after in pairwise(ladder)]
         for number in self.useless(gains):

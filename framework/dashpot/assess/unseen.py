@@ -40,7 +40,7 @@ class Jury:
     def faulty(self, model: Model, known: Collection[str] = ()) -> tuple[Finding, Mend, tuple[str, ...]] | None:
         """The most significant fault of single runs that is also worth a word, and words of those alike; or None.
 
-        Of faults alike it is one of a word that is ``known`` of other runs for certain.
+        Of faults alike it is one of a word that is ``known`` of other runs.
         """
         columns, view = self._columns(model)
         if columns is None:
@@ -53,8 +53,7 @@ class Jury:
         if finding is None or finding.gain < SMALLEST_SHARE * columns.samples_of(finding):
             return None
         near = [one for one in seen.findings if one.merit > finding.merit - tie_width(finding)]
-        if certain := [one for one in near if one.candidate.cause.word in known]:
-            return certain[0], make_mend(view, certain[0]), ()
+        finding = next((one for one in near if one.candidate.cause.word in known), finding)
         words = dict.fromkeys(one.candidate.cause.word for one in near)
         return finding, make_mend(view, finding), tuple(word for word in words if word != finding.candidate.cause.word)
 

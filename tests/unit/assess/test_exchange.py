@@ -243,7 +243,9 @@ class Pruned(Court):
 @pytest.mark.parametrize("stands", [True, False])
 def test_a_cause_is_superfluous_only_where_the_others_stay_what_they_say(monkeypatch, stands):
     """A relaxation that would have to become a dashpot does not make the dashpot superfluous."""
-    monkeypatch.setattr("dashpot.assess.revision.admitted", lambda trial, base, model: stands or model.numbers == 5)
+    monkeypatch.setattr(
+        "dashpot.assess.revision.admitted", lambda trial, base, model, first=None: stands or model.numbers == 5
+    )
     court, words = Pruned(), ("viscous_damping", "relaxation")
     entries = [SimpleNamespace(word=word, base=None, trial=None, finding=None) for word in words]
     look = Fitted(fit_of(200.0))
