@@ -1,4 +1,6 @@
-"""What a trial is accepted as: with fewer places, as one of two simpler causes that it makes up, in a plainer form."""
+"""What a trial is accepted as: with fewer places, as one of two simpler causes that it makes up, in a plainer form,
+as a cause of all runs in place of faults of many.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +15,8 @@ from dashpot.assess.suspicion import Look
 from dashpot.fit.refine import Outcome
 
 MOST_NEXT = 2
+COMES_NEAR = 0.8  # of a fall of chi square
+MANY_RUNS = 4  # with a fault of their own: what acts in all runs may look so
 
 
 def simplified(court: Court, trial: Trial, look: Look) -> Trial:
@@ -54,6 +58,18 @@ def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look
             price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples)
             if both.model.chi_square + price + TIE <= same.model.chi_square:
                 return form
+    return None
+
+
+def of_all_runs(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
+    """A cause of all runs that comes near a fault of many single ones, if it explains more beside its next cause."""
+    if not trial.finding.candidate.suspect.local or len(trial.finding.atoms) < MANY_RUNS:
+        return None
+    others = [other for other in ranked if not other.finding.candidate.suspect.local and not other.failure]
+    for other in [other for other in others if other.gain > COMES_NEAR * trial.gain][:1]:
+        form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
+        if any(_outdoes(court, both, trial, look) for both in _with_the_next(court, form, look)):
+            return form
     return None
 
 
