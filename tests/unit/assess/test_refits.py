@@ -8,7 +8,7 @@ from scipy.interpolate import CubicSpline
 from unit.assess.rig import REGISTRY, STEP, TIME, fitted, sweep
 
 from dashpot.assess.accepted import Accepted
-from dashpot.assess.contest import Bench, Trial, admitted, try_finding
+from dashpot.assess.contest import Bench, Trial, admitted, try_finding, with_numbers_of
 from dashpot.assess.court import Court
 from dashpot.assess.finalists import form_of
 from dashpot.assess.instead import part_of, plainer_form, simplified
@@ -19,6 +19,7 @@ from dashpot.assess.suspicion import linear_view, look_at
 from dashpot.contract.cause import Cause, added_branch
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import prepare
+from dashpot.model.reading import parse_network
 
 TABLE = """\
 format: dashpot-network/1
@@ -344,3 +345,15 @@ def test_beside_its_cause_a_number_that_went_astray_is_found_again(rng):
     found = {slot.path: slot.value.number for slot in trial.model.fitted.slots()}
     assert found["relaxation.relaxation_time"] == pytest.approx(30e-3, rel=0.2)
     assert found["viscous_damping.damping"] == pytest.approx(900.0, rel=0.1)
+
+
+def test_a_network_with_fewer_branches_keeps_their_own_numbers():
+    """Without the first of three relaxations the names of the others move up; their numbers go with them."""
+    branch = "{{element: maxwell, stiffness: {} N/m, relaxation_time: {} s}}"
+    head = "format: dashpot-network/1\nname: soft\nbranches:\n"
+    three = head + "".join(f"  pot_{n}: {branch.format(n, n)}\n" for n in (1, 2, 3))
+    two = head + "".join(f"  pot_{n}: {branch.format(9, 9)}\n" for n in (1, 2))
+    known, fewer = (parse_network(text, REGISTRY.elements) for text in (three, two))
+    found = with_numbers_of(fewer, known, {"pot_1": "pot_2", "pot_2": "pot_3"})
+    numbers = {slot.path: slot.value.number for slot in found.slots()}
+    assert [numbers[f"pot_{n}.{key}"] for n in (1, 2) for key in ("stiffness", "relaxation_time")] == [2, 2, 3, 3]
