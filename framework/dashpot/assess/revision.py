@@ -11,7 +11,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Model, admitted, measured_from
 from dashpot.assess.court import REFIT_MAY_DOUBLE, SHARE_OF_FORM, Court, within_form
-from dashpot.assess.finalists import TIE, choose_finalists, makes_up
+from dashpot.assess.finalists import TIE, choose_finalists, imitates, makes_up
 from dashpot.assess.instead import simplified
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
@@ -34,7 +34,7 @@ class Revision:
 
     def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """The causes that stay, or others in their places, and a look at the model with them."""
-        accepted, look = self.part(accepted, look)
+        accepted, look = self.merge(*self.part(accepted, look))
         settled, look = self.reconsider(accepted, look)
         newest = next((entry for entry in settled if not any(entry is other for other in accepted)), None)
         return self.exchange(*self.prune(settled, look), newest)
@@ -52,6 +52,22 @@ class Revision:
             instead = self.better_than(entry, model, look, [rest])
             if instead is not None and instead.finding.candidate.suspect.local:
                 return [*accepted[:-1], rest, instead], self.court.look(instead.trial.model, look.noise)
+        return accepted, look
+
+    def merge(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
+        """Put a rival of the first cause that can make up its law in the place of both, where it explains as much."""
+        first, last = accepted[0], accepted[-1]
+        mending = last.finding.candidate.suspect.mends
+        for trial in first.others if len(accepted) == 2 and not mending else ():
+            if imitates(trial.finding, first.finding):
+                before = trial.model
+                model = self.court.bench.fit(before.declared, before.fitted, look.noise, before.mends)
+                if succeeds(model, look, lead=-TIE):
+                    self.court.reject(first.finding, reasons.ONE_LAW, None, None)
+                    gain = self.court.gain_of(first.base, model) if first.base else None
+                    one = replace(trial, model=model)
+                    entry = Accepted(trial.finding, one, first.expected_gain, gain, (), base=first.base)
+                    return [entry], self.court.look(model, look.noise)
         return accepted, look
 
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:

@@ -5,12 +5,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dashpot.assess import reasons
+from dashpot.assess.accepted import Accepted
+from dashpot.assess.contest import Trial
 from dashpot.assess.court import Court
 from dashpot.assess.finalists import imitated, in_doubt, makes_up, settle_ties
+from dashpot.assess.revision import Revision
 
 
 def trial(word, gain, numbers, imitates=(), failure="", usual=0, strength=1.0):
-    suspect = SimpleNamespace(imitates=imitates, usual=usual)
+    suspect = SimpleNamespace(imitates=imitates, usual=usual, mends=False)
     candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect, site=None)
     finding = SimpleNamespace(candidate=candidate, strengths=np.array([strength]))
     return SimpleNamespace(
@@ -89,3 +93,40 @@ def test_an_imitation_comes_again_when_what_it_imitates_is_gone():
     assert court.barred == {("velocity_dependent_friction", "", "a form")}
     court.readmit_imitations(friction)
     assert not court.barred
+
+
+class Merging:
+    """A court before which a refit is the model itself."""
+
+    def __init__(self):
+        self.bench = SimpleNamespace(fit=lambda declared, fitted, noise, mends: self.model)
+        self.rejected = []
+
+    def reject(self, finding, reason, foreseen, gain):
+        self.rejected.append(reason)
+
+    def gain_of(self, before, after):
+        return None
+
+    def look(self, model, noise):
+        return SimpleNamespace(model=model, noise=noise)
+
+
+@pytest.mark.parametrize(("chi_square", "merged"), [(76_835.0, True), (76_990.0, False)])
+def test_one_richer_law_takes_the_place_of_two_causes_where_it_explains_as_much(chi_square, merged):
+    """Friction that falls with speed, instead of friction and a damper that takes from it."""
+    fitted = SimpleNamespace(declared=None, fitted=None, mends=())
+    plain, falling, damper = (Trial(one.finding, fitted, one.gain, one.merit) for one in (
+        trial("friction", 37e3, 23), trial("velocity_dependent_friction", 37.7e3, 26, ("friction",)),
+        trial("power_law_damping", 600.0, 25)))  # fmt: skip
+    first = Accepted(plain.finding, plain, 0.0, None, (), others=(falling,))
+    last = Accepted(damper.finding, damper, 0.0, None, ())
+    court = Merging()
+    court.model = SimpleNamespace(chi_square=chi_square, numbers=26)
+    look = SimpleNamespace(
+        model=SimpleNamespace(chi_square=76_934.0, numbers=25), noise=None, screen=SimpleNamespace(samples=80_000)
+    )
+    entries, after = Revision(court, look.model, None).merge([first, last], look)
+    assert [entry.finding for entry in entries] == ([falling.finding] if merged else [plain.finding, damper.finding])
+    assert (after is look) is not merged
+    assert court.rejected == [reasons.ONE_LAW] * merged
