@@ -62,7 +62,8 @@ class Court:
 
     ``relevance`` is the share by which a cause has to make the training error smaller to be of interest; ``groups``
     says by run which runs repeat one another. Forms that are ``barred`` do not come back, those that were ``exchanged``
-    only in exchange for another one, ``imitations`` of a form when that is gone.
+    only in exchange for another one, ``imitations`` of a form when that is gone. ``made_up`` are words of causes whose
+    law an accepted one can make up: they may be no more than what its form is wrong by.
     """
 
     bench: Bench
@@ -75,6 +76,7 @@ class Court:
     barred: set[Form] = field(default_factory=set)
     imitations: dict[Form, set[Form]] = field(default_factory=dict)
     exchanged: set[Form] = field(default_factory=set)
+    made_up: set[str] = field(default_factory=set)
     latest: list[Look] = field(default_factory=list)
     effort: Effort = field(default_factory=Effort)
 
@@ -226,7 +228,9 @@ class Court:
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
         form = within_form(trial.gain, look.model.chi_square, explained)
         if form and trial.gain < ALL_BUT_NOISE * max(look.screen.together, CLEAR):
-            return "explains no more than the accepted causes may be wrong by in their form"
+            return reasons.WITHIN_FORM
+        if trial.gain < BEYOND_FORM * explained and trial.finding.candidate.cause.word in self.made_up:
+            return reasons.WITHIN_FORM
         if change < self.relevance:
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and max(fall, change) < (least := self.least_later_gain(trial, look, explained)):

@@ -104,7 +104,9 @@ class Pursuer:
         while len(accepted) < most and not (accepted and self.court.effort.spent):
             self.tried += len(look.screen.findings)
             explained = first.model.chi_square - look.model.chi_square if accepted else 0.0
+            self.court.made_up = {word for entry in accepted for word in entry.finding.candidate.suspect.imitates}
             winners = self.best_trial(look, max(explained, 0.0))
+            self.court.made_up = set()
             if not winners:
                 break
             words = " and ".join(winner.finding.candidate.cause.word for winner in winners)

@@ -5,6 +5,7 @@ LOSES_ON_HELD_OUT = "fits as well as the accepted cause, but held-out runs speak
 IMITATES = "it only imitates, by its many numbers, what the accepted cause does with fewer"
 NOT_SUPPORTED = "does not make the held-out runs better: not supported by the data"
 FURTHER_NOT_SUPPORTED = "does not make the held-out runs better, as a weak further cause has to"
+WITHIN_FORM = "explains no more than the accepted causes may be wrong by in their form"
 SUPERFLUOUS = "superfluous once the later causes are there"
 OPPOSITE = "turned into its opposite once the later causes are there"
 BETTER_BESIDE_THE_LATER = "another cause explains more beside the later ones"

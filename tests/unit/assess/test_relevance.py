@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dashpot.assess import reasons
 from dashpot.assess.court import SMALLEST_GAIN, Court
 from dashpot.assess.gain import Gain
 from dashpot.assess.misfits import share_of_change
@@ -66,6 +67,22 @@ def test_a_long_run_counts_no_more_than_a_short_one(monkeypatch):
     before = (1.2**2 + 1.0) / 2.0
     expected = 1.0 - np.sqrt(1.0 - 0.2**2 / 2.0 / before)
     assert share_of_change("before", "after", [*RUNS, *RUNS], {}) == pytest.approx(expected, rel=0.05)
+
+
+@pytest.mark.parametrize(("word", "gain", "refused"), [
+    ("end_stop", 12e3, True), ("end_stop", 18e3, False), ("friction", 12e3, False)])  # fmt: skip
+def test_a_law_that_the_accepted_curve_could_make_up_has_to_explain_more_than_its_form(word, gain, refused):
+    """A curve through knots has explained 500 000 of chi square, a stop comes on top."""
+    court = Court(None, (), (), 0)
+    court.made_up = {"end_stop"}
+    finding = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(word=word)))
+    after = SimpleNamespace(chi_square=90e3 - gain)
+    trial = SimpleNamespace(failure="", merit=gain, gain=gain, model=after, finding=finding)
+    look = SimpleNamespace(
+        screen=SimpleNamespace(threshold=10.0, together=gain), model=SimpleNamespace(chi_square=90e3)
+    )
+    said = court.objection(trial, Gain(0.05, (0.04, 0.06)), 0.05, look, 500e3)
+    assert said == (reasons.WITHIN_FORM if refused else "")
 
 
 def test_a_fault_that_gains_nothing_on_pieces_of_the_only_runs_does_not_hold():
