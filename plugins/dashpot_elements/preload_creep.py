@@ -11,9 +11,9 @@ from dashpot.model.picture import Series, Symbol
 
 
 class PreloadCreep(Element):
-    """The force with which a record begins falls with the logarithm of time, F = -stiffness x_0 lg(1 + t/shortest).
+    """The force with which a record begins falls with the logarithm of time: F = -stiffness x_0 lg(1 + t/shortest).
 
-    x_0 is the deflection at the begin, and what moves on top of it does not creep: `creep` is the law in which every
+    x_0 is the deflection at the begin, and what moves on top of it does not creep: ``creep`` is the law in which every
     change of the deflection does. Beside a spring it is what that loses; not passive by itself.
     """
 

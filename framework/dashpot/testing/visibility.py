@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
-from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.eager import EagerBranch, simulate_eagerly
 from dashpot.kernel.network import compile_network
-from dashpot.model.element import Element
+from dashpot.kernel.trace import Sight, trace_branch
+from dashpot.model.element import Element, Motion
 from dashpot.testing.motion import random_drive
 from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens
 from dashpot.testing.verdict import Examination
@@ -26,7 +27,7 @@ ADVICE = "Turn conditions round so that the case with NaN computes: np.where(x >
 
 
 def check_visibility(element: type[Element], seed: int | None = None) -> None:
-    """NaN in a number or in the motion gives NaN as long as it matters: with memory, from then on."""
+    """NaN in a number or in the motion gives NaN as long as it matters: with memory of it, from then on."""
     examination = Examination.begin(element, "visibility", seed)
     rng = examination.rng()
     sizes = draw_sizes(rng)
@@ -62,24 +63,45 @@ def _check_numbers(examination: Examination, specimen: Specimen, simulate: Simul
 
 
 def _check_motion(examination: Examination, specimen: Specimen, simulate: Simulate, drive: Drive, case: str) -> None:
-    struck = np.zeros(drive.samples, dtype=bool)
-    struck[drive.samples // 2] = True
-    force = simulate(_blinded(drive, struck), specimen.values)
-    hidden = _from_then_on(examination.element, struck[None]) & ~np.isnan(force)
-    examination.demand(not hidden.any(), f"{case}: NaN in the motion at sample {drive.samples // 2} gives a number at "
+    sample = drive.samples // 2
+    same, other, unknown = (_struck(drive, sample, factor) for factor in (1.0, NUDGE, np.nan))
+    force = simulate(same, specimen.values)
+    change = np.abs(simulate(other, specimen.values) - force)
+    matters = change > NOTICEABLE * np.max(np.abs(force))
+    if _remembers(specimen, same, other, sample):
+        matters[:, sample:] = True
+    hidden = matters & ~np.isnan(simulate(unknown, specimen.values))
+    examination.demand(not hidden.any(), f"{case}: NaN in the motion at sample {sample} gives a number at "
                        f"sample {int(np.argmax(hidden.any(axis=0)))}", ADVICE)  # fmt: skip
 
 
-def _blinded(drive: Drive, struck: NDArray[np.bool_]) -> Drive:
+def _remembers(specimen: Specimen, same: Drive, other: Drive, sample: int) -> bool:
+    """Whether a state after the step to a sample is another one where the motion there is."""
+    sight, law = trace_branch(specimen.branch).sight, EagerBranch(specimen.branch, specimen.numbers)
+    states = law.rest(specimen.values.shape[0])
+    for step in range(1, sample):
+        states = dict(law.respond(_motion(same, step, sight), states, same.dt).states)
+    kept, moved = (law.respond(_motion(drive, sample, sight), states, same.dt).states for drive in (same, other))
+    return any(bool(np.any(kept[key] != moved[key])) for key in kept)
+
+
+def _motion(drive: Drive, step: int, sight: Sight) -> Motion:
+    path = drive.displacement[step - 1], drive.displacement[step]
+    if sight == "monotone":
+        return Motion(*path, np.nan, np.nan, np.nan)
+    return Motion(*path, drive.velocity[step - 1], drive.velocity[step], drive.acceleration[step])
+
+
+def _struck(drive: Drive, sample: int, factor: float) -> Drive:
     # a turning point on a path that is not known is not known either
-    step = drive.turn_step
-    kept = ~(struck[step] | struck[step - 1])
+    factors = np.where(np.arange(drive.samples) == sample, factor, 1.0)
+    kept = (drive.turn_step != sample) & (drive.turn_step != sample + 1)
     return replace(
         drive,
-        displacement=np.where(struck, np.nan, drive.displacement),
-        velocity=np.where(struck, np.nan, drive.velocity),
-        acceleration=np.where(struck, np.nan, drive.acceleration),
-        turn_step=step[kept],
+        displacement=factors * drive.displacement,
+        velocity=factors * drive.velocity,
+        acceleration=factors * drive.acceleration,
+        turn_step=drive.turn_step[kept],
         turn_displacement=drive.turn_displacement[kept],
     )
 

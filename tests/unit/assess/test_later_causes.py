@@ -36,7 +36,9 @@ def test_no_more_is_ever_asked_than_one_per_cent():
 )
 def test_what_a_single_law_explains_to_the_noise_is_no_error_of_a_form(gain, together, form):
     """A strong cause may be wrong by 5000 in its form; what is left of a form is shared out among many suspects."""
-    trial = SimpleNamespace(failure="", merit=gain - 20.0, gain=gain, model=SimpleNamespace(chi_square=1e5 - gain))
+    after = SimpleNamespace(chi_square=1e5 - gain)
+    finding = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(word="friction")))
+    trial = SimpleNamespace(failure="", merit=gain - 20.0, gain=gain, model=after, finding=finding)
     screen = SimpleNamespace(threshold=10.0, together=together)
     look = SimpleNamespace(screen=screen, model=SimpleNamespace(chi_square=1e5))
     assert COURT.objection(trial, None, 0.03, look, 1e6) == form
