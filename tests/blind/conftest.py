@@ -4,6 +4,7 @@ import os
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -15,3 +16,9 @@ def seed():
     value = int(os.environ.get("BLIND_SEED") or int.from_bytes(os.urandom(4), "little"))
     print(f"seed {value}: BLIND_SEED={value} repeats it")
     return value
+
+
+@pytest.fixture
+def rng(seed):
+    """Random numbers of the seed."""
+    return np.random.default_rng(seed)

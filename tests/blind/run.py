@@ -20,7 +20,8 @@ from typing import TYPE_CHECKING
 sys.path.insert(0, str(Path(__file__).parent))
 
 from score import Outcome, print_table, summary
-from truth import KINDS_OF_BASE, draw_case
+from textbook import RIGS, draw_textbook
+from truth import KINDS_OF_BASE, Case, draw_case
 from truth.design import further
 
 if TYPE_CHECKING:
@@ -50,11 +51,13 @@ class Bench:
 
     def run(self, seed: int, base: str, kind: str | None = None, strength: float | None = None) -> Outcome:
         """Draw, diagnose, record the verdict, open the label."""
-        if kind is None and (self.without or self.double):
-            kind = "+".join(random.Random(seed).sample(KINDS_OF_BASE[base], 2 if self.double else 1))
-        draw = partial(draw_case, seed, base, kind, strength, design=self.design, sensors=self.sensors)
-        robbed = kind.split("+") if self.without and kind else []
-        case = draw()
+        if base in RIGS:
+            case, robbed = self.textbook(seed, base, kind, strength), []
+        else:
+            if kind is None and (self.without or self.double):
+                kind = "+".join(random.Random(seed).sample(KINDS_OF_BASE[base], 2 if self.double else 1))
+            draw = partial(draw_case, seed, base, kind, strength, design=self.design, sensors=self.sensors)
+            case, robbed = draw(), kind.split("+") if self.without and kind else []
         began = time.perf_counter()
         found = diagnose_folder(case.folder, base, self.jobs, robbed)
         seconds, before, more = time.perf_counter() - began, None, ()
@@ -68,6 +71,12 @@ class Bench:
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
         return Outcome(seed, base, truth, verdict, seconds, self.without, before)
 
+    def textbook(self, seed: int, rig: str, kind: str | None, strength: float | None) -> Case:
+        """A case of the second kind. ValueError for what only those of the first kind have."""
+        if self.design != "full" or self.sensors or self.without or self.follow:
+            raise ValueError(f"{rig}: expected no option but --kind, --strength and --double; take a base for others")
+        return draw_textbook(seed, rig, kind, strength, double=self.double)
+
 
 def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> Diagnosis:
     """What the engine says of a dataset, from the network of a base, without the plugins of some causes."""
@@ -79,8 +88,8 @@ def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> D
     registry = load_registry()
     registry = replace(registry, causes={word: c for word, c in registry.causes.items() if word not in without})
     dataset = read_dataset(folder, {word: reader() for word, reader in registry.formats.items()})
-    own = NETWORKS / f"{base}.yaml"
-    spec = read_network(own if own.exists() else base, registry.elements)
+    own = [path for path in (folder / "network.yaml", NETWORKS / f"{base}.yaml") if path.exists()]
+    spec = read_network(own[0] if own else base, registry.elements)
     return diagnose(spec, dataset, jobs=jobs, registry=registry)
 
 
@@ -97,7 +106,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=None, help="repeats a run; drawn anew without it")
-    parser.add_argument("--base", nargs="*", default=list(KINDS_OF_BASE), choices=list(KINDS_OF_BASE))
+    parser.add_argument("--base", nargs="*", default=list(KINDS_OF_BASE), choices=[*KINDS_OF_BASE, *RIGS])
     parser.add_argument("--kind", default=None, help="a cause word, 'null', or words joined by '+'")
     parser.add_argument(
         "--strength", type=float, default=None, help="effect over noise; drawn from 0.1 to 10 without it"

@@ -34,8 +34,8 @@ class Revision:
 
     def revise(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
         """The causes that stay, or others in their places, and a look at the model with them."""
-        accepted, look = self.merge(*self.part(accepted, look))
-        settled, look = self.reconsider(accepted, look)
+        accepted, look = self.part(accepted, look)
+        settled, look = self.reconsider(*self.merge(accepted, look))
         newest = next((entry for entry in settled if not any(entry is other for other in accepted)), None)
         return self.exchange(*self.prune(settled, look), newest)
 
@@ -55,19 +55,22 @@ class Revision:
         return accepted, look
 
     def merge(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:
-        """Put a rival of the first cause that can make up its law in the place of both, where it explains as much."""
-        first, last = accepted[0], accepted[-1]
-        mending = last.finding.candidate.suspect.mends
-        for trial in first.others if len(accepted) == 2 and not mending else ():
-            if imitates(trial.finding, first.finding):
-                before = trial.model
-                model = self.court.bench.fit(before.declared, before.fitted, look.noise, before.mends)
+        """Put a rival of the first law that can make up this law in the place of both, where it explains as much.
+
+        Faults of the measurement stay.
+        """
+        laws = [entry for entry in accepted if not entry.finding.candidate.suspect.mends]
+        for trial in laws[0].others if len(laws) == 2 and laws[1] is accepted[-1] else ():
+            if imitates(trial.finding, laws[0].finding):
+                one = replace(laws[0], finding=trial.finding, trial=trial, rivals=(), others=(), simpler=())
+                merged = [one if entry is laws[0] else entry for entry in accepted[:-1]]
+                model = self.court.rebuild(merged, look.model, self.first, look.noise)
                 if succeeds(model, look, lead=-TIE):
-                    self.court.reject(first.finding, reasons.ONE_LAW, None, None)
-                    gain = self.court.gain_of(first.base, model) if first.base else None
-                    one = replace(trial, model=model)
-                    entry = Accepted(trial.finding, one, first.expected_gain, gain, (), base=first.base)
-                    return [entry], self.court.look(model, look.noise)
+                    self.court.reject(laws[0].finding, reasons.ONE_LAW, None, None)
+                    alone = model if len(merged) == 1 else trial.model
+                    gain = self.court.gain_of(one.base, alone) if one.base else None
+                    entry = replace(one, trial=replace(trial, model=model), gain=gain)
+                    return [entry if each is one else each for each in merged], self.court.look(model, look.noise)
         return accepted, look
 
     def prune(self, accepted: list[Accepted], look: Look) -> tuple[list[Accepted], Look]:

@@ -1,5 +1,6 @@
 """A law with many numbers makes up that of another cause: what explains nearly as much with fewer is the cause."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,8 +14,8 @@ from dashpot.assess.finalists import imitated, in_doubt, makes_up, settle_ties
 from dashpot.assess.revision import Revision
 
 
-def trial(word, gain, numbers, imitates=(), failure="", usual=0, strength=1.0):
-    suspect = SimpleNamespace(imitates=imitates, usual=usual, mends=False)
+def trial(word, gain, numbers, imitates=(), failure="", usual=0, strength=1.0, mends=False):
+    suspect = SimpleNamespace(imitates=imitates, usual=usual, mends=mends)
     candidate = SimpleNamespace(cause=SimpleNamespace(word=word), suspect=suspect, site=None)
     finding = SimpleNamespace(candidate=candidate, strengths=np.array([strength]))
     return SimpleNamespace(
@@ -95,12 +96,19 @@ def test_an_imitation_comes_again_when_what_it_imitates_is_gone():
     assert not court.barred
 
 
+def accepted(one):
+    return Accepted(one.finding, Trial(one.finding, one.model, one.gain, one.merit), 0.0, None, ())
+
+
 class Merging:
     """A court before which a refit is the model itself."""
 
     def __init__(self):
-        self.bench = SimpleNamespace(fit=lambda declared, fitted, noise, mends: self.model)
-        self.rejected = []
+        self.rejected, self.rebuilt = [], []
+
+    def rebuild(self, kept, model, first, noise):
+        self.rebuilt = [entry.finding for entry in kept]
+        return self.model
 
     def reject(self, finding, reason, foreseen, gain):
         self.rejected.append(reason)
@@ -112,21 +120,24 @@ class Merging:
         return SimpleNamespace(model=model, noise=noise)
 
 
+@pytest.mark.parametrize("faults", [0, 1])
 @pytest.mark.parametrize(("chi_square", "merged"), [(76_835.0, True), (76_990.0, False)])
-def test_one_richer_law_takes_the_place_of_two_causes_where_it_explains_as_much(chi_square, merged):
-    """Friction that falls with speed, instead of friction and a damper that takes from it."""
-    fitted = SimpleNamespace(declared=None, fitted=None, mends=())
-    plain, falling, damper = (Trial(one.finding, fitted, one.gain, one.merit) for one in (
+def test_one_richer_law_takes_the_place_of_two_causes_where_it_explains_as_much(chi_square, merged, faults):
+    """Friction that falls with speed, instead of friction and a damper that takes from it; an offset stays."""
+    plain, falling, damper, offset = (accepted(one) for one in (
         trial("friction", 37e3, 23), trial("velocity_dependent_friction", 37.7e3, 26, ("friction",)),
-        trial("power_law_damping", 600.0, 25)))  # fmt: skip
-    first = Accepted(plain.finding, plain, 0.0, None, (), others=(falling,))
-    last = Accepted(damper.finding, damper, 0.0, None, ())
+        trial("power_law_damping", 600.0, 25), trial("offset", 900.0, 26, mends=True)))  # fmt: skip
+    plain = replace(plain, others=(falling.trial,), base="before")
+    between = [offset] * faults
     court = Merging()
     court.model = SimpleNamespace(chi_square=chi_square, numbers=26)
     look = SimpleNamespace(
         model=SimpleNamespace(chi_square=76_934.0, numbers=25), noise=None, screen=SimpleNamespace(samples=80_000)
     )
-    entries, after = Revision(court, look.model, None).merge([first, last], look)
-    assert [entry.finding for entry in entries] == ([falling.finding] if merged else [plain.finding, damper.finding])
+    before = [plain, *between, damper]
+    entries, after = Revision(court, look.model, None).merge(before, look)
+    expected = [falling, *between] if merged else before
+    assert [entry.finding for entry in entries] == [entry.finding for entry in expected]
+    assert court.rebuilt == [falling.finding, *(entry.finding for entry in between)]
     assert (after is look) is not merged
     assert court.rejected == [reasons.ONE_LAW] * merged
