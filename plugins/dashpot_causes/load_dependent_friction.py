@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
+from dashpot.contract.cause import Atom, Cause, Pair, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
-UNITS = {"limit": "N", "stiffness": "N/m"}
+UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1", "creep_velocity": "m/s"}
 PLACES = 7
+CREEPS = (1e-3, 1e-2)  # of the largest speed
+ROOM = (0.1, 1.5)  # times the least and the largest of them: how far a refit may go
 KNOTS = 5  # of the factor over the reach
 FACTORS = (0.06, 0.4)
 BOUNDS = "[0.02, 1.5]"
@@ -37,22 +39,40 @@ class LoadDependentFriction(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Smooth sliders over yield travels, their force growing or falling along the reach."""
+        """Smooth sliders over yield travels, rigid contacts over creep velocities, their force growing or falling along
+        the reach.
+        """
         travels = tuple(np.geomspace(5e-4 * view.stroke, 0.6 * view.stroke, PLACES))
+        creeps = tuple(creep * view.speed for creep in CREEPS)
+        within = {"creep_velocity": (ROOM[0] * creeps[0], ROOM[1] * creeps[-1])}
         for rising in (True, False):
             for least in FACTORS:
-                scaled = _Scaled(travels, view.reach, least, rising)
-                yield Suspect("dahl growing with deflection" if rising else "dahl falling with deflection",
-                              travels, scaled, scaled.extend, unknowns=KNOTS + 1, quantity="limit", unit="N",
-                              admits=scaled.admits)  # fmt: skip
+                yield _Scaled("dahl", travels, _yielding, view.reach, least, rising).suspect(KNOTS + 1)
+            yield _Scaled("coulomb", creeps, _creeping, view.reach, FACTORS[0], rising, within).suspect(KNOTS + 1)
+
+
+def _yielding(limit: float, travel: float) -> Mapping[str, float]:
+    return {"limit": limit, "stiffness": limit / travel, "exponent": 1.0}
+
+
+def _creeping(limit: float, speed: float) -> Mapping[str, float]:
+    return {"limit": limit, "creep_velocity": speed}
 
 
 @dataclass(frozen=True)
 class _Scaled:
-    travels: tuple[float, ...]
+    element: str
+    grid: tuple[float, ...]
+    values: Callable[[float, float], Mapping[str, float]]
     reach: tuple[float, float]
     least: float
     rising: bool
+    bounds: Mapping[str, Pair] = field(default_factory=dict)
+
+    def suspect(self, unknowns: int) -> Suspect:
+        way = "growing" if self.rising else "falling"
+        return Suspect(f"{self.element} {way} with deflection", self.grid, self, self.extend, unknowns=unknowns,
+                       quantity="limit", unit="N", admits=self.admits)  # fmt: skip
 
     @property
     def places(self) -> tuple[float, ...]:
@@ -72,16 +92,14 @@ class _Scaled:
         return down <= BACK * up and rising[0] < CHANGES * rising[-1]
 
     def __call__(self, view: View, run: str) -> Array:
-        plain = view.respond(run, "dahl", [{"limit": 1.0, "stiffness": 1.0 / travel} for travel in self.travels])
+        plain = view.respond(run, self.element, [self.values(1.0, place) for place in self.grid])
         return plain * np.interp(view.displacement(run), self.places, self.factors)
 
     def extend(self, text: str, atoms: Sequence[Atom]) -> str:
-        limit, travel = atoms[0]
+        values = self.values(*atoms[0])
         factors = ["1" if factor == 1.0 else f"{{start: {factor:g}, bounds: {BOUNDS}}}" for factor in self.factors]
-        values = {"limit": limit, "stiffness": limit / travel}
         lines = [
-            branch_lines(free_name(text, "load_dependent_friction"), "dahl", values, UNITS),
-            "  exponent: {start: 1}",
+            branch_lines(free_name(text, "load_dependent_friction"), self.element, values, UNITS, bounds=self.bounds),
             "  scale:",
             f"    deflection: [{', '.join(pretty(place, 'm', 6) for place in self.places)}]",
             f"    factor: [{', '.join(factors)}]",

@@ -22,6 +22,7 @@ TIMES = 5
 SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 BOUNDS = "bounds: [0.02, 50]"
+CHANGES = 0.9  # least over largest factor of a branch of its own: what changes by less does not depend on preload
 # a relaxing branch with a factor makes up each of these
 SIMPLER = ("relaxation", "viscous_damping", "delay", "moving_mass", "friction", "amplitude_softening", "creep")
 
@@ -56,7 +57,13 @@ class PreloadDependentDamping(Cause):
         for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
             yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
-                           found, found.extend, sign=1, unknowns=1, imitates=SIMPLER)  # fmt: skip
+                           found, found.extend, sign=1, unknowns=1, imitates=SIMPLER, admits=changes)  # fmt: skip
+
+
+def changes(numbers: Mapping[str, float]) -> bool:
+    """Whether the factor of a branch changes over deflection by enough to be a cause."""
+    factors = [1.0, *(factor for word, factor in numbers.items() if word.startswith("scale["))]
+    return min(factors) < CHANGES * max(factors)
 
 
 def _suspect(
@@ -68,6 +75,7 @@ def _suspect(
     sign: Literal[0, 1] = 0,
     unknowns: int = 0,
     imitates: tuple[str, ...] = (),
+    admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
 ) -> Suspect:
     """The suspect that the ``force(view, run)`` of a branch has a factor over deflection.
 
@@ -78,7 +86,7 @@ def _suspect(
         return hats(knots, view.displacement(run)) * force(view, run)
 
     return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns,
-                   quantity=strength[0], unit=strength[1], imitates=imitates)  # fmt: skip
+                   quantity=strength[0], unit=strength[1], imitates=imitates, admits=admits)  # fmt: skip
 
 
 def _damping(view: View, run: str) -> Array:

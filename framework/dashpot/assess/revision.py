@@ -134,7 +134,8 @@ class Revision:
                 changed = [*accepted[:number], instead, *accepted[number + 1 :]]
                 model = self.court.rebuild(changed, look.model, self.first, look.noise)
                 price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
-                if model.chi_square - look.model.chi_square < price + TIE:
+                alike = model.chi_square - look.model.chi_square < price + TIE
+                if alike and admitted(trial, entry.base, model, self.first):
                     self.court.reject(entry.finding, reasons.SIMPLER_WILL_DO, None, None)
                     return changed, self.court.look(model, look.noise)
         return accepted, look

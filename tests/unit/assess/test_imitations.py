@@ -141,3 +141,20 @@ def test_one_richer_law_takes_the_place_of_two_causes_where_it_explains_as_much(
     assert court.rebuilt == [falling.finding, *(entry.finding for entry in between)]
     assert (after is look) is not merged
     assert court.rejected == [reasons.ONE_LAW] * merged
+
+
+@pytest.mark.parametrize("still", [True, False])
+def test_a_simpler_cause_takes_a_place_only_where_it_is_still_what_it_says(still, monkeypatch):
+    """A relaxation with a factor over deflection that came out level is no damping that depends on preload."""
+    level, later = trial("preload_dependent_damping", 1e4, 7), accepted(trial("friction", 500.0, 10))
+    law = replace(accepted(trial("relaxation", 1e4, 8)), simpler=(level,), base="before")
+    court = Merging()
+    court.model = SimpleNamespace(chi_square=76_934.0, numbers=12)
+    look = SimpleNamespace(
+        model=SimpleNamespace(chi_square=76_934.0, numbers=13), noise=None, screen=SimpleNamespace(samples=80_000)
+    )
+    monkeypatch.setattr("dashpot.assess.revision.admitted", lambda *asked: still)
+    entries, after = Revision(court, look.model, None).reconsider([law, later], look)
+    assert entries[0].finding is (level.finding if still else law.finding)
+    assert (after is look) is not still
+    assert court.rejected == [reasons.SIMPLER_WILL_DO] * still

@@ -6,8 +6,9 @@ from types import SimpleNamespace
 import pytest
 
 from dashpot.contract.registry import load_registry
+from dashpot.model.reading import parse_network
 
-CAUSES = load_registry().causes
+CAUSES, ELEMENTS = load_registry().causes, load_registry().elements
 VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=1e-3, duration=10.0)
 
 
@@ -33,8 +34,21 @@ def test_friction_that_depends_on_velocity_falls_with_it(breakaway, admitted):
 ])  # fmt: skip
 def test_friction_that_depends_on_the_load_goes_mostly_one_way(factors, rising, falling):
     found = {f"scale[{number}]": factor for number, factor in enumerate(factors)}
-    assert suspect("load_dependent_friction", "dahl growing with deflection").admits(found) is rising
-    assert suspect("load_dependent_friction", "dahl falling with deflection").admits(found) is falling
+    for element in ("dahl", "coulomb"):
+        assert suspect("load_dependent_friction", f"{element} growing with deflection").admits(found) is rising
+        assert suspect("load_dependent_friction", f"{element} falling with deflection").admits(found) is falling
+
+
+@pytest.mark.parametrize(("factors", "admitted"), [((0.993, 0.993, 0.992), False), ((0.8, 0.9, 1.1), True)])
+def test_a_branch_whose_factor_hardly_changes_does_not_depend_on_preload(factors, admitted):
+    """One of four factors is 1 by definition."""
+    found = {"stiffness": 1e4, "relaxation_time": 0.03} | {f"scale[{k}]": factor for k, factor in enumerate(factors)}
+    branches = "{s: {element: spring, stiffness: 1 N/mm}}"
+    network = parse_network(f"{{format: dashpot-network/1, name: a spring, branches: {branches}}}", ELEMENTS)
+    suspects = CAUSES["preload_dependent_damping"]().suspects(VIEW, network)
+    relaxing = [one for one in suspects if one.form == "relaxation with 4 knots"]
+    assert relaxing
+    assert all(one.admits(found) is admitted for one in relaxing)
 
 
 @pytest.mark.parametrize(("longest", "admitted"), [(1e-3, False), (3e-3, True)])
