@@ -235,6 +235,8 @@ BLIND_KINDS = {
     "no_repeats": " without repeated runs",
     "without": " without the plugin of the cause",
     "double": " with two effects, one up to ten times the other",
+    "textbook": " on rigs from bushing to strut, by laws of the textbook",
+    "textbook-double": " on such rigs with two effects, one up to ten times the other",
     "follow": " on three runs, the run that the diagnosis asks for driven as well",
 }
 RATES = {
