@@ -48,7 +48,7 @@ class PreloadDependentDamping(Cause):
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
         yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper,
                        sign=0 if any(branch.element.word == "damper" for branch in branches) else 1,
-                       imitates=("viscous_damping",))  # fmt: skip
+                       imitates=("viscous_damping",), admits=anyhow if dampers else changes)  # fmt: skip
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
@@ -58,6 +58,11 @@ class PreloadDependentDamping(Cause):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
             yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
                            found, found.extend, sign=1, unknowns=1, imitates=SIMPLER, admits=changes)  # fmt: skip
+
+
+def anyhow(numbers: Mapping[str, float]) -> bool:
+    """A factor on a branch that is there is always a change."""
+    return True
 
 
 def changes(numbers: Mapping[str, float]) -> bool:
@@ -75,7 +80,7 @@ def _suspect(
     sign: Literal[0, 1] = 0,
     unknowns: int = 0,
     imitates: tuple[str, ...] = (),
-    admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
+    admits: Callable[[Mapping[str, float]], bool] = anyhow,
 ) -> Suspect:
     """The suspect that the ``force(view, run)`` of a branch has a factor over deflection.
 
