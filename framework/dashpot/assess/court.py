@@ -12,7 +12,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, measured_from, try_finding, with_numbers_of
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, form_of
+from dashpot.assess.finalists import Form, choose_finalists, form_of
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -88,6 +88,18 @@ class Court:
             found = look_at(self.bench, model, self.causes, noise, self.seed)
             self.latest[:] = [*self.latest, found][-REMEMBERED:]
         return found
+
+    def look_after(self, model: Model, look: Look, explained: float) -> Look:
+        """What is left of a model that a cause of a look has made; ``explained`` is the fall of chi square to it.
+
+        A glance, where the model leaves no room for a further cause and none is seen.
+        """
+        if self.leaves_room(model, look):
+            return self.look(model, look.noise)
+        glance = self.glance(model, look)
+        seen = choose_finalists(self.admissible(glance), glance)
+        doubtful = any(self.worth_a_refit(finding, glance, explained) for finding in seen)
+        return self.look(model, look.noise) if doubtful else glance
 
     def look_without(self, entry: Accepted, kept: Sequence[Accepted], look: Look, first: Model) -> Look:
         """A look at the model with what is ``kept``, without an accepted cause.
@@ -207,10 +219,11 @@ class Court:
     def leaves_room(self, model: Model, look: Look) -> bool:
         """Whether all suspects of a look together could make the error of a model smaller by twice what is of interest.
 
-        Together they explain more than any one of them. The floor of the look holds to first order: below it nothing is
-        known.
+        Together they explain more than any one of them. The floor of the look holds to first order: where it lies above
+        the model by what is of interest, nothing is known.
         """
-        return not model.chi_square * (1.0 - ROOM * self.relevance) ** 2 <= look.floor <= model.chi_square
+        low, high = (1.0 - ROOM * self.relevance) ** 2, (1.0 + self.relevance) ** 2
+        return not low * model.chi_square <= look.floor <= high * model.chi_square
 
     def share_of_change(self, before: Model, after: Model) -> float:
         """What the change from one model to another makes of the plain error on the training runs."""

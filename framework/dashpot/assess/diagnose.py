@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -35,6 +35,7 @@ from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 ATTEMPTS = 3
+SAME = 1e-3  # of an error: what hardly matters is still on its way
 WEAK = 30.0  # merit below which a cause had better be measured once more
 
 
@@ -111,10 +112,11 @@ def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResul
     """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it.
 
     A fit that errs by more than the ``swing`` (N) of the forces has converged to something absurd, and does not count.
+    Where another start comes to the same error, more starts are not needed.
     """
     faults = []
     attempts: list[FitResult] = []
-    while len(attempts) < ATTEMPTS:
+    while len(attempts) < ATTEMPTS and not _agree(attempts, swing):
         attempts.append(fit(len(attempts)))
         fault = _fault_of(attempts[-1], swing)
         if not fault:
@@ -123,11 +125,18 @@ def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResul
     best = min(attempts, key=lambda found: found.errors.train)
     if not faults:
         return best, []
-    ending = "also failed" if len(faults) == len(attempts) else "came to rest"
+    failed = "came to the same error" if _agree(attempts, swing) else "also failed"
+    ending = failed if len(faults) == len(attempts) else "came to rest"
     return best, [
         f"The fit of {best.declared.name} did not come to rest ({faults[0]}); of {len(attempts)} starts the best "
         f"counts, the last one {ending}."
     ]
+
+
+def _agree(attempts: Sequence[FitResult], swing: float) -> bool:
+    """Whether the last two of several fits come to the same error, and to none that is absurd."""
+    errors = [found.errors.train for found in attempts[-2:]]
+    return len(errors) == 2 and max(errors) < min(swing, (1.0 + SAME) * min(errors))
 
 
 def _fault_of(fit: FitResult, swing: float) -> str:

@@ -19,6 +19,11 @@ class NoiseModel:
 
     filters: Mapping[str, Array]
 
+    @property
+    def flat(self) -> bool:
+        """Whether the noise of every run is white."""
+        return not any(filter[1:].any() for filter in self.filters.values())
+
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run in units of their noise; the first samples miss their past and are set to zero."""
         if signals.size == 0:

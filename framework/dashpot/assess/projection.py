@@ -71,24 +71,35 @@ class SparseRows:
 
 
 def normal_equations(
-    residual: Rows, rows: SparseRows | Sequence[SparseRows], noise: NoiseModel, jobs: int = 1
+    residual: Rows,
+    rows: SparseRows | Sequence[SparseRows],
+    noise: NoiseModel,
+    jobs: int = 1,
+    known: Array | None = None,
 ) -> Normal:
     """Sum over runs of residual (n,) and rows (c, n), each whitened by the noise of its run.
 
-    Rows of several kinds stand behind one another; ``jobs`` runs are worked on at once.
+    Rows of several kinds stand behind one another; ``jobs`` runs are worked on at once, the longest first. ``known`` is
+    the Gram matrix of all kinds behind the first one, where that is known of the same noise.
     """
     kinds = [rows] if isinstance(rows, SparseRows) else list(rows)
     first = np.cumsum([0] + [kind.size for kind in kinds])
     gram, right = np.zeros((first[-1], first[-1])), np.zeros(first[-1])
 
     def products(run: str) -> tuple[Array, Array]:
-        white = np.concatenate([noise.whiten(run, kind.values[run]) for kind in kinds])
-        return white @ white.T, white @ noise.whiten(run, residual[run])
+        kinds_of_run = [noise.whiten(run, kind.values[run]) for kind in kinds]
+        white = np.concatenate(kinds_of_run)
+        sought = white if known is None else kinds_of_run[0]
+        return sought @ white.T, white @ noise.whiten(run, residual[run])
 
-    for run, (squares, products_with_residual) in zip(residual, spread(products, residual, jobs=jobs), strict=True):
+    runs = sorted(residual, key=lambda run: residual[run].size, reverse=True)
+    for run, (squares, products_with_residual) in zip(runs, spread(products, runs, jobs=jobs), strict=True):
         at = np.concatenate([kind.places[run] + shift for kind, shift in zip(kinds, first[:-1], strict=True)])
-        gram[np.ix_(at, at)] += squares
+        gram[np.ix_(at[: len(squares)], at)] += squares
         right[at] += products_with_residual
+    if known is not None:
+        gram[first[1] :, : first[1]] = gram[: first[1], first[1] :].T
+        gram[first[1] :, first[1] :] = known
     return Normal(gram, right, sum(values.size for values in residual.values()))
 
 

@@ -111,7 +111,8 @@ class Pursuer:
                 break
             words = " and ".join(winner.finding.candidate.cause.word for winner in winners)
             self.watch(f"accepted {words}", (len(accepted) + len(winners)) / MOST_CAUSES)
-            look = self.court.look(winners[-1].trial.model, look.noise)
+            model = winners[-1].trial.model
+            look = self.court.look_after(model, look, max(first.model.chi_square - model.chi_square, 0.0))
             accepted, look = revision.revise([*accepted, *winners], look)
         return accepted, look
 

@@ -27,6 +27,7 @@ FALSE_ALARMS = 0.01
 DRAWS = 400
 KEPT = 1e-5  # of the square of a column must be left after projection: less is a matter of numerical errors
 RIDGE = 1e-9
+ENOUGH = 20  # samples for each column
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,15 @@ class Columns:
         return {run: values - sum(kind.combined(part, run) for kind, part in pairs)
                 for run, values in self.residual.items()}  # fmt: skip
 
+    def thinned(self) -> Columns:
+        """The columns at every few samples, as many as are enough to tell all columns apart in white noise."""
+        samples = sum(values.size for values in self.residual.values())
+        step = max(1, samples // max(1, ENOUGH * sum(kind.size for kind in self.kinds)))
+        kinds = [replace(kind, values={run: rows[:, ::step] for run, rows in kind.values.items()})
+                 for kind in self.kinds]  # fmt: skip
+        residual = {run: values[::step] for run, values in self.residual.items()}
+        return replace(self, residual=residual, tangents=kinds[0], nuisance=kinds[1], bank=kinds[2])
+
     def samples_of(self, finding: Finding) -> int:
         """How many samples the runs have that a finding touches."""
         chosen = finding.candidate.columns.start + np.array(finding.chosen)
@@ -136,13 +146,15 @@ class Finding:
 class Screen:
     """All findings, best first; a merit above ``threshold`` is significant.
 
-    ``together`` is the fall of chi square of all suspects at once, less what that of pure noise would be.
+    ``together`` is the fall of chi square of all suspects at once, less what that of pure noise would be, ``gram`` the
+    Gram matrix of nuisance and bank, whitened.
     """
 
     findings: tuple[Finding, ...]
     threshold: float
     projected: Projected
-    together: float = 0.0
+    together: float
+    gram: Array
 
     @property
     def samples(self) -> int:
@@ -174,24 +186,31 @@ def collect_bank(view: ModelView, candidates: Sequence[Candidate], jobs: int = 1
 
 
 def rich_residual(columns: Columns, noise: NoiseModel) -> dict[str, Array]:
-    """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden."""
+    """What is left of each run after tangents, nuisance and the bank: the noise, whatever is hidden.
+
+    Under a white noise not every sample is needed for that.
+    """
     from scipy.linalg import solve
 
-    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
+    seen = columns.thinned() if noise.flat else columns
+    normal = normal_equations(seen.residual, seen.kinds, noise, columns.jobs)
     scale = np.sqrt(np.maximum(np.diag(normal.gram), 1e-300))
     matrix = normal.gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
     return columns.less(solve(matrix, normal.right / scale, assume_a="pos") / scale)
 
 
-def screen(columns: Columns, noise: NoiseModel, seed: int = 0) -> Screen:
-    """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated."""
-    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs)
+def screen(columns: Columns, noise: NoiseModel, seed: int = 0, known: Array | None = None) -> Screen:
+    """Score every candidate. The threshold is the 99 % quantile of the best merit when nothing is hidden, simulated.
+
+    ``known`` is the Gram matrix of an earlier screen with the same nuisance, bank and noise.
+    """
+    normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs, known)
     projected = project_out(normal, columns.precision.size, columns.precision)
     numbers = columns.tangents.size
     findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
-    return Screen(tuple(ordered), threshold, projected, _together(projected))
+    return Screen(tuple(ordered), threshold, projected, _together(projected), normal.gram[numbers:, numbers:])
 
 
 def _together(projected: Projected) -> float:

@@ -76,7 +76,8 @@ def glance_at(bench: Bench, model: Model, look: Look, seed: int) -> Look:
     """A look at a model that differs little from another one: noise and columns of suspects are taken from there."""
     view, residual, tangents = linear_view(bench, model)
     columns = replace(look.columns, residual=residual, tangents=SparseRows.dense(tangents))
-    return replace(look, model=model, view=view, columns=columns, screen=screen(columns, look.noise, seed))
+    seen = screen(columns, look.noise, seed, look.screen.gram)
+    return replace(look, model=model, view=view, columns=columns, screen=seen)
 
 
 def first_noise(bench: Bench, model: Model) -> NoiseModel:

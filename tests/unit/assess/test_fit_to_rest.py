@@ -38,3 +38,15 @@ def test_the_best_of_three_failures_counts_and_it_is_said():
     errors = ((1613.0, Outcome.CONVERGED), (900.0, Outcome.CONVERGED), (1200.0, Outcome.CONVERGED))
     found, (remark,) = fit_to_rest(fits(*errors), SWING)
     assert found.errors.train == 900.0 and "the last one also failed" in remark
+
+
+def test_no_third_start_is_made_where_two_come_to_the_same_error():
+    found, (remark,) = fit_to_rest(fits((50.01, Outcome.STEPS_SPENT), (50.0, Outcome.STEPS_SPENT)), SWING)
+    assert found.errors.train == 50.0
+    assert "of 2 starts the best counts, the last one came to the same error" in remark
+
+
+def test_two_starts_that_come_to_the_same_absurd_error_are_not_enough():
+    absurd = (900.0, Outcome.CONVERGED)
+    found, (remark,) = fit_to_rest(fits(absurd, absurd, (60.0, Outcome.CONVERGED)), SWING)
+    assert found.errors.train == 60.0 and "of 3 starts" in remark

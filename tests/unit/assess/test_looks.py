@@ -67,6 +67,20 @@ def test_without_the_last_cause_it_is_the_look_in_which_that_was_found(court):
     assert {leaf.name for leaf in without.model.fitted.leaves()} == {"stiffness", two.finding.candidate.cause.word}
 
 
+def test_a_model_that_leaves_nothing_is_only_glanced_at(court):
+    """The columns of all suspects are made anew as long as there is something to see, and then no more."""
+    pursuer = Pursuer(court, lambda what, done: None)
+    first = court.look(fitted(court.bench, SPRING), None)
+    (one,) = pursuer.best_trial(first, 0.0)
+    fall = first.model.chi_square - one.trial.model.chi_square
+    second = court.look_after(one.trial.model, first, fall)
+    assert second.columns.bank is not first.columns.bank
+    (two,) = pursuer.best_trial(second, fall)
+    third = court.look_after(two.trial.model, second, first.model.chi_square - two.trial.model.chi_square)
+    assert third.columns.bank is second.columns.bank
+    assert third.noise is second.noise and third.model is two.trial.model
+
+
 def diagnosed(rng, **limits):
     spec = parse_network(SPRING, REGISTRY.elements)
     return diagnose(spec, data(rng), registry=REGISTRY, **limits)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from unit.assess.rig import Made
 
-from dashpot.assess.noise import flat_noise
+from dashpot.assess.noise import flat_noise, learn_noise
 from dashpot.assess.projection import SparseRows
 from dashpot.assess.screen import Candidate, Columns, rich_residual, screen
 from dashpot.contract.cause import Suspect
@@ -163,6 +163,38 @@ def test_the_rich_residual_holds_no_column_of_the_bank():
     columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
     left = rich_residual(columns, WHITE)
     assert np.std(np.concatenate([left["a"], left["b"]])) == pytest.approx(1.0, rel=0.05)
+
+
+def test_under_white_noise_few_samples_tell_the_columns_apart_as_well():
+    """The strengths taken out err by their deviation from every 50th sample, and by no more."""
+    columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
+    thin = columns.thinned()
+    samples = sum(values.size for values in thin.residual.values())
+    assert samples < SAMPLES / 20
+    left = rich_residual(columns, WHITE)
+    noise = {run: columns.residual[run] - 0.3 * columns.bank.values[run][:4].sum(axis=0) for run in "ab"}
+    for run in "ab":
+        assert np.std(left[run] - noise[run]) < 5.0 * np.sqrt(8.0 / samples)
+
+
+def test_under_coloured_noise_every_sample_counts():
+    columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
+    noise = {run: columns.residual[run] - 0.3 * columns.bank.values[run][:4].sum(axis=0) for run in "ab"}
+    learned = learn_noise({run: np.convolve(values, [1.0, 0.5]) for run, values in noise.items()}, {"a": 0.0, "b": 0.0})
+    left = rich_residual(columns, learned)
+    for row in range(5):
+        products = [learned.whiten(run, left[run]) @ learned.whiten(run, columns.bank.values[run][row]) for run in "ab"]
+        assert abs(sum(products)) < 1e-2
+
+
+def test_a_known_gram_matrix_takes_the_place_of_the_same_one_computed_anew():
+    """Other tangents and another residual against the bank of an earlier screen."""
+    rng = np.random.default_rng()
+    columns, other = columns_of(rng, [0.3, 0.0, 0.0, 0.2]), columns_of(rng, np.zeros(4))
+    changed = replace(columns, residual=other.residual, tangents=other.tangents)
+    known, anew = screen(changed, WHITE, known=screen(columns, WHITE).gram), screen(changed, WHITE)
+    assert known.together == pytest.approx(anew.together)
+    assert [found.merit for found in known.findings] == pytest.approx([found.merit for found in anew.findings])
 
 
 def test_the_moves_of_a_finding_are_those_of_a_refit_with_its_strengths():
