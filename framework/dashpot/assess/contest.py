@@ -197,12 +197,11 @@ class Bench:
         places = np.array([compile_network(start).start for start in starts])
         return int(np.argmin(self._objective(starts[0], noise, mends).losses(places)))
 
-    def revive(self, model: Model, noise: NoiseModel, beat: float = np.inf) -> Model:
-        """The model, or a better one: numbers that what was missing had driven to an end of their range start anew.
+    def revive(self, model: Model, numbers: Mapping[str, Value], noise: NoiseModel, beat: float = np.inf) -> Model:
+        """The model, or a better one: numbers that what was missing had driven away start anew as in the file.
 
         The others come to them first: they would else be driven away again.
         """
-        numbers = model.revived
         if not numbers:
             return model
         back = self.put_back(model, numbers, noise)
@@ -268,7 +267,7 @@ def try_finding(
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     if model.outcome is not Outcome.LEFT_BEHIND:
-        model = bench.revive(model, noise, beat)
+        model = bench.revive(model, model.revived, noise, beat)
     if suspect.mends and suspect.sign:
         positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
         if 0 < positive.size < len(finding.atoms):

@@ -10,9 +10,9 @@ import numpy as np
 
 from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
-from dashpot.assess.contest import Bench, Model, Trial, measured_from, try_finding, with_numbers_of
+from dashpot.assess.contest import Bench, Model, Trial, admitted, measured_from, try_finding, with_numbers_of
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, choose_finalists, form_of
+from dashpot.assess.finalists import Form, choose_finalists, form_of, tie_width
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -153,6 +153,15 @@ class Court:
         """A finding of a look with other numbers as a refitted model, measured by the model of ``look``."""
         return measured_from(look.model, self.try_out(finding, back, beat))
 
+    def brought_back(self, trial: Trial, look: Look) -> Trial:
+        """A trial of a look, or a better one: numbers that its cause had driven far away from the file start there."""
+        if trial.failure or not self.leaves_room(trial.model, look):
+            return trial
+        model = self.bench.revive(trial.model, trial.model.astray, look.noise)
+        fall = trial.model.chi_square - model.chi_square
+        better = fall > tie_width(trial) and admitted(trial, look.model, model)
+        return replace(trial, model=model, gain=trial.gain + fall, merit=trial.merit + fall) if better else trial
+
     def rebuild(self, kept: Sequence[Accepted], model: Model, first: Model, noise: NoiseModel | None) -> Model:
         """The first model with the patches of some causes, refitted from the present numbers, or from earlier ones.
 
@@ -191,16 +200,22 @@ class Court:
     def agreed(
         self, accepted: Sequence[Accepted], known: Collection[str], look: Look
     ) -> tuple[list[Accepted], Look] | None:
-        """The causes with a fault alike two under the word that is ``known`` of other faults, and a look at that."""
+        """The causes with a fault alike two under the word that is ``known`` of other faults, and a look at that.
+
+        It is still alike in the runs that the fault has kept.
+        """
         for number, entry in enumerate(accepted):
             faults = [other for other in entry.others if other.finding.candidate.suspect.local]
             same = [other for other in faults if other.finding.candidate.cause.word in known]
-            if same and entry.finding.candidate.suspect.local and entry.finding.candidate.cause.word not in known:
-                own = same[0].model.mends[-1]
-                mends = [own if mend.finding is entry.finding else mend for mend in look.model.mends]
+            now = [mend for mend in look.model.mends if mend.finding is entry.finding and mend.local]
+            if same and now and entry.finding.candidate.cause.word not in known:
+                own = same[0].model.mends[-1].within(now[0].shapes)
+                mends = [own if mend is now[0] else mend for mend in look.model.mends]
                 model = self.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
-                instead = replace(entry, finding=same[0].finding, trial=same[0], rivals=(), others=())
-                return [*accepted[:number], instead, *accepted[number + 1 :]], self.look(model, look.noise)
+                price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
+                if model.chi_square + price <= look.model.chi_square + tie_width(entry.trial):
+                    instead = replace(entry, finding=own.finding, trial=same[0], rivals=(), others=())
+                    return [*accepted[:number], instead, *accepted[number + 1 :]], self.look(model, look.noise)
         return None
 
     def extended(self, kept: Sequence[Accepted], first: Model) -> NetworkSpec:

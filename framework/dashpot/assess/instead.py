@@ -1,5 +1,5 @@
 """What a trial is accepted as: with fewer places, as one of two simpler causes that it makes up, in a plainer form,
-as a cause of all runs in place of faults of many.
+as a cause of all runs in place of faults of many, or as one of a usual sign.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import numpy as np
 
 from dashpot.assess.contest import Trial
 from dashpot.assess.court import Court
-from dashpot.assess.finalists import TIE, choose_finalists, parts_of, plainer
+from dashpot.assess.finalists import TIE, choose_finalists, parts_of, plainer, unusual
 from dashpot.assess.suspicion import Look
 from dashpot.fit.refine import Outcome
 
@@ -65,8 +65,19 @@ def of_all_runs(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look)
     """A cause of all runs that comes near a fault of many single ones, if it explains more beside its next cause."""
     if not trial.finding.candidate.suspect.local or len(trial.finding.atoms) < MANY_RUNS:
         return None
-    others = [other for other in ranked if not other.finding.candidate.suspect.local and not other.failure]
-    for other in [other for other in others if other.gain > COMES_NEAR * trial.gain][:1]:
+    return _near([other for other in ranked if not other.finding.candidate.suspect.local], court, trial, look)
+
+
+def of_usual_sign(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look) -> Trial | None:
+    """A cause that comes near one of an unusual sign, if it explains more beside its next cause."""
+    if not unusual(trial.finding) or not court.leaves_room(trial.model, look):
+        return None
+    return _near([other for other in ranked if not unusual(other.finding)], court, trial, look)
+
+
+def _near(others: Sequence[Trial], court: Court, trial: Trial, look: Look) -> Trial | None:
+    sound = [other for other in others if not other.failure]
+    for other in [other for other in sound if other.gain > COMES_NEAR * trial.gain][:1]:
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
         if any(_outdoes(court, both, trial, look) for both in _with_the_next(court, form, look)):
             return form

@@ -6,7 +6,7 @@ together with the numbers of the network.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,11 +39,17 @@ class Mend:
         """Whether it touches single runs and says nothing about others."""
         return self.finding.candidate.suspect.local
 
-    def keeping(self, finding: Finding, kept: Sequence[int]) -> Mend:
+    def keeping(self, finding: Finding, kept: Iterable[int]) -> Mend:
         """The mend of the ``finding`` that has only these places left, by their number."""
         at = list(kept)
         shapes = {run: rows[at] for run, rows in self.shapes.items() if rows[at].any()}
         return Mend(finding, shapes, self.strengths[at], self.deviations[at])
+
+    def within(self, runs: Collection[str]) -> Mend:
+        """The mend with those of its places left that touch no other than these runs."""
+        elsewhere = [rows.any(axis=1) for run, rows in self.shapes.items() if run not in runs]
+        kept = np.flatnonzero(~np.any(elsewhere, axis=0)) if elsewhere else np.arange(self.strengths.size)
+        return self.keeping(self.finding.keeping(kept), kept)
 
     def fault(self, run: str) -> Array | float:
         """What is to be taken out of the force of a run, (n,) N."""

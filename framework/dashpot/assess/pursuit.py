@@ -30,7 +30,7 @@ from dashpot.assess.finalists import (
     to_beat,
 )
 from dashpot.assess.gain import Gain
-from dashpot.assess.instead import of_all_runs, part_of, plainer_form, simplified
+from dashpot.assess.instead import of_all_runs, of_usual_sign, part_of, plainer_form, simplified
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.screen import Finding
@@ -279,8 +279,9 @@ class Pursuer:
         for other in (other for other in (*ranked, *imitations) if other not in (*near, *doubtful)):
             court.reject(other.finding, _why_not(other, level, imitations), None, None)
         part = part_of(court, chosen, look) or plainer_form(court, chosen, ranked, look)
-        part = part or of_all_runs(court, chosen, ranked, look)
+        part = part or of_all_runs(court, chosen, ranked, look) or of_usual_sign(court, chosen, ranked, look)
         chosen, others = (part, ()) if part else (simplified(court, chosen, look), (*others, *doubtful))
+        chosen = court.brought_back(chosen, look)
         rivals = tuple(dict.fromkeys(other.finding.candidate.cause.word for other in others))
         foreseen = court.foresee(chosen.finding if part else finding_of(trial, look), look)
         gain = court.gain_of(look.model, chosen.model)

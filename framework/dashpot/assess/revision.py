@@ -17,7 +17,7 @@ from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
 MOST_OTHERS = 2
-MOST_PLACES = 4  # of a fault of single runs: to look at each of more is too long a search
+MOST_PLACES = 8  # of a fault of single runs: to look at each of more is too long a search
 MOST_EXCHANGED = 3  # beside more causes than these an exchange is too long a search for too little
 
 

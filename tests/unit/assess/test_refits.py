@@ -81,7 +81,7 @@ def test_a_number_at_its_end_absorbs_nothing_and_starts_anew_from_the_file(rng):
     assert model.revived["damping.damping"].number == 200.0
     noise = flat_noise({run.name: 4.0 for run in bench.runs})
     white = bench.fit(model.declared, model.fitted, noise)
-    assert bench.revive(white, noise).chi_square <= white.chi_square
+    assert bench.revive(white, white.revived, noise).chi_square <= white.chi_square
 
 
 def late(x, v):
