@@ -3,13 +3,18 @@
 import math
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from dashpot.contract.registry import load_registry
 from dashpot.model.reading import parse_network
 
 CAUSES, ELEMENTS = load_registry().causes, load_registry().elements
-VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=1e-3, duration=10.0)
+STEP, DRIVEN = 1e-3, 8.0
+ANGLE = 2.0 * np.pi * DRIVEN * STEP * np.arange(10_000)
+VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=STEP, duration=10.0, runs=("run",),
+                       displacement=lambda run: 0.01 * np.sin(ANGLE), step=lambda run: STEP,
+                       velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE))  # fmt: skip
 
 
 def suspect(word, form):
