@@ -40,8 +40,9 @@ def test_a_factor_on_a_maxwell_branch_multiplies_its_force(rng):
     changes[rng.integers(len(changes))] = 0.0  # the knot that changes least keeps the factor one
     extended = suspect.extend(RELAXING, list(zip(changes, suspect.grid, strict=True)))
     for run in VIEW.runs:
-        added = force(extended, run) - force(RELAXING, run)
-        assert added == pytest.approx(times_curve(suspect, changes, run), abs=1e-3 * np.std(added))
+        added, branch = force(extended, run) - force(RELAXING, run), force(RELAXING, run) - force(NETWORK, run)
+        # a file holds five digits of a factor
+        assert added == pytest.approx(times_curve(suspect, changes, run), abs=2e-4 * np.abs(branch).max())
 
 
 def test_where_the_branch_is_gone_the_factor_has_a_branch_of_its_own(rng):
@@ -50,8 +51,9 @@ def test_where_the_branch_is_gone_the_factor_has_a_branch_of_its_own(rng):
     factors = rng.uniform(0.2, 2.0, len(suspect.grid))
     extended = suspect.extend(NETWORK, list(zip(factors, suspect.grid, strict=True)))
     for run in VIEW.runs:
-        added = force(extended, run) - force(NETWORK, run)
-        assert added == pytest.approx(times_curve(suspect, factors, run), abs=0.01 * np.std(added))
+        added, branch = force(extended, run) - force(NETWORK, run), force(RELAXING, run) - force(NETWORK, run)
+        # no factor is zero: a thousandth of their range is added to all
+        assert added == pytest.approx(times_curve(suspect, factors, run), abs=3e-3 * np.abs(branch).max())
 
 
 def test_a_new_branch_has_a_relaxation_time_of_the_grid_and_strengths_of_one_sign(rng):
