@@ -51,10 +51,10 @@ def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look
     for other in plainer(trial, ranked) if court.leaves_room(trial.model, look) else ():
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
         relevant = trial.model.chi_square * (1.0 - court.relevance) ** 2
-        better = [both for both in _with_the_next(court, form, look) if both.model.chi_square < relevant]
+        better = [both for both in with_the_next(court, form, look) if both.model.chi_square < relevant]
         if better and not form.failure:
             both = max(better, key=_by_merit)
-            same = max(_with_the_next(court, trial, look), key=_by_merit, default=trial)
+            same = max(with_the_next(court, trial, look), key=_by_merit, default=trial)
             price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples)
             if both.model.chi_square + price + TIE <= same.model.chi_square:
                 return form
@@ -79,12 +79,12 @@ def _near(others: Sequence[Trial], court: Court, trial: Trial, look: Look) -> Tr
     sound = [other for other in others if not other.failure]
     for other in [other for other in sound if other.gain > COMES_NEAR * trial.gain][:1]:
         form = court.try_out(other.finding, look) if other.model.outcome is Outcome.LEFT_BEHIND else other
-        if any(_outdoes(court, both, trial, look) for both in _with_the_next(court, form, look)):
+        if any(_outdoes(court, both, trial, look) for both in with_the_next(court, form, look)):
             return form
     return None
 
 
-def _with_the_next(court: Court, trial: Trial, look: Look) -> list[Trial]:
+def with_the_next(court: Court, trial: Trial, look: Look) -> list[Trial]:
     """A trial beside each of the best other causes of a glance at it, where they hold what they say."""
     beside = court.glance(trial.model, look)
     found = choose_finalists(court.admissible(beside), beside)

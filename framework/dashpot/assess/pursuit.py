@@ -30,7 +30,7 @@ from dashpot.assess.finalists import (
     to_beat,
 )
 from dashpot.assess.gain import Gain
-from dashpot.assess.instead import of_all_runs, of_usual_sign, part_of, plainer_form, simplified
+from dashpot.assess.instead import of_all_runs, of_usual_sign, part_of, plainer_form, simplified, with_the_next
 from dashpot.assess.misfits import balanced, plainly_strong
 from dashpot.assess.revision import Revision
 from dashpot.assess.screen import Finding
@@ -39,6 +39,7 @@ from dashpot.assess.unseen import Jury, known_directions
 from dashpot.fit.refine import Outcome
 
 MOST_CAUSES = 5
+MOST_STARTS = 3  # of a search for two other causes
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +80,7 @@ class Pursuer:
         court = self.court
         self.watch("first look", 0.0)
         first = look = court.look(model, None)
-        accepted, look = self.another_way(*self.pursue([], look, first), first)
+        accepted, look = self.other_two(*self.another_way(*self.pursue([], look, first), first), first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
             court.bar(opposite[-1], reasons.OPPOSITE)
@@ -134,6 +135,38 @@ class Pursuer:
         self.court.barred |= forms
         self.court.rejected.extend(other.court.rejected)
         return instead, seen
+
+    def other_two(self, accepted: list[Accepted], look: Look, first: Look) -> tuple[list[Accepted], Look]:
+        """Two other causes, if they explain more than the two accepted ones by what forms may be wrong by.
+
+        What explains most alone need not be one of the two that explain most together.
+        """
+        court = self.court
+        if len(accepted) != 2 or court.effort.spent:
+            return accepted, look
+        own = court.bench.as_it_stands(look.model.declared, look.model.fitted, first.noise, look.model.mends)
+        lead = max(TIE, BEYOND_FORM * (first.model.chi_square - own.chi_square))
+        best = min(self.pairs_without(accepted[0], first), key=lambda pair: cost(pair[1].model, first), default=None)
+        if best is None or cost(best[1].model, first) + lead > cost(own, first):
+            return accepted, look
+        trial = best[0]
+        gain = court.gain_of(first.model, trial.model)
+        entry = Accepted(trial.finding, trial, court.foresee(trial.finding, first), gain, (), base=first.model)
+        instead, seen = self.pursue([entry], court.look(trial.model, first.noise), first, 2)
+        after = court.bench.as_it_stands(seen.model.declared, seen.model.fitted, first.noise, seen.model.mends)
+        if len(instead) != 2 or cost(after, first) + lead > cost(own, first):
+            return accepted, look
+        for one in (one for one in accepted if not _named_in(one, instead)):
+            court.reject(one.finding, reasons.OTHER_TWO, one.expected_gain, None)
+        return instead, seen
+
+    def pairs_without(self, entry: Accepted, look: Look) -> list[tuple[Trial, Trial]]:
+        """The best finalists of a look but for the cause of an entry, each beside the best next causes."""
+        court, name = self.court, entry.finding.candidate.name
+        others = [one for one in choose_finalists(court.admissible(look), look) if one.candidate.name != name]
+        trials = [court.try_out(one, look) for one in others[:MOST_STARTS]]
+        sound = [trial for trial in trials if not trial.failure]
+        return [(trial, both) for trial in sound for both in with_the_next(court, trial, look)]
 
     def faults_of_held_out(
         self, look: Look, last: Model, explained: float, known: Collection[str] = ()
@@ -323,6 +356,15 @@ def _why_not(trial: Trial, level: Sequence[Trial], imitations: Sequence[Trial]) 
     if trial in imitations:
         return reasons.IMITATES
     return reasons.LOSES_ON_HELD_OUT if trial in level else reasons.EXPLAINS_LESS
+
+
+def cost(model: Model, look: Look) -> float:
+    """Chi square with the price of the numbers."""
+    return float(model.chi_square + model.numbers * np.log(look.screen.samples))
+
+
+def _named_in(entry: Accepted, others: Sequence[Accepted]) -> bool:
+    return any(entry.finding.candidate.name == other.finding.candidate.name for other in others)
 
 
 def finding_of(trial: Trial, look: Look) -> Finding:

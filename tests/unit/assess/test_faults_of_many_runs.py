@@ -34,7 +34,7 @@ def trial(gain, numbers, chi_square, runs=0):
 ])  # fmt: skip
 def test_a_cause_of_all_runs_takes_the_place_of_faults_of_many(monkeypatch, runs, gain, left, stays):
     both = trial(24e3, 31, left)
-    monkeypatch.setattr("dashpot.assess.instead._with_the_next", lambda court, form, look: [both])
+    monkeypatch.setattr("dashpot.assess.instead.with_the_next", lambda court, form, look: [both])
     drift, softening = trial(24e3, 32, 80.5e3, runs), trial(gain, 29, 81.5e3)
     assert of_all_runs(COURT, drift, [drift, softening], LOOK) is (None if stays else softening)
 

@@ -27,7 +27,7 @@ def trial(gain, numbers, chi_square, strength=1.0):
 ])  # fmt: skip
 def test_a_usual_cause_takes_the_place_of_one_of_an_unusual_sign(monkeypatch, strength, left, stays):
     both = trial(66.7e3, 26, left)
-    monkeypatch.setattr("dashpot.assess.instead._with_the_next", lambda court, form, look: [both])
+    monkeypatch.setattr("dashpot.assess.instead.with_the_next", lambda court, form, look: [both])
     delay, dashpot = trial(65.9e3, 25, 80.55e3, strength), trial(65.8e3, 25, 80.6e3)
     court = SimpleNamespace(relevance=1.5e-3, leaves_room=lambda model, look: True)
     assert of_usual_sign(court, delay, [delay, dashpot], LOOK) is (None if stays else dashpot)
