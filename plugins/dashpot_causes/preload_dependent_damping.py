@@ -90,7 +90,7 @@ def _suspect(
     def columns(view: View, run: str) -> Array:
         return hats(knots, view.displacement(run)) * force(view, run)
 
-    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns,
+    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns, level=True,
                    quantity=strength[0], unit=strength[1], imitates=imitates, admits=admits)  # fmt: skip
 
 

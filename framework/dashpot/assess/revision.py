@@ -44,6 +44,8 @@ class Revision:
         entry = accepted[-1]
         places = range(len(entry.finding.atoms))
         for place in places if entry.finding.candidate.suspect.local and 1 < len(places) <= MOST_PLACES else ():
+            if self.court.effort.spent:
+                break
             others = [other for other in places if other != place]
             rest = replace(entry, finding=entry.finding.keeping(others))
             mends = [mend.keeping(rest.finding, others) if mend.finding is entry.finding else mend

@@ -247,11 +247,18 @@ def _judge_joint(
         strengths[usable] = _positive(s[usable], matrix[np.ix_(usable, usable)])
         rank = int(np.count_nonzero(strengths))
     gain = float(2.0 * s @ strengths - strengths @ matrix @ strengths)
+    if candidate.suspect.level and gain - _of_equal(s[usable], matrix[np.ix_(usable, usable)]) < rank * np.log(samples):
+        return None
     atoms = tuple(zip(strengths.tolist(), candidate.suspect.grid, strict=True))
     merit = gain - (rank + candidate.suspect.unknowns) * np.log(samples)
     deviations = np.zeros(s.size)
     deviations[usable] = np.sqrt(np.maximum(np.diag(inverse), 0.0))
     return Finding(candidate, atoms, gain, merit, strengths, tuple(range(s.size)), deviations, absorbed)
+
+
+def _of_equal(s: Array, matrix: Array) -> float:
+    """The fall of chi square by columns of equal strengths."""
+    return float(s.sum() ** 2 / max(matrix.sum(), 1e-300))
 
 
 def _positive(s: Array, matrix: Array) -> Array:

@@ -77,7 +77,8 @@ class Suspect:
 
     ``columns(view, run)`` answers its force (m, n) at unit strength for each place of ``grid`` (m,); with ``joint`` all
     columns act together with a strength each. ``sign`` 1 admits positive strengths only; with ``usual`` 1 they are
-    mostly, and of causes alike one with a negative strength comes last. ``unknowns`` counts what the cure leaves to be
+    mostly, and of causes alike one with a negative strength comes last. With ``level`` equal strengths of all columns
+    are a simpler law: it is this cause only if they differ for certain. ``unknowns`` counts what the cure leaves to be
     found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with start values; at most
     ``most`` atoms of the grid act together.
 
@@ -115,6 +116,7 @@ class Suspect:
     stays: Callable[[Mapping[str, float]], bool] | None = None
     imitates: tuple[str, ...] = ()
     usual: Literal[0, 1] = 0
+    level: bool = False
 
 
 class Cause(ABC):

@@ -21,12 +21,12 @@ class Other(Made):
     word = "other"
 
 
-def columns_of(rng, effect, joint=False, sign=1, most=1):
+def columns_of(rng, effect, joint=False, sign=1, most=1, level=False):
     """Two runs, three tangents, a bank of four columns for one cause and one for another; `effect` (4,) is hidden."""
     tangents = {run: rng.standard_normal((3, SAMPLES)) for run in "ab"}
     bank = {run: rng.standard_normal((5, SAMPLES)) + 0.5 * tangents[run][0] for run in "ab"}
     residual = {run: np.asarray(effect) @ bank[run][:4] + rng.standard_normal(SAMPLES) for run in "ab"}
-    suspect = Suspect("form", (1.0, 2.0, 3.0, 4.0), None, None, joint=joint, sign=sign, most=most)
+    suspect = Suspect("form", (1.0, 2.0, 3.0, 4.0), None, None, joint=joint, sign=sign, most=most, level=level)
     single = Suspect("single", (0.0,), None, None, unknowns=0)
     candidates = (Candidate(Made, suspect, slice(0, 4)), Candidate(Other, single, slice(4, 5)))
     empty = {run: np.empty((0, SAMPLES)) for run in "ab"}
@@ -101,6 +101,13 @@ def test_a_strength_of_the_wrong_sign_is_not_admitted():
     hidden = [0.0, -0.5, 0.0, 0.0]
     assert alarms(lambda: columns_of(np.random.default_rng(), hidden)) <= 4
     assert alarms(lambda: columns_of(np.random.default_rng(), hidden, sign=0)) == 30
+
+
+@pytest.mark.parametrize(("hidden", "seen"), [((0.3, 0.3, 0.3, 0.3), False), ((0.3, 0.5, 0.1, 0.3), True)])
+def test_equal_strengths_are_no_sign_of_a_cause_that_says_that_they_differ(hidden, seen):
+    columns = columns_of(np.random.default_rng(), hidden, joint=True, level=True)
+    assert any(found.candidate.cause is Made for found in screen(columns, WHITE).findings) is seen
+    assert alarms(lambda: columns_of(np.random.default_rng(), hidden, joint=True), draws=3) == 3
 
 
 def test_pure_noise_stays_below_the_threshold():
