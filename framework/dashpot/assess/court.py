@@ -14,7 +14,7 @@ from dashpot.assess.contest import Bench, Model, Trial, admitted, measured_from,
 from dashpot.assess.erring import less_sensor_errors
 from dashpot.assess.finalists import Form, choose_finalists, form_of, tie_width
 from dashpot.assess.foresight import foreseen_gain
-from dashpot.assess.gain import Gain, measure_gain
+from dashpot.assess.gain import HELD_OUT, Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
 from dashpot.assess.screen import Finding
@@ -247,7 +247,8 @@ class Court:
     def objection(self, trial: Trial, gain: Gain | None, change: float, look: Look, explained: float) -> str:
         """Why a trial may not be accepted, or an empty text.
 
-        ``change`` is what it makes of the plain error, ``explained`` the fall of chi square so far.
+        ``change`` is what it makes of the plain error, ``explained`` the fall of chi square so far. A first cause may
+        show more in the held-out runs than in those that were fitted.
         """
         if trial.failure:
             return trial.failure
@@ -259,7 +260,8 @@ class Court:
             return reasons.WITHIN_FORM
         if trial.gain < BEYOND_FORM * explained and trial.finding.candidate.cause.word in self.made_up:
             return reasons.WITHIN_FORM
-        if change < self.relevance:
+        held_out = gain is not None and gain.runs == HELD_OUT and gain.interval[0] > self.relevance
+        if change < self.relevance and (explained or not held_out):
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
         if explained and max(fall, change) < (least := self.least_later_gain(trial, look, explained)):
             return reasons.TOO_LITTLE.format(least=least)

@@ -16,7 +16,7 @@ BEFORE = 1e6
 RUNS = [SimpleNamespace(name="a", force=np.zeros(2), drive=SimpleNamespace(dt=1e-3), first=0, samples=2)]
 
 
-def refusal(fall: float, **relevance: float) -> str:
+def refusal(fall: float, gain: Gain | None = None, **relevance: float) -> str:
     """Why a trial whose training error is smaller by the share ``fall`` is refused."""
     court = Court(None, (), (), 0, **relevance)
     after = BEFORE * (1.0 - fall) ** 2
@@ -24,12 +24,22 @@ def refusal(fall: float, **relevance: float) -> str:
         failure="", merit=BEFORE - after, gain=BEFORE - after, model=SimpleNamespace(chi_square=after)
     )
     look = SimpleNamespace(screen=SimpleNamespace(threshold=10.0), model=SimpleNamespace(chi_square=BEFORE))
-    return court.objection(trial, None, fall, look, 0.0)
+    return court.objection(trial, gain, fall, look, 0.0)
 
 
 @pytest.mark.parametrize(("fall", "relevance", "refused"), [(0.04, 0.05, True), (0.06, 0.05, False)])
 def test_a_smaller_gain_than_the_user_cares_for_is_refused(fall, relevance, refused):
     assert ("of no practical relevance" in refusal(fall, relevance=relevance)) is refused
+
+
+@pytest.mark.parametrize(("gain", "refused"), [
+    (Gain(0.02, (0.01, 0.03)), False),
+    (Gain(0.02, (0.001, 0.04)), True),
+    (Gain(0.02, (0.01, 0.03), "runs that show it"), True),
+])  # fmt: skip
+def test_a_first_cause_may_show_in_the_held_out_runs_alone(gain, refused):
+    """Not where these were chosen because they show it."""
+    assert ("of no practical relevance" in refusal(0.5 * SMALLEST_GAIN, gain)) is refused
 
 
 def test_without_a_word_fifteen_of_ten_thousand_are_enough():
