@@ -233,8 +233,6 @@ BLIND_KINDS = {
     "sensors-null": " with such sensors and nothing hidden",
     "no_quasi_static": " without a quasi-static run",
     "no_repeats": " without repeated runs",
-    "amplitudes": " on sweeps of four amplitudes at one preload",
-    "preloads": " on sweeps of one amplitude at three preloads",
     "without": " without the plugin of the cause",
     "double": " with two effects, one up to ten times the other",
     "textbook": " on rigs from bushing to strut, by laws of the textbook",

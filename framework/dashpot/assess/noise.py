@@ -22,7 +22,7 @@ class NoiseModel:
     @property
     def flat(self) -> bool:
         """Whether the noise of every run is white."""
-        return not any(filter[1:].any() for filter in self.filters.values())
+        return not any(coefficients[1:].any() for coefficients in self.filters.values())
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run in units of their noise; the first samples miss their past and are set to zero."""

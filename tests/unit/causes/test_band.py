@@ -32,7 +32,8 @@ def log_sweep(amplitude, start, stop):
     (log_sweep(1e-3, 0.5, 30.0), 30.0),
     (sum(1e-3 / f * np.sin(2.0 * np.pi * f * TIME + f**2) for f in np.arange(1.0, 31.0)), 30.0),
     (1e-3 * np.sin(2.0 * np.pi * 7.0 * TIME), 7.0),
-], ids=["linear", "logarithmic", "many_sines", "one_sine"])  # fmt: skip
+    (1e-3 * TIME, 1.0 / (TIME.size * STEP)),
+], ids=["linear", "logarithmic", "many_sines", "one_sine", "ramp"])  # fmt: skip
 def test_it_is_the_end_of_a_sweep_and_the_fastest_of_many_sines(path, highest):
     assert end_of_band(view_of(run=path)) == pytest.approx(highest, rel=0.08)
 
