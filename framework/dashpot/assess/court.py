@@ -12,7 +12,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, admitted, measured_from, try_finding, with_numbers_of
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, choose_finalists, form_of, tie_width
+from dashpot.assess.finalists import Form, choose_finalists, cost, form_of, tie_width
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import HELD_OUT, Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -212,8 +212,7 @@ class Court:
                 own = same[0].model.mends[-1].within(now[0].shapes)
                 mends = [own if mend is now[0] else mend for mend in look.model.mends]
                 model = self.bench.fit(look.model.declared, look.model.fitted, look.noise, mends)
-                price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
-                if model.chi_square + price <= look.model.chi_square + tie_width(entry.trial):
+                if cost(model, look) <= cost(look.model, look) + tie_width(entry.trial):
                     instead = replace(entry, finding=own.finding, trial=same[0], rivals=(), others=())
                     return [*accepted[:number], instead, *accepted[number + 1 :]], self.look(model, look.noise)
         return None

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from dashpot.assess.contest import Trial
+from dashpot.assess.contest import Model, Trial
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
 
@@ -145,6 +145,11 @@ def contains(other: Trial, chosen: Trial) -> bool:
     """Whether a trial makes up the law of the chosen one with more numbers, and hardly fits better for them."""
     hardly_better = (1.0 - DOUBTFUL) * other.gain <= chosen.gain
     return imitates(other.finding, chosen.finding) and other.model.numbers > chosen.model.numbers and hardly_better
+
+
+def cost(model: Model, look: Look) -> float:
+    """Chi square with the price of the numbers, by which models on the runs of a look compare."""
+    return float(model.chi_square + model.numbers * np.log(look.screen.samples))
 
 
 def tie_width(trial: Trial | Finding) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from dashpot.assess.contest import Trial
 from dashpot.assess.court import Court
-from dashpot.assess.finalists import TIE, choose_finalists, parts_of, plainer, unusual
+from dashpot.assess.finalists import TIE, choose_finalists, cost, parts_of, plainer, unusual
 from dashpot.assess.suspicion import Look
 from dashpot.fit.refine import Outcome
 
@@ -55,8 +55,7 @@ def plainer_form(court: Court, trial: Trial, ranked: Sequence[Trial], look: Look
         if better and not form.failure:
             both = max(better, key=_by_merit)
             same = max(with_the_next(court, trial, look), key=_by_merit, default=trial)
-            price = (both.model.numbers - same.model.numbers) * np.log(look.screen.samples)
-            if both.model.chi_square + price + TIE <= same.model.chi_square:
+            if cost(both.model, look) + TIE <= cost(same.model, look):
                 return form
     return None
 

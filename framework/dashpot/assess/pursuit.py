@@ -22,6 +22,7 @@ from dashpot.assess.finalists import (
     TIE,
     alike,
     choose_finalists,
+    cost,
     form_of,
     imitated,
     in_doubt,
@@ -127,8 +128,7 @@ class Pursuer:
         other = Pursuer(court, self.watch)
         instead, seen = other.pursue([], first, first, len(accepted))
         self.tried += other.tried
-        price = (seen.model.numbers - look.model.numbers) * np.log(look.screen.samples)
-        if needed_twice(instead) or seen.model.chi_square + price + TIE > look.model.chi_square:
+        if needed_twice(instead) or cost(seen.model, look) + TIE > cost(look.model, look):
             return accepted, look
         for entry in (entry for entry in accepted if entry.finding.candidate.name in twice):
             self.court.bar(entry, reasons.BETTER_WITHOUT)
@@ -356,11 +356,6 @@ def _why_not(trial: Trial, level: Sequence[Trial], imitations: Sequence[Trial]) 
     if trial in imitations:
         return reasons.IMITATES
     return reasons.LOSES_ON_HELD_OUT if trial in level else reasons.EXPLAINS_LESS
-
-
-def cost(model: Model, look: Look) -> float:
-    """Chi square with the price of the numbers."""
-    return float(model.chi_square + model.numbers * np.log(look.screen.samples))
 
 
 def _named_in(entry: Accepted, others: Sequence[Accepted]) -> bool:

@@ -11,7 +11,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted
 from dashpot.assess.contest import Model, admitted, measured_from
 from dashpot.assess.court import REFIT_MAY_DOUBLE, SHARE_OF_FORM, Court, within_form
-from dashpot.assess.finalists import TIE, choose_finalists, imitates, makes_up
+from dashpot.assess.finalists import TIE, choose_finalists, cost, imitates, makes_up
 from dashpot.assess.instead import simplified
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look
@@ -109,9 +109,9 @@ class Revision:
 
     def is_superfluous(self, kept: Sequence[Accepted], model: Model, look: Look) -> bool:
         """Whether the ``model`` with what is ``kept`` does nearly as well as that of a look and holds what it says."""
-        price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
         fall = model.chi_square - look.model.chi_square
-        little = fall < price + look.screen.threshold or within_form(fall, model.chi_square, self.fall_to(look))
+        cheaper = cost(model, look) < cost(look.model, look) + look.screen.threshold
+        little = cheaper or within_form(fall, model.chi_square, self.fall_to(look))
         return little and all(admitted(other.trial, other.base, model, self.first) for other in kept)
 
     def renamed(self, entry: Accepted, accepted: Sequence[Accepted], model: Model, look: Look) -> Accepted | None:
@@ -135,8 +135,7 @@ class Revision:
                 instead = replace(entry, finding=trial.finding, trial=trial, rivals=(), others=(), simpler=())
                 changed = [*accepted[:number], instead, *accepted[number + 1 :]]
                 model = self.court.rebuild(changed, look.model, self.first, look.noise)
-                price = (look.model.numbers - model.numbers) * np.log(look.screen.samples)
-                alike = model.chi_square - look.model.chi_square < price + TIE
+                alike = cost(model, look) < cost(look.model, look) + TIE
                 if alike and admitted(trial, entry.base, model, self.first):
                     self.court.reject(entry.finding, reasons.SIMPLER_WILL_DO, None, None)
                     return changed, self.court.look(model, look.noise)
@@ -204,6 +203,5 @@ def _names(accepted: Sequence[Accepted]) -> set[tuple[str, str]]:
 
 def succeeds(model: Model, look: Look, lead: float = TIE) -> bool:
     """Whether a model fits better than that of a look by its numbers' price and a ``lead``, or ties with fewer."""
-    price = (model.numbers - look.model.numbers) * np.log(look.screen.samples)
-    found = look.model.chi_square - model.chi_square - price
+    found = cost(look.model, look) - cost(model, look)
     return bool(found >= (-TIE if model.numbers < look.model.numbers else lead))
