@@ -165,13 +165,6 @@ def test_admitted_sensor_errors_cost_nothing_and_larger_ones_are_found():
     assert screen(with_error(3.0), WHITE).best.candidate.cause is Other
 
 
-def test_the_rich_residual_holds_no_column_of_the_bank():
-    """What is left after everything known is orthogonal to it."""
-    columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
-    left = rich_residual(columns, WHITE)
-    assert np.std(np.concatenate([left["a"], left["b"]])) == pytest.approx(1.0, rel=0.05)
-
-
 def test_under_white_noise_few_samples_tell_the_columns_apart_as_well():
     """The strengths taken out err by their deviation from every 50th sample; were none taken out, it would be more."""
     columns = columns_of(np.random.default_rng(), [0.3, 0.3, 0.3, 0.3])
