@@ -206,7 +206,9 @@ def test_where_a_springpot_beside_a_dashpot_explains_more_it_takes_the_place_of_
     assert springpot.model.numbers < branches.model.numbers
     plain = plainer_form(court, branches, [branches, springpot], look)
     assert plain.finding is springpot.finding
-    assert court.look(plain.model, look.noise).screen.best.candidate.cause.word == "viscous_damping"
+    left = court.look(plain.model, look.noise).screen
+    dashpot = next(one for one in left.findings if one.candidate.cause.word == "viscous_damping")
+    assert dashpot.merit > left.threshold and dashpot.strengths[0] == pytest.approx(15.0, rel=0.5)
     assert plainer_form(court, springpot, [branches, springpot], look) is None
     court.relevance = 0.1
     assert plainer_form(court, branches, [branches, springpot], look) is None, "a dashpot is not of that interest"
