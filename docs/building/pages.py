@@ -247,7 +247,7 @@ RATES = {
     "confidently_wrong": "it says all is explained, by a cause outside the family",
     "beyond_confusions": "the same, by a cause that is not declared to be confused with it either",
     "false_alarms": "something is named where nothing is hidden",
-    "over_noise_to_1.05": "the held-out error after the extension is within 1.05 of the noise",
+    "over_oracle_to_1.05": "the held-out error after the extension is within 1.05 of an oracle's",
     "right_after_asking": "the first name is right once the run that was asked for is there",
     "lone_right": "a single name without a rival is a hidden effect",
 }

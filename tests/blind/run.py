@@ -26,6 +26,10 @@ from truth.design import further
 
 if TYPE_CHECKING:
     from dashpot.assess.diagnosis import Diagnosis
+    from dashpot.contract.registry import Registry
+    from dashpot.data.dataset import Dataset
+    from dashpot.fit.result import FitResult
+    from dashpot.model.network import NetworkSpec
 
 FLAGS = ("sensors", "without", "follow", "double")
 MOST_FURTHER = 3
@@ -69,7 +73,14 @@ class Bench:
         verdict = found.as_dict()
         named = [cause["cause"] for cause in verdict["causes"]]
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
-        return Outcome(seed, base, truth, verdict, seconds, self.without, before)
+        return Outcome(seed, base, truth, verdict, seconds, self.without, before, self.oracle(seed, base))
+
+    def oracle(self, seed: int, base: str) -> float | None:
+        """The held-out error of a refit to the same runs with nothing hidden in them, where their channels err."""
+        if not self.sensors or base == "axle":  # whose channels are exact
+            return None
+        twin = draw_case(seed, base, "null", design=self.design, sensors=True)
+        return fit_folder(twin.folder, base, self.jobs).errors.held_out
 
     def textbook(self, seed: int, rig: str, kind: str | None, strength: float | None) -> Case:
         """A case of the second kind. ValueError for what only those of the first kind have."""
@@ -81,16 +92,29 @@ class Bench:
 def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> Diagnosis:
     """What the engine says of a dataset, from the network of a base, without the plugins of some causes."""
     from dashpot.assess.diagnose import diagnose
+
+    spec, dataset, registry = _read(folder, base)
+    registry = replace(registry, causes={word: c for word, c in registry.causes.items() if word not in without})
+    return diagnose(spec, dataset, jobs=jobs, registry=registry)
+
+
+def fit_folder(folder: Path, base: str, jobs: int) -> FitResult:
+    """The network of a base identified on a dataset."""
+    from dashpot.fit.api import fit_network
+
+    spec, dataset, registry = _read(folder, base)
+    return fit_network(spec, dataset, jobs=jobs, registry=registry)
+
+
+def _read(folder: Path, base: str) -> tuple[NetworkSpec, Dataset, Registry]:
     from dashpot.contract.registry import load_registry
     from dashpot.data.dataset import read_dataset
     from dashpot.model.reading import read_network
 
     registry = load_registry()
-    registry = replace(registry, causes={word: c for word, c in registry.causes.items() if word not in without})
     dataset = read_dataset(folder, {word: reader() for word, reader in registry.formats.items()})
     own = [path for path in (folder / "network.yaml", NETWORKS / f"{base}.yaml") if path.exists()]
-    spec = read_network(own[0] if own else base, registry.elements)
-    return diagnose(spec, dataset, jobs=jobs, registry=registry)
+    return read_network(own[0] if own else base, registry.elements), dataset, registry
 
 
 def command_of(options: argparse.Namespace, seed: int, cases: int) -> str:

@@ -27,7 +27,8 @@ NOTHING = "nothing_missing"
 class Outcome:
     """One case after its label was opened.
 
-    ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the runs that it asked for.
+    ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the runs that it asked for;
+    ``oracle``: the held-out error [N] that a refit reaches where nothing is hidden, None where that is the noise.
     """
 
     seed: int
@@ -37,6 +38,7 @@ class Outcome:
     seconds: float
     without: bool = False
     before: dict | None = None
+    oracle: float | None = None
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -90,9 +92,11 @@ class Outcome:
         return self.confidently_wrong and not set(self.kinds) & confused_with(self.first)
 
     @property
-    def over_noise(self) -> float | None:
-        """The held-out error after the extension over the noise that is really in these runs: as an oracle has it."""
+    def over_oracle(self) -> float | None:
+        """The held-out error after the extension over that of an oracle: the noise that is really in these runs."""
         after, runs = self.verdict["rmse"]["after"]["held_out"], self.verdict["held_out"]
+        if after and self.oracle:
+            return after / self.oracle
         if after is None or not runs or not set(runs) <= set(self.truth.noise_rms):
             return None  # of runs that were asked for the truth says nothing
         return after / (sum(self.truth.noise_rms[run] ** 2 for run in runs) / len(runs)) ** 0.5
@@ -160,17 +164,17 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "confidently_wrong": [sum(o.confidently_wrong for o in found), len(found)],
         "beyond_confusions": [sum(o.beyond_confusions for o in found), len(found)],
         "by_strength": _by_strength(hidden),
-        "over_noise": _quantiles([o.over_noise for o in found if o.over_noise is not None]),
+        "over_oracle": _quantiles([o.over_oracle for o in found if o.over_oracle is not None]),
         "gain_calibration": _rank_correlation([pair for o in outcomes for pair in o.gains]),
         "named_or_rival": [sum(o.open_set for o in known), len(known)],
         "confusion": _confusion(outcomes),
-        "over_noise_to_1.05": _share([o.over_noise <= 1.05 for o in found if o.over_noise is not None]),
+        "over_oracle_to_1.05": _share([o.over_oracle <= 1.05 for o in found if o.over_oracle is not None]),
         "right_after_asking": _share([o.right for o in found if o.before]),
         "lone_right": _share([o.right for o in known if o.lone]),
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
                       "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],
-                      "named": o.named, "gains": o.gains, "over_noise": o.over_noise, "seconds": round(o.seconds, 1)}
+                      "named": o.named, "gains": o.gains, "over_oracle": o.over_oracle, "seconds": round(o.seconds, 1)}
                      for o in outcomes],
     }  # fmt: skip
 
@@ -197,9 +201,9 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
         "first right by strength left: "
         + ", ".join(f"{band} {_of(pair)}" for band, pair in rates["by_strength"].items())
     )
-    print(f"held-out error after over the noise in it (median, 95 %): {rates['over_noise']}; rank correlation of "
+    print(f"held-out error after over that of an oracle (median, 95 %): {rates['over_oracle']}; rank correlation of "
           f"expected and realised gain: {rates['gain_calibration']}")  # fmt: skip
-    print(f"held-out error within 1.05 of that noise: {_of(rates['over_noise_to_1.05'])}; a single name without a "
+    print(f"held-out error within 1.05 of an oracle's: {_of(rates['over_oracle_to_1.05'])}; a single name without a "
           f"rival is right: {_of(rates['lone_right'])}")  # fmt: skip
     if rates["right_after_asking"][1]:
         print(f"first name right once the run that was asked for is there: {_of(rates['right_after_asking'])}")

@@ -345,9 +345,8 @@ def test_noise_has_its_size_and_colour(memory, white, seed):
     assert correlation == pytest.approx([(1 - white) * memory, (1 - white) * memory**5], abs=0.03)
 
 
-@pytest.mark.parametrize("sensors", [False, True])
-def test_null_case_is_the_base_and_its_noise(sensors, seed, tmp_path):
-    case = draw_case(seed, "ftire", "null", sensors=sensors, folder=tmp_path)
+def test_null_case_is_the_base_and_its_noise(seed, tmp_path):
+    case = draw_case(seed, "ftire", "null", folder=tmp_path)
     truth = case.label.open("nothing")
     base = replace(draw_base("ftire", np.random.default_rng([seed, 0])))
     for name in ("qs", "a05_p10", "a5_p30", "a2_p10_b"):

@@ -110,24 +110,37 @@ def _changes(objective: Objective, coordinates: Coordinates, point: Array, shift
 
 
 def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:
-    normal, gradient = jacobian @ jacobian.T, jacobian @ residual
-    downhill = -gradient
-    stuck = ((point <= coordinates.low) & (downhill < 0.0)) | ((point >= coordinates.high) & (downhill > 0.0))
-    free = ~stuck & (np.diag(normal) > 0.0) & np.isfinite(np.diag(normal))
+    normal, downhill = jacobian @ jacobian.T, -jacobian @ residual
+    free = (np.diag(normal) > 0.0) & np.isfinite(np.diag(normal))
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
-    right = downhill[free] / scale
-    tries = []
-    for damping in DAMPINGS * slack:
-        step = np.zeros(point.size)
-        step[free] = np.linalg.lstsq(matrix + damping * np.eye(free.sum()), right, rcond=1e-12)[0] / scale
-        tries.append(point + _limited(step, coordinates) * coordinates.unit)
-    return coordinates.allowed(np.array(tries), np.where(free, np.diag(normal), 0.0))
+    low, high = (side[free] * scale for side in _reach(coordinates, point))
+    tries = np.repeat(point[None], len(DAMPINGS), axis=0)
+    for each, damping in zip(tries, DAMPINGS * slack, strict=True):
+        damped = matrix + damping * np.eye(free.sum())
+        each[free] += _least_within(damped, downhill[free] / scale, low, high) / scale * coordinates.unit[free]
+    return coordinates.allowed(tries, np.where(free, np.diag(normal), 0.0))
 
 
-def _limited(step: Array, coordinates: Coordinates) -> Array:
-    largest = np.max(np.abs(step[coordinates.log]), initial=0.0)
-    return step * min(1.0, STRIDE / largest) if largest > 0.0 else step
+def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
+    """How far each number may move down and up in one step, in natural steps."""
+    stride = np.where(coordinates.log, STRIDE, np.inf)
+    low, high = (coordinates.low - point) / coordinates.unit, (coordinates.high - point) / coordinates.unit
+    return np.maximum(low, -stride), np.minimum(high, stride)
+
+
+def _least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
+    """The solution of the normal equations; what would leave its limits is held there, the rest solved for anew."""
+    step, free = np.zeros(right.size), np.ones(right.size, dtype=bool)
+    while free.any():
+        rest = right[free] - matrix[np.ix_(free, ~free)] @ step[~free]
+        step[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], rest, rcond=1e-12)[0]
+        outside = free & ((step < low) | (step > high))
+        if not outside.any():
+            break
+        step = np.clip(step, low, high)
+        free &= ~outside
+    return step
 
 
 def _strides(move: Array, coordinates: Coordinates) -> bool:

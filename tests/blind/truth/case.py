@@ -141,17 +141,16 @@ class _Bench:
     def measure(
         self, noise: Noise, channels: Sequence[Channel], rng: np.random.Generator
     ) -> tuple[dict, dict[str, float]]:
-        """Displacement and force of every run with noise, and per run what noise and channel really add."""
+        """Displacement and force of every run with noise, and the realised noise per run."""
         measured, realised = {}, {}
         for plan, fault, channel in zip(self.plans, self.faults, channels, strict=True):
             place = self.paths.index(plan.path)
             displacement = at_samples(self.motions[place].displacement)
             error = noise.sample(rng, displacement.size)
             jitter = DISPLACEMENT_NOISE * rng.standard_normal(displacement.size)
-            force = self.forces[place]
-            shown = channel.shows(self.motions[place].time, force)
-            measured[plan] = displacement + jitter, at_samples(shown) + fault + error
-            realised[plan.name] = _rms(at_samples(shown - force) + error)
+            force = channel.shows(self.motions[place].time, self.forces[place])
+            measured[plan] = displacement + jitter, at_samples(force) + fault + error
+            realised[plan.name] = _rms(error)
         return measured, realised
 
     def _per_run(self, values: list[float]) -> dict[str, float]:

@@ -35,7 +35,7 @@ class Hidden:
 @dataclass(frozen=True)
 class Truth:
     """All about one case; no effect at all is a null case. `noise_rms` is the realised one per run [N],
-    errors of the channel within its data sheet included, of an axle per `run@end`."""
+    of an axle per `run@end`."""
 
     seed: int
     design: str

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, kelvin_voigt, network, ready, run, runs
 
 from dashpot.fit.coordinates import search_coordinates, with_point
@@ -71,6 +74,45 @@ def test_a_bound_holds_and_the_others_go_on():
              for each in scored]  # fmt: skip
     best = sum(v @ f / v.size for v, f in pairs) / sum(v @ v / v.size for v, _ in pairs)
     assert damping == pytest.approx(best, rel=1e-5)
+
+
+@pytest.mark.parametrize("limit", [1.2e5, 0.7e5, 0.3e5])
+def test_what_a_bound_takes_from_a_number_the_others_make_up_for_at_once(limit):
+    """Three branches that resemble one another, linear in their numbers: the least squares within the bounds."""
+    memory = "element: maxwell, relaxation_time: 30 ms"
+    branches = f"""
+        rubber: {{element: spring, stiffness: {{start: 1e5, bounds: [1e3, 1e6], scale: linear}}}}
+        memory: {{{memory}, stiffness: {{start: 2e4, bounds: [1e4, {limit}], scale: linear}}}}
+        oil: {{element: damper, damping: {{start: 10, bounds: [1, 600], scale: linear}}}}
+    """
+    truth = compile_network(
+        network(f"""
+        rubber: {{element: spring, stiffness: 2e5}}
+        memory: {{{memory}, stiffness: 1e5}}
+        oil: {{element: damper, damping: 500}}
+    """)
+    )
+    scored = [run(name, 1e-3, frequency, kelvin_voigt) for name, frequency in (("slow", 3.0), ("fast", 9.0))]
+    scored = [replace(each, force=truth.simulate(truth.prepare(each.drive))) for each in scored]
+    _, objective, coordinates = ready(branches, scored)
+    residual, jacobian = linearise(objective, coordinates, coordinates.start)
+    sides = [(side - coordinates.start) / coordinates.unit for side in (coordinates.low, coordinates.high)]
+    exact = coordinates.start + lsq_linear(jacobian.T, -residual, sides, "bvls").x * coordinates.unit
+    found = refine(objective, coordinates, coordinates.start, steps=1)
+    assert found.loss == pytest.approx(objective.losses(coordinates.to_values(exact))[0], rel=1e-6, abs=1e-6)
+    assert found.point == pytest.approx(exact, rel=1e-4)
+
+
+def test_a_number_that_may_not_go_as_far_as_it_would_does_not_hold_up_the_others():
+    """The damping grows tenfold at the most; sine and cosine being orthogonal, the stiffness is found beside it."""
+    branches = """
+        rubber: {element: spring, stiffness: {start: 1e5, bounds: [1e3, 1e6], scale: linear}}
+        oil: {element: damper, damping: {start: 0.02, bounds: [0.01, 1e5]}}
+    """
+    spec, objective, coordinates = ready(branches, runs())
+    found = numbers(spec, coordinates, refine(objective, coordinates, coordinates.start, steps=1).point)
+    assert found["rubber.stiffness"] == pytest.approx(STIFFNESS, rel=0.01)
+    assert found["oil.damping"] == pytest.approx(0.2, rel=0.01)
 
 
 def without_hope(damping):
