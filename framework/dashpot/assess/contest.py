@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.erring import beside_sensors
-from dashpot.assess.mend import Mend, corrected, make_mend, mended, reshaped, shape_rows
+from dashpot.assess.mend import Mend, corrected, make_mend, mended, replaced, reshaped, shape_rows
 from dashpot.assess.noise import NoiseModel, flat_noise
-from dashpot.assess.projection import SparseRows, normal_equations, stack
-from dashpot.assess.screen import Finding
+from dashpot.assess.projection import SparseRows, normal_equations, project_out, stack
+from dashpot.assess.screen import Finding, judge
 from dashpot.assess.view import ModelView, view_of
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.objective import Objective
@@ -30,7 +30,7 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 STEPS = 30
-MEND_ROUNDS = 2
+MOST_ROUNDS = 8  # of mends
 TOLERANCE = 1e-5
 NEARLY = 1e-3  # of the loss in a step: near enough for a place to start from
 SHARES = (1.0, 0.3, 0.1)  # of what the screen foresees
@@ -127,13 +127,17 @@ class Bench:
     ) -> Model:
         """Refit a network from the numbers of ``start``: to whitened misfits, or to the plain error without a noise.
 
-        The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter;
-        the best turn counts. A network that will not come down to the chi square ``beat`` is left behind half way.
-        The first turn ends with a step that lowers the loss by less than ``tolerance`` of it.
+        The strengths of mends and the numbers of the network take turns, each step of the former foreseeing the latter,
+        as long as chi square falls; the best turn counts. A network that will not come down to the chi square ``beat``
+        is left behind half way, unless its mends may still move to other places. The first turn ends with a step that
+        lowers the loss by less than ``tolerance`` of it.
         """
-        turns = [self._fit(declared, start, noise, tuple(mends), beat, tolerance)]
-        for _ in range(MEND_ROUNDS if mends and turns[0].outcome is not Outcome.LEFT_BEHIND else 0):
+        reach = np.inf if any(mend.roams for mend in mends) else beat
+        turns = [self._fit(declared, start, noise, tuple(mends), reach, tolerance)]
+        falls = bool(mends) and turns[0].outcome is not Outcome.LEFT_BEHIND
+        while falls and len(turns) <= MOST_ROUNDS:
             turns.append(self._fit(declared, turns[-1].fitted, noise, self._strengthened(turns[-1], noise)))
+            falls = turns[-1].chi_square < (1.0 - TOLERANCE) * turns[-2].chi_square
         return min(turns, key=lambda model: model.chi_square if np.isfinite(model.chi_square) else np.inf)
 
     def _fit(
@@ -160,11 +164,25 @@ class Bench:
     def _strengthened(self, model: Model, noise: NoiseModel | None) -> tuple[Mend, ...]:
         view = self.view(model)
         model = replace(model, mends=tuple(mend if mend.local else reshaped(mend, view) for mend in model.mends))
+        white = self._beside_sensors(noise) if noise else flat_noise({run.name: 1.0 for run in self.runs})
+        for number in [number for number, mend in enumerate(model.mends) if mend.roams]:
+            model = self._moved(model, number, view, white)
         residual, tangents = self.linearise(model)
         shapes = shape_rows(model.mends, self.runs)
-        white = self._beside_sensors(noise) if noise else flat_noise(dict.fromkeys(residual, 1.0))
         normal = normal_equations(residual, stack(SparseRows.of(tangents), SparseRows.dense(shapes)), white, self.jobs)
         return corrected(model.mends, normal, noise is not None)
+
+    def _moved(self, model: Model, number: int, view: ModelView, white: NoiseModel) -> Model:
+        """The model with one of its mends at those places of its grid that explain most beside everything else."""
+        mend, others = model.mends[number], (*model.mends[:number], *model.mends[number + 1 :])
+        residual, tangents = self.linearise(replace(model, mends=others))
+        fixed = stack(SparseRows.of(tangents), SparseRows.dense(shape_rows(others, self.runs)))
+        suspect = mend.finding.candidate.suspect
+        bank = SparseRows.of({run.name: suspect.columns(view, run.name)[:, run.first :] for run in self.runs})
+        projected = project_out(normal_equations(residual, (fixed, bank), white, self.jobs), fixed.size)
+        alone = replace(mend.finding.candidate, columns=slice(0, bank.size))
+        moved = replaced(mend, judge(alone, projected, 0), projected, view)
+        return replace(model, mends=(*others[:number], moved, *others[number:]))
 
     def linearise(self, model: Model) -> tuple[dict[str, Array], dict[str, Array]]:
         """Residual (n,) and tangents (p, n) of a model by run, warm-up cut off."""
@@ -270,7 +288,7 @@ def try_finding(
         model = bench.revive(model, model.revived, noise, beat)
     if suspect.mends and suspect.sign:
         positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
-        if 0 < positive.size < len(finding.atoms):
+        if 0 < positive.size < len(finding.atoms) and model.mends[-1].chosen == finding.chosen:
             return try_finding(bench, base, finding.keeping(positive), noise, samples, beat)
     gain = base.chi_square - model.chi_square
     price = (model.numbers - base.numbers) * np.log(samples)

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.assess.projection import Normal
-from dashpot.assess.screen import Finding
+from dashpot.assess.projection import Normal, Projected
+from dashpot.assess.screen import Finding, solve_places
 from dashpot.assess.view import ModelView
 from dashpot.fit.scored import ScoredRun
 
@@ -26,10 +26,12 @@ DRAWS = 400
 class Mend:
     """``shapes[run]`` (k, n) N, each times its strength (k,), stand in the measured force of a run.
 
-    ``deviations`` (k,) are the standard deviations of the strengths.
+    ``chosen`` (k,) are their places in the grid of the suspect that was found, ``deviations`` (k,) the standard
+    deviations of the strengths.
     """
 
     finding: Finding
+    chosen: tuple[int, ...]
     shapes: Mapping[str, Array]
     strengths: Array
     deviations: Array
@@ -39,11 +41,17 @@ class Mend:
         """Whether it touches single runs and says nothing about others."""
         return self.finding.candidate.suspect.local
 
+    @property
+    def roams(self) -> bool:
+        """Whether it may sit at other places of its grid on another model."""
+        suspect = self.finding.candidate.suspect
+        return not suspect.local and not suspect.joint and len(suspect.grid) > 1
+
     def keeping(self, finding: Finding, kept: Iterable[int]) -> Mend:
         """The mend of the ``finding`` that has only these places left, by their number."""
         at = list(kept)
         shapes = {run: rows[at] for run, rows in self.shapes.items() if rows[at].any()}
-        return Mend(finding, shapes, self.strengths[at], self.deviations[at])
+        return Mend(finding, tuple(self.chosen[k] for k in at), shapes, self.strengths[at], self.deviations[at])
 
     def within(self, runs: Collection[str]) -> Mend:
         """The mend with those of its places left that touch no other than these runs."""
@@ -61,7 +69,7 @@ class Mend:
         tries = np.zeros((1 + DRAWS, len(suspect.grid)))
         errors = np.random.default_rng(0).standard_normal((1 + DRAWS, self.strengths.size)) * self.deviations
         errors[0] = 0.0
-        tries[:, list(self.finding.chosen)] = self.strengths + errors
+        tries[:, list(self.chosen)] = self.strengths + errors
         told = [suspect.tell(strengths.tolist()) for strengths in tries]
         return {
             name: (value, unit, _middle([other[name][0] for other in told[1:]]))
@@ -76,15 +84,31 @@ def _middle(values: Sequence[float]) -> tuple[float, float]:
 
 def make_mend(view: ModelView, finding: Finding) -> Mend:
     """The mend of a finding, its shapes on every run of the view that it touches."""
-    chosen = list(finding.chosen)
-    shapes = {run: np.atleast_2d(finding.candidate.suspect.columns(view, run))[chosen] for run in view.runs}
-    touched = {run: rows for run, rows in shapes.items() if rows.any()}
-    return Mend(finding, touched, finding.strengths, finding.deviations)
+    shapes = _shapes(view, finding, finding.chosen)
+    return Mend(finding, finding.chosen, shapes, finding.strengths, finding.deviations)
 
 
 def reshaped(mend: Mend, view: ModelView) -> Mend:
     """The mend with its strengths and the shapes that it has on another model."""
-    return replace(make_mend(view, mend.finding), strengths=mend.strengths, deviations=mend.deviations)
+    return replace(mend, shapes=_shapes(view, mend.finding, mend.chosen))
+
+
+def replaced(mend: Mend, best: Finding | None, projected: Projected, view: ModelView) -> Mend:
+    """The mend at the places of the ``best`` finding of its suspect alone, where these explain more than its own."""
+    found = mend.finding.candidate.suspect
+    if best is None or best.chosen == mend.chosen:
+        return mend
+    own = solve_places(projected.scores, projected.spread, mend.chosen, found.sign)[0]
+    price = (1 + found.unknowns) * np.log(projected.samples)
+    if best.merit <= own - len(mend.chosen) * price:
+        return mend
+    shapes = _shapes(view, mend.finding, best.chosen)
+    return replace(mend, chosen=best.chosen, shapes=shapes, strengths=best.strengths, deviations=best.deviations)
+
+
+def _shapes(view: ModelView, finding: Finding, chosen: Sequence[int]) -> dict[str, Array]:
+    shapes = {run: np.atleast_2d(finding.candidate.suspect.columns(view, run))[list(chosen)] for run in view.runs}
+    return {run: rows for run, rows in shapes.items() if rows.any()}
 
 
 def mended(run: ScoredRun, mends: Sequence[Mend]) -> ScoredRun:
@@ -97,8 +121,9 @@ def shape_rows(mends: Sequence[Mend], runs: Sequence[ScoredRun]) -> dict[str, Ar
     """The shapes of all mends (k, n) by run, warm-up cut off."""
     return {
         run.name: np.concatenate([
-            mend.shapes.get(run.name, np.zeros((mend.strengths.size, run.force.size)))[:, run.first :] for mend in mends
-        ])
+            np.empty((0, run.force.size)),
+            *(mend.shapes.get(run.name, np.zeros((mend.strengths.size, run.force.size))) for mend in mends),
+        ])[:, run.first :]
         for run in runs
     }  # fmt: skip
 

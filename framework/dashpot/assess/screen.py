@@ -207,7 +207,7 @@ def screen(columns: Columns, noise: NoiseModel, seed: int = 0, known: Array | No
     normal = normal_equations(columns.residual, columns.kinds, noise, columns.jobs, known)
     projected = project_out(normal, columns.precision.size, columns.precision)
     numbers = columns.tangents.size
-    findings = [_judge(candidate, projected, numbers) for candidate in columns.candidates]
+    findings = [judge(candidate, projected, numbers) for candidate in columns.candidates]
     ordered = sorted((found for found in findings if found is not None), key=lambda finding: -finding.merit)
     threshold = max(0.0, _null_quantile(columns.candidates, projected, seed))
     return Screen(tuple(ordered), threshold, projected, _together(projected), normal.gram[numbers:, numbers:])
@@ -227,14 +227,15 @@ def usable_columns(candidate: Candidate, projected: Projected) -> Places:
     return np.flatnonzero(np.diag(projected.spread)[where] > KEPT * projected.original[where])
 
 
-def _judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding | None:
+def judge(candidate: Candidate, projected: Projected, numbers: int) -> Finding | None:
+    """What the places of a candidate explain beside the fixed rows, of which ``numbers`` are those of the model."""
     where = candidate.columns
     s, matrix = projected.scores[where], projected.spread[where, where]
     usable = usable_columns(candidate, projected)
     if usable.size == 0:
         return None
-    judge = _judge_joint if candidate.suspect.joint else _judge_greedy
-    return judge(candidate, s, matrix, usable, projected.samples, projected.absorbed[:numbers, where])
+    judged = _judge_joint if candidate.suspect.joint else _judge_greedy
+    return judged(candidate, s, matrix, usable, projected.samples, projected.absorbed[:numbers, where])
 
 
 def _judge_joint(
@@ -279,7 +280,7 @@ def _judge_greedy(
     chosen: tuple[int, ...] = ()
     while len(chosen) < min(suspect.most, usable.size):
         options = [(*chosen, int(k)) for k in usable if k not in chosen]
-        solved = [_solve(s, matrix, option, suspect.sign) for option in options]
+        solved = [solve_places(s, matrix, option, suspect.sign) for option in options]
         chosen = options[int(np.argmax([gain for gain, _ in solved]))]
         gain, strengths = solved[options.index(chosen)]
         used = np.flatnonzero(strengths)
@@ -294,7 +295,8 @@ def _judge_greedy(
     return best
 
 
-def _solve(s: Array, matrix: Array, chosen: tuple[int, ...], sign: int) -> tuple[float, Array]:
+def solve_places(s: Array, matrix: Array, chosen: tuple[int, ...], sign: int) -> tuple[float, Array]:
+    """The fall of chi square by some places, and their strengths (k,)."""
     index = np.array(chosen)
     part = matrix[np.ix_(index, index)]
     strengths = np.linalg.lstsq(part, s[index], rcond=1e-10)[0]

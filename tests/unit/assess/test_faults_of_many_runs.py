@@ -74,7 +74,7 @@ class Found:
 def mend_of(word, *runs):
     """One place for each of the runs."""
     shapes = {f"r{run}": np.eye(len(runs))[:, [k]] * np.ones(50) for k, run in enumerate(runs)}
-    return Mend(Found(word, runs), shapes, np.ones(len(runs)), np.ones(len(runs)))
+    return Mend(Found(word, runs), tuple(range(len(runs))), shapes, np.ones(len(runs)), np.ones(len(runs)))
 
 
 def accepted_with(rival, own):
