@@ -102,7 +102,8 @@ class Bench:
     """What every refit needs; ``sensors`` is the data sheet of the force channel by run.
 
     ``unseen`` are runs that no refit sees, but on which a fault that it finds in all runs has to be known, too.
-    ``watch`` hears how much of a long computation is done.
+    ``watch`` hears how much of a long computation is done. ``given`` are the paths of the numbers of the network that
+    is diagnosed.
     """
 
     runs: Sequence[ScoredRun]
@@ -111,6 +112,7 @@ class Bench:
     jobs: int = 1
     unseen: Sequence[ScoredRun] = ()
     watch: Callable[[float], None] = lambda done: None
+    given: Collection[str] = ()
 
     def view(self, model: Model) -> ModelView:
         """A model on all runs as causes see it."""
@@ -215,6 +217,14 @@ class Bench:
         places = np.array([compile_network(start).start for start in starts])
         return int(np.argmin(self._objective(starts[0], noise, mends).losses(places)))
 
+    def driven(self, model: Model, base: Model) -> dict[str, Value]:
+        """The numbers of an extended model that are at an end of their range, as they stand in the file.
+
+        Not those of a cause that is in the base already and had come to an end there: it was tried when it was named.
+        """
+        before = base.revived.keys() - set(self.given)
+        return {path: value for path, value in model.revived.items() if path not in before}
+
     def revive(self, model: Model, numbers: Mapping[str, Value], noise: NoiseModel, beat: float = np.inf) -> Model:
         """The model, or a better one: numbers that what was missing had driven away start anew as in the file.
 
@@ -285,7 +295,7 @@ def try_finding(
     except InputError as error:
         return Trial(finding, base, 0.0, -np.inf, f"its cure cannot be written into the network: {error}")
     if model.outcome is not Outcome.LEFT_BEHIND:
-        model = bench.revive(model, model.revived, noise, beat)
+        model = bench.revive(model, bench.driven(model, base), noise, beat)
     if suspect.mends and suspect.sign:
         positive = np.flatnonzero(model.mends[-1].strengths > 0.0)
         if 0 < positive.size < len(finding.atoms) and model.mends[-1].chosen == finding.chosen:

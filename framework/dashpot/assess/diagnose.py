@@ -71,7 +71,7 @@ def diagnose(
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
-                  partial(watch, "screen of all places"))  # fmt: skip
+                  partial(watch, "screen of all places"), [slot.path for slot in spec.slots()])  # fmt: skip
     court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
                   {run.name: run.cluster for run in dataset.runs}, effort=Effort(most_looks))  # fmt: skip
     pursued = Pursuer(court, watch).run(model_of(fit))

@@ -96,7 +96,7 @@ def reshaped(mend: Mend, view: ModelView) -> Mend:
 def replaced(mend: Mend, best: Finding | None, projected: Projected, view: ModelView) -> Mend:
     """The mend at the places of the ``best`` finding of its suspect alone, where these explain more than its own."""
     found = mend.finding.candidate.suspect
-    if best is None or best.chosen == mend.chosen:
+    if best is None or set(best.chosen) == set(mend.chosen):
         return mend
     own = solve_places(projected.scores, projected.spread, mend.chosen, found.sign)[0]
     price = (1 + found.unknowns) * np.log(projected.samples)
