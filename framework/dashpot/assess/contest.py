@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.assess.erring import beside_sensors
-from dashpot.assess.mend import Mend, corrected, make_mend, mended, replaced, reshaped, shape_rows
+from dashpot.assess.mend import Mend, corrected, make_mend, mended, relocated, reshaped, shape_rows
 from dashpot.assess.noise import NoiseModel, flat_noise
 from dashpot.assess.projection import SparseRows, normal_equations, project_out, stack
 from dashpot.assess.screen import Finding, judge
@@ -180,10 +180,11 @@ class Bench:
         residual, tangents = self.linearise(replace(model, mends=others))
         fixed = stack(SparseRows.of(tangents), SparseRows.dense(shape_rows(others, self.runs)))
         suspect = mend.finding.candidate.suspect
-        bank = SparseRows.of({run.name: suspect.columns(view, run.name)[:, run.first :] for run in self.runs})
+        columns = {run.name: np.atleast_2d(suspect.columns(view, run.name))[:, run.first :] for run in self.runs}
+        bank = SparseRows.of(columns)
         projected = project_out(normal_equations(residual, (fixed, bank), white, self.jobs), fixed.size)
         alone = replace(mend.finding.candidate, columns=slice(0, bank.size))
-        moved = replaced(mend, judge(alone, projected, 0), projected, view)
+        moved = relocated(mend, judge(alone, projected, 0), projected, view)
         return replace(model, mends=(*others[:number], moved, *others[number:]))
 
     def linearise(self, model: Model) -> tuple[dict[str, Array], dict[str, Array]]:

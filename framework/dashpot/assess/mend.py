@@ -93,7 +93,7 @@ def reshaped(mend: Mend, view: ModelView) -> Mend:
     return replace(mend, shapes=_shapes(view, mend.finding, mend.chosen))
 
 
-def replaced(mend: Mend, best: Finding | None, projected: Projected, view: ModelView) -> Mend:
+def relocated(mend: Mend, best: Finding | None, projected: Projected, view: ModelView) -> Mend:
     """The mend at the places of the ``best`` finding of its suspect alone, where these explain more than its own."""
     found = mend.finding.candidate.suspect
     if best is None or set(best.chosen) == set(mend.chosen):
