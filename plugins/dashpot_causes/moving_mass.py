@@ -8,10 +8,10 @@ import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.band import HIGHEST, end_of_band
 
 MOUNTINGS = (4.0, 12.0)  # resonance of the mass on its mounting, in parts of the end of the measured band
 MOUNTING_RATIO = 0.06
+STIFF = 2.0  # times the end of the band: a mass on a spring that is stiffer is a mass
 UNITS = {"mass": "kg", "stiffness": "N/m", "damping": "N*s/m"}
 
 
@@ -39,14 +39,14 @@ class MovingMass(Cause):
             sign=0,
             unknowns=0,
         )
-        end = end_of_band(view)
+        end = view.highest_frequency
 
         def mounted(mass: float, frequency: float) -> Mapping[str, float]:
             stiffness = mass * (2.0 * np.pi * frequency) ** 2
             return {"mass": mass, "stiffness": stiffness, "damping": 2.0 * MOUNTING_RATIO * np.sqrt(stiffness * mass)}
 
         def is_mass(found: Mapping[str, float]) -> bool:
-            return bool(np.sqrt(found["stiffness"] / found["mass"]) > 2.0 * np.pi * HIGHEST * end)
+            return bool(np.sqrt(found["stiffness"] / found["mass"]) > 2.0 * np.pi * STIFF * end)
 
         yield added_branch("vibration_absorber", "moving_mass", [share * end for share in MOUNTINGS], mounted, UNITS,
                            unknowns=2, admits=is_mass, form="a mass on its mounting")  # fmt: skip

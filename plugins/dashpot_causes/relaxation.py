@@ -10,7 +10,6 @@ import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.band import end_of_band
 
 UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 SPRINGPOT_UNITS = {"stiffness": "N/m", "order": "1", "reference": "Hz", "lowest": "Hz", "decades": "1", "dwell": "s"}
@@ -43,7 +42,7 @@ class Relaxation(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """Maxwell branches on a logarithmic grid of relaxation times; a springpot over the measured band."""
         grid = np.geomspace(2.0 * view.dt, 0.3 * view.duration, PLACES)
-        fastest = FASTEST / (2.0 * np.pi * end_of_band(view))
+        fastest = FASTEST / (2.0 * np.pi * view.highest_frequency)
 
         def relaxes(found: Mapping[str, float], share: float = 1.0) -> bool:
             return all(time > share * fastest for name, time in found.items() if name.startswith("relaxation_time"))
@@ -59,7 +58,7 @@ class Relaxation(Cause):
         )
         yield replace(branches, stays=partial(relaxes, share=STILL))
         lowest = SLOW / view.duration
-        decades = float(np.log10(FAST * end_of_band(view) / lowest))
+        decades = float(np.log10(FAST * view.highest_frequency / lowest))
         if decades > 1.0:
             yield _springpot(lowest, min(decades, MOST_DECADES))
 

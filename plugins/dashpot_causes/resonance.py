@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot_causes.band import HIGHEST, end_of_band
+from dashpot_causes.moving_mass import STIFF
 
 Array = NDArray[np.float64]
 UNITS = {
@@ -43,8 +43,8 @@ class Resonance(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A mass behind a spring or hung on one, over resonance frequencies and dampings, linear or of turbulence."""
-        end = end_of_band(view)
-        band = Band(LOWEST * end, HIGHEST * end, 0.15 / view.dt, 0.5 * view.speed)
+        end = view.highest_frequency
+        band = Band(LOWEST * end, STIFF * end, 0.15 / view.dt, 0.5 * view.speed)
         plain = [Mode(f, ratio) for ratio, count in (BROAD, NARROW) for f in band.frequencies(count)]
         turbulent = [Mode(f, NARROW[0], ratio / band.speed)
                      for ratio in TURBULENT for f in band.frequencies(BROAD[1])]  # fmt: skip

@@ -21,6 +21,7 @@ LONGEST = 120.0  # s
 SHARES = (0.15, 0.5, 0.85)  # of the reach
 LADDER = (0.1, 0.33, 1.0)  # of the largest amplitude
 BEYOND = (1.0, 2.0, 5.0)  # of the end of the measured band
+FASTER = 1.5  # than measured
 
 
 @dataclass(frozen=True)
@@ -100,17 +101,18 @@ Proposal = Sweep | Triangle
 def runs_to_choose_from(view: ModelView) -> Iterator[Proposal]:
     """Sweeps over the measured band and beyond its end at several amplitudes and preloads, and slow triangles.
 
-    None goes beyond the measured deflections, nor faster than 1.5 times the measured speed.
+    None goes beyond the measured deflections, nor faster than 1.5 times the measured speed: large amplitudes stop short
+    of the end of a band that only small ones have reached.
     """
     low, high = view.reach
     stroke = min(view.stroke, high - low)
-    top = view.speed / (np.pi * stroke)
     for share, step, beyond in product(SHARES, LADDER, BEYOND):
         amplitude = 0.5 * step * stroke
         centre = float(np.clip(low + share * (high - low), low + amplitude, high - amplitude))
-        stop = beyond * top
-        if 2.0 * np.pi * stop * amplitude <= 1.5 * view.speed:
-            yield Sweep(amplitude, centre, 0.1 * top, stop, PERIODS / (0.1 * top))
+        fastest = FASTER * view.speed / (2.0 * np.pi * amplitude)
+        end = min(view.highest_frequency, fastest)
+        if beyond * end <= fastest:
+            yield Sweep(amplitude, centre, 0.1 * end, beyond * end, PERIODS / (0.1 * end))
     for speed in (1e-3, 1e-2, 1e-1):
         triangle = Triangle(low, high, speed * view.speed)
         if triangle.seconds < LONGEST:

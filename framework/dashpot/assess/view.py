@@ -9,6 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.assess.band import end_of_band
 from dashpot.data.drive import moved_drive
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
@@ -51,6 +52,11 @@ class ModelView:
         """The largest stroke of a single dynamic run in m, of any run if there is no dynamic one."""
         dynamic = [run for run in self.scored.values() if run.kind not in ("quasi_static", "hold")]
         return float(max(np.ptp(run.drive.displacement) for run in dynamic or self.scored.values()))
+
+    @cached_property
+    def highest_frequency(self) -> float:
+        """The highest frequency in Hz that was driven, in any run."""
+        return end_of_band([run.drive for run in self.scored.values()], self.stroke)
 
     @cached_property
     def duration(self) -> float:

@@ -41,6 +41,10 @@ class View(Protocol):
         """Largest speed in m/s."""
 
     @property
+    def highest_frequency(self) -> float:
+        """The highest frequency in Hz that was driven: of a sweep its end, of many sines the fastest that matters."""
+
+    @property
     def duration(self) -> float:
         """Median length of a run in s."""
 

@@ -13,7 +13,7 @@ CAUSES, ELEMENTS = load_registry().causes, load_registry().elements
 STEP, DRIVEN = 1e-3, 8.0
 ANGLE = 2.0 * np.pi * DRIVEN * STEP * np.arange(10_000)
 VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=STEP, duration=10.0, runs=("run",),
-                       displacement=lambda run: 0.01 * np.sin(ANGLE), step=lambda run: STEP,
+                       highest_frequency=DRIVEN, displacement=lambda run: 0.01 * np.sin(ANGLE), step=lambda run: STEP,
                        velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE))  # fmt: skip
 
 

@@ -43,6 +43,7 @@ class SmallView:
         self.network = parse_network(NETWORK, REGISTRY.elements)
         self.runs = tuple(paths)
         self.reach, self.stroke, self.dt, self.duration = (-7e-3, 11e-3), 10e-3, STEP, STEP * SAMPLES
+        self.highest_frequency = 2.0 + 8.0 * STEP * SAMPLES
         self.speed = max(float(np.abs(drive.velocity).max()) for drive in self.drives.values())
 
     def displacement(self, run):
