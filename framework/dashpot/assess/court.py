@@ -247,22 +247,25 @@ class Court:
         """Why a trial may not be accepted, or an empty text.
 
         ``change`` is what it makes of the plain error, ``explained`` the fall of chi square so far. A first cause may
-        show more in the held-out runs than in those that were fitted.
+        show more in the held-out runs than in those that were fitted, and a further one that makes these better by more
+        than forms err is none of their errors.
         """
         if trial.failure:
             return trial.failure
         if trial.merit <= look.screen.threshold:
             return "after the refit it explains no more than its own parameters would by chance"
         fall = 1.0 - np.sqrt(trial.model.chi_square / look.model.chi_square)
-        form = within_form(trial.gain, look.model.chi_square, explained)
+        least_unseen = gain.interval[0] if gain is not None and gain.runs == HELD_OUT else -np.inf
+        beyond = least_unseen > FORM_ERROR
+        form = not beyond and within_form(trial.gain, look.model.chi_square, explained)
         if form and trial.gain < ALL_BUT_NOISE * max(look.screen.together, CLEAR):
             return reasons.WITHIN_FORM
         if trial.gain < BEYOND_FORM * explained and trial.finding.candidate.cause.word in self.made_up:
             return reasons.WITHIN_FORM
-        held_out = gain is not None and gain.runs == HELD_OUT and gain.interval[0] > self.relevance
-        if change < self.relevance and (explained or not held_out):
+        if change < self.relevance and (explained or least_unseen <= self.relevance):
             return f"makes the training runs better by less than {self.relevance:.2%}: of no practical relevance"
-        if explained and max(fall, change) < (least := self.least_later_gain(trial, look, explained)):
+        doubtful = explained and not beyond
+        if doubtful and max(fall, change) < (least := self.least_later_gain(trial, look, explained)):
             return reasons.TOO_LITTLE.format(least=least)
         if not self.holds(look.model, trial.model, gain):
             return reasons.NOT_SUPPORTED

@@ -7,7 +7,7 @@ import pytest
 
 from dashpot.assess import reasons
 from dashpot.assess.court import ALL_OF_IT, LESS_FAULTS, SMALLEST_GAIN, SMALLEST_LATER_GAIN, Court
-from dashpot.assess.gain import Gain
+from dashpot.assess.gain import HELD_OUT, Gain
 from dashpot.assess.pursuit import Pursuer
 
 WITHIN = "explains no more than the accepted causes may be wrong by in their form"
@@ -42,6 +42,17 @@ def test_what_a_single_law_explains_to_the_noise_is_no_error_of_a_form(gain, tog
     screen = SimpleNamespace(threshold=10.0, together=together)
     look = SimpleNamespace(screen=screen, model=SimpleNamespace(chi_square=1e5))
     assert COURT.objection(trial, None, 0.03, look, 1e6) == form
+
+
+@pytest.mark.parametrize(("low", "runs", "said"), [(0.06, HELD_OUT, ""), (0.04, HELD_OUT, WITHIN), (0.06, "", WITHIN)])
+def test_what_makes_held_out_runs_better_by_more_than_forms_err_is_no_error_of_a_form(low, runs, said):
+    """0.5 % of the fitted error beside a cause that may be wrong by as much, but clearly more of those never seen."""
+    after = SimpleNamespace(chi_square=1e5 - 1000.0)
+    finding = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(word="relaxation")), gain=1000.0)
+    trial = SimpleNamespace(failure="", merit=980.0, gain=1000.0, model=after, finding=finding)
+    screen = SimpleNamespace(threshold=10.0, together=1200.0)
+    look = SimpleNamespace(screen=screen, model=SimpleNamespace(chi_square=1e5))
+    assert COURT.objection(trial, Gain(0.1, (low, 0.15), runs), 0.005, look, 3e5) == said
 
 
 @pytest.mark.parametrize(("chi_square", "room"), [(1.0005e5, False), (1.01e5, True), (0.9e5, True)])
