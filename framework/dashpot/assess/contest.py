@@ -103,7 +103,7 @@ class Bench:
 
     ``unseen`` are runs that no refit sees, but on which a fault that it finds in all runs has to be known, too.
     ``watch`` hears how much of a long computation is done. ``given`` are the paths of the numbers of the network that
-    is diagnosed.
+    is diagnosed, None for all that a model has.
     """
 
     runs: Sequence[ScoredRun]
@@ -112,7 +112,7 @@ class Bench:
     jobs: int = 1
     unseen: Sequence[ScoredRun] = ()
     watch: Callable[[float], None] = lambda done: None
-    given: Collection[str] = ()
+    given: Collection[str] | None = None
 
     def view(self, model: Model) -> ModelView:
         """A model on all runs as causes see it."""
@@ -223,8 +223,8 @@ class Bench:
 
         Not those of a cause that is in the base already and had come to an end there: it was tried when it was named.
         """
-        before = base.revived.keys() - set(self.given)
-        return {path: value for path, value in model.revived.items() if path not in before}
+        given = model.revived if self.given is None else self.given
+        return {path: value for path, value in model.revived.items() if path in given or path not in base.revived}
 
     def revive(self, model: Model, numbers: Mapping[str, Value], noise: NoiseModel, beat: float = np.inf) -> Model:
         """The model, or a better one: numbers that what was missing had driven away start anew as in the file.

@@ -102,6 +102,15 @@ def test_a_damper_that_a_delay_has_eaten_comes_back_with_it(rng):
     assert found["damping.damping"] == pytest.approx(250.0, rel=0.15)
 
 
+def test_a_number_of_a_named_cause_that_was_at_its_end_before_is_not_started_anew():
+    """That of the diagnosed network is, whatever was missing may have driven it there; and one that came to it now."""
+    ended = dict.fromkeys(("damping.damping", "resonance.damping", "resonance.stiffness"))
+    base = SimpleNamespace(revived=dict.fromkeys(("damping.damping", "resonance.damping")))
+    bench = Bench((), {}, {}, given=["stiffness.stiffness", "damping.damping"])
+    assert set(bench.driven(SimpleNamespace(revived=ended), base)) == {"damping.damping", "resonance.stiffness"}
+    assert set(Bench((), {}, {}).driven(SimpleNamespace(revived=ended), base)) == set(ended)
+
+
 def test_held_out_runs_judge_in_white_noise_where_coloured_noise_hides_a_gain(rng, monkeypatch):
     """Slow noise of 50 N that happens to grow by 1 % hides that fast errors of 2 N are gone."""
     bench, held_out = bench_of(lambda x, v: 200e3 * x, rng)
