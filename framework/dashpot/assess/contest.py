@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -103,7 +103,7 @@ class Bench:
 
     ``unseen`` are runs that no refit sees, but on which a fault that it finds in all runs has to be known, too.
     ``watch`` hears how much of a long computation is done. ``given`` are the paths of the numbers of the network that
-    is diagnosed, None for all that a model has.
+    is diagnosed, None for all that a model has; ``forces`` (n,) N by run those of its fit, where there are sensors.
     """
 
     runs: Sequence[ScoredRun]
@@ -113,6 +113,7 @@ class Bench:
     unseen: Sequence[ScoredRun] = ()
     watch: Callable[[float], None] = lambda done: None
     given: Collection[str] | None = None
+    forces: Mapping[str, Array] = field(default_factory=dict)
 
     def view(self, model: Model) -> ModelView:
         """A model on all runs as causes see it."""
@@ -161,7 +162,7 @@ class Bench:
         return Model(declared, fitted, coordinates, found.point, chi_square, found.outcome, mends)
 
     def _beside_sensors(self, noise: NoiseModel) -> NoiseModel:
-        return beside_sensors(noise, self.runs, self.sensors)
+        return beside_sensors(noise, self.runs, self.sensors, self.forces)
 
     def _strengthened(self, model: Model, noise: NoiseModel | None) -> tuple[Mend, ...]:
         view = self.view(model)

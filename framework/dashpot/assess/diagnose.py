@@ -19,6 +19,7 @@ from dashpot.assess.telling import Telling, telling_run
 from dashpot.assess.triage.examine import examine
 from dashpot.assess.untried import remarks_on_untried, with_untried
 from dashpot.assess.verdict import give_verdict
+from dashpot.assess.view import view_of
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
@@ -71,7 +72,8 @@ def diagnose(
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     watch = _watch(progress, spec.name)
     bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
-                  partial(watch, "screen of all places"), [slot.path for slot in spec.slots()])  # fmt: skip
+                  partial(watch, "screen of all places"), [slot.path for slot in spec.slots()],
+                  view_of(fit.fitted, setting.train, registry.elements, jobs).forces)  # fmt: skip
     court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
                   {run.name: run.cluster for run in dataset.runs}, effort=Effort(most_looks))  # fmt: skip
     pursued = Pursuer(court, watch).run(model_of(fit))

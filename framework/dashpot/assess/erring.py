@@ -41,10 +41,18 @@ class ErringNoise(NoiseModel):
 
 
 def beside_sensors(
-    noise: NoiseModel, runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
+    noise: NoiseModel,
+    runs: Sequence[ScoredRun],
+    sensors: Mapping[str, Mapping[str, float]],
+    forces: Mapping[str, Array],
 ) -> NoiseModel:
-    """The noise of runs with the errors that the data sheets of their force channels admit, standard deviations."""
-    shapes = {run.name: _shapes(noise, run, sheet) for run in runs if (sheet := sensors.get(run.name))}
+    """The noise of runs with the errors that the data sheets of their force channels admit, standard deviations.
+
+    ``forces`` (n,) N of a model are what the errors are in proportion to. Measured ones will not do: a common gain of
+    all runs, which a model follows, would scale their noise as well and so make it look smaller.
+    """
+    erring = [(run, sheet) for run in runs if (sheet := sensors.get(run.name))]
+    shapes = {run.name: _shapes(noise, run, sheet, forces[run.name]) for run, sheet in erring}
     return ErringNoise(noise.filters, shapes) if shapes else noise
 
 
@@ -52,7 +60,7 @@ def less_sensor_errors(
     misfits: Sequence[Array], runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
 ) -> list[Array]:
     """Misfits (samples,) of runs less all that errors of the kinds in their sheets could have made, of any size."""
-    return [_less_errors(misfit, _error_rows(run, sensors.get(run.name, {})))
+    return [_less_errors(misfit, _error_rows(run, sensors.get(run.name, {}), run.force))
             for misfit, run in zip(misfits, runs, strict=True)]  # fmt: skip
 
 
@@ -60,7 +68,7 @@ def beyond_sensors(
     misfits: Sequence[Array], runs: Sequence[ScoredRun], sensors: Mapping[str, Mapping[str, float]]
 ) -> list[Array]:
     """Misfits (samples,) of runs less what errors of the sizes in their sheets could have made of them."""
-    return [_less_admitted(misfit, _error_rows(run, sensors.get(run.name, {})))
+    return [_less_admitted(misfit, _error_rows(run, sensors.get(run.name, {}), run.force))
             for misfit, run in zip(misfits, runs, strict=True)]  # fmt: skip
 
 
@@ -79,13 +87,13 @@ def _less_errors(misfit: Array, rows: Array) -> Array:
     return misfit - np.linalg.lstsq(rows.T, misfit, rcond=1e-10)[0] @ rows if rows.size else misfit
 
 
-def _error_rows(run: ScoredRun, sheet: Mapping[str, float]) -> Array:
-    shapes = error_shapes(run.force, run.drive.dt)
+def _error_rows(run: ScoredRun, sheet: Mapping[str, float], force: Array) -> Array:
+    shapes = error_shapes(force, run.drive.dt)
     rows = [sheet[key] * shape[run.first :] for key, shape in shapes.items() if sheet.get(key, 0.0) > 0.0]
     return np.array(rows).reshape(len(rows), run.samples)
 
 
-def _shapes(noise: NoiseModel, run: ScoredRun, sheet: Mapping[str, float]) -> _Shapes:
-    white = noise.whiten(run.name, _error_rows(run, sheet))
+def _shapes(noise: NoiseModel, run: ScoredRun, sheet: Mapping[str, float], force: Array) -> _Shapes:
+    white = noise.whiten(run.name, _error_rows(run, sheet, force))
     _, sizes, directions = np.linalg.svd(white, full_matrices=False)
     return _Shapes(directions, 1.0 - 1.0 / np.sqrt(1.0 + sizes**2))

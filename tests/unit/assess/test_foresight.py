@@ -57,7 +57,8 @@ def test_beside_sensors_that_may_err_the_training_runs_are_foreseen(rng):
     runs = [sweep(name, 5e-3, p, rng, stopped, name == "c") for name, p in (("a", 10e-3), ("b", 16e-3), ("c", 15e-3))]
     setting = prepare(Dataset("made", tuple(runs)))
     sheet = {run.name: {"zero": 1.0} for run in (*setting.train, *setting.held_out)}
-    bench = Bench(setting.train, REGISTRY.elements, sheet, unseen=setting.held_out)
+    forces = {run.name: 200e3 * run.drive.displacement for run in setting.train}
+    bench = Bench(setting.train, REGISTRY.elements, sheet, unseen=setting.held_out, forces=forces)
     look = look_at(bench, fitted(bench, SPRING), [REGISTRY.causes["end_stop"]], None, 0)
     finding = look.screen.best
     assert foreseen_gain(bench, setting.held_out, finding, look) == expected_gain(look.columns, finding)
