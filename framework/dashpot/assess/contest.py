@@ -23,7 +23,7 @@ from dashpot.fit.refine import Outcome, linearise, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
-from dashpot.model.network import NetworkSpec, Value
+from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
 
@@ -263,6 +263,12 @@ class Bench:
         text = finding.candidate.suspect.extend(model.declared.text, finding.atoms)
         declared = parse_network(text, self.elements, model.declared.file)
         return declared, self.start_from(declared, numbers)
+
+    def added(self, model: Model, finding: Finding) -> list[Branch]:
+        """The branches that the patch of a finding adds to the network of a model. InputError if it cannot be."""
+        own = {leaf.name for leaf in model.declared.leaves()}
+        extended, _ = self._extended(model, finding, model.fitted)
+        return [leaf for leaf in extended.leaves() if leaf.name not in own]
 
     def start_from(self, declared: NetworkSpec, fitted: NetworkSpec) -> NetworkSpec:
         """A network ready to be fitted: shared numbers inherited, the others given a range."""

@@ -17,6 +17,7 @@ from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import HELD_OUT, Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
 from dashpot.assess.noise import NoiseModel, learn_noise
+from dashpot.assess.own import at_its_best
 from dashpot.assess.screen import Finding
 from dashpot.assess.suspicion import Look, expected_gain, glance_at, look_at, resolution
 from dashpot.assess.turns import gain_in_turns, gain_on_pieces, runs_that_show
@@ -40,6 +41,7 @@ LESS_FAULTS = "held-out runs, their own faults taken out"
 LESS_ERRORS = "held-out runs, less all that errors of their sensors could have made"
 MOST_LOOKS = 24  # two effects take about eight
 REMEMBERED = 2  # looks: one holds all suspects on all runs
+FAINT = 0.05  # of chi square
 HARMLESS = 0.05  # a loss on held-out runs that coloured noise may make
 
 
@@ -88,6 +90,19 @@ class Court:
             found = look_at(self.bench, model, self.causes, noise, self.seed)
             self.latest[:] = [*self.latest, found][-REMEMBERED:]
         return found
+
+    def first_look(self, model: Model) -> Look:
+        """A look at a model before any cause; where it sees little, at the best that the model can do.
+
+        In plain errors, beside sensors that may err, its fit may have ended elsewhere, and a cause would be named for
+        what its own branches can do.
+        """
+        look = self.look(model, None)
+        seen = look.screen.best
+        if seen is None or seen.gain > FAINT * look.model.chi_square:
+            return look
+        best = at_its_best(self.bench, look)
+        return look if best is look.model else self.glance(best, look)
 
     def look_after(self, model: Model, look: Look, explained: float) -> Look:
         """What is left of a model that a cause of a look has made; ``explained`` is the fall of chi square to it.

@@ -80,7 +80,7 @@ class Pursuer:
         """Accept causes until nothing significant is left."""
         court = self.court
         self.watch("first look", 0.0)
-        first = look = court.look(model, None)
+        first = look = court.first_look(model)
         accepted, look = self.other_two(*self.another_way(*self.pursue([], look, first), first), first)
         accepted, look, ladder = self.settle_gains(accepted, look, first)
         while opposite := [entry for entry in accepted if not admitted(entry.trial, entry.base, ladder[-1])]:
