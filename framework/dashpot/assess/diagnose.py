@@ -71,9 +71,7 @@ def diagnose(
                                 setting.swing)  # fmt: skip
     causes = {word: registry.causes[word] for word in sorted(registry.causes)}
     watch = _watch(progress, spec.name)
-    bench = Bench(setting.train, registry.elements, force_sensors(dataset), jobs, setting.held_out,
-                  partial(watch, "screen of all places"), [slot.path for slot in spec.slots()],
-                  view_of(fit.fitted, setting.train, registry.elements, jobs).forces)  # fmt: skip
+    bench = bench_of(fit, setting, registry, jobs, partial(watch, "screen of all places"))
     court = Court(bench, setting.held_out, list(causes.values()), seed, relevance,
                   {run.name: run.cluster for run in dataset.runs}, effort=Effort(most_looks))  # fmt: skip
     pursued = Pursuer(court, watch).run(model_of(fit))
@@ -108,6 +106,13 @@ def diagnose(
         causes=causes,
         seed=seed,
     )
+
+
+def bench_of(fit: FitResult, setting: Setting, registry: Registry, jobs: int, watch: Callable[[float], None]) -> Bench:
+    """What the refits need that come after the fit of a network."""
+    return Bench(setting.train, registry.elements, force_sensors(setting.dataset), jobs, setting.held_out, watch,
+                 [slot.path for slot in fit.declared.slots()],
+                 view_of(fit.fitted, setting.train, registry.elements, jobs).forces)  # fmt: skip
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:
