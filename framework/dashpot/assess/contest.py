@@ -29,7 +29,7 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
-STEPS = 30
+STEPS = 60
 MOST_ROUNDS = 8  # of mends
 TOLERANCE = 1e-5
 NEARLY = 1e-3  # of the loss in a step: near enough for a place to start from
