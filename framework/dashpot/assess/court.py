@@ -12,7 +12,7 @@ from dashpot.assess import reasons
 from dashpot.assess.accepted import Accepted, Rejection
 from dashpot.assess.contest import Bench, Model, Trial, admitted, measured_from, try_finding, with_numbers_of
 from dashpot.assess.erring import less_sensor_errors
-from dashpot.assess.finalists import Form, choose_finalists, cost, form_of, tie_width
+from dashpot.assess.finalists import TIE, Form, choose_finalists, cost, form_of, tie_width
 from dashpot.assess.foresight import foreseen_gain
 from dashpot.assess.gain import HELD_OUT, Gain, measure_gain
 from dashpot.assess.misfits import misfits_of, pooled, share_of_change
@@ -102,7 +102,7 @@ class Court:
         if seen is None or seen.gain > FAINT * look.model.chi_square:
             return look
         best = at_its_best(self.bench, look)
-        return look if best is look.model else self.glance(best, look)
+        return self.glance(best, look) if look.model.chi_square - best.chi_square > TIE else look
 
     def look_after(self, model: Model, look: Look, explained: float) -> Look:
         """What is left of a model that a cause of a look has made; ``explained`` is the fall of chi square to it.
