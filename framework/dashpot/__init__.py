@@ -1,8 +1,8 @@
 """dashpot: rheological models as networks of small laws, fitted to measurements, with what is missing named.
 
-In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, then ``fit``, ``compare`` or ``diagnose``; all answers
-show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure`` run a model. Studies are
-``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
+In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, ``look`` at it, then ``fit``, ``compare`` or
+``diagnose``; all answers show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure``
+run a model. Studies are ``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
 
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen`` or ``Rig`` and mark its hook with
 ``hookimpl``.
@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from dashpot.notebook.diagnosis import Diagnosis as Diagnosis
     from dashpot.notebook.fit import Fit as Fit
     from dashpot.notebook.listing import Listing as Listing
+    from dashpot.notebook.look import Look as Look
     from dashpot.notebook.model import Model as Model
     from dashpot.notebook.verbs import compare as compare
     from dashpot.notebook.verbs import declare as declare
@@ -60,6 +61,7 @@ if TYPE_CHECKING:
     from dashpot.notebook.verbs import fit as fit
     from dashpot.notebook.verbs import load as load
     from dashpot.notebook.verbs import load_dataset as load_dataset
+    from dashpot.notebook.verbs import look as look
     from dashpot.notebook.verbs import measure as measure
     from dashpot.notebook.verbs import simulate as simulate
     from dashpot.notebook.verbs import write_dataset as write_dataset
@@ -67,7 +69,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "dashpot.notebook.verbs": (
         *("load", "declare", "load_dataset", "simulate", "measure", "write_dataset"),
-        *("fit", "compare", "diagnose"),
+        *("look", "fit", "compare", "diagnose"),
     ),
     "dashpot.notebook.model": ("Model",),
     "dashpot.notebook.data": ("Data",),
@@ -75,6 +77,7 @@ _HOMES = {
     "dashpot.notebook.comparison": ("Comparison",),
     "dashpot.notebook.diagnosis": ("Diagnosis",),
     "dashpot.notebook.listing": ("Listing",),
+    "dashpot.notebook.look": ("Look",),
     "dashpot.kernel.energy": ("energy_balance",),
     "dashpot.fit.study.reading": ("read_study",),
     "dashpot.fit.study.run": ("run_study",),
@@ -89,14 +92,14 @@ _HOMES = {
     "dashpot.contract.rig": ("PrescribedPath", "PlannedRun", "Rig"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
-_LAYER = "fit"  # the one name that is both a layer and a verb
+_LAYERS = ("fit", "compare", "diagnose")  # names that are both a layer and a verb
 
 __all__ = ["__version__", *_HOME_OF]
 
 
 def __getattr__(name: str) -> Any:
-    if name == _LAYER:
-        return import_module(f"dashpot.{_LAYER}")
+    if name in _LAYERS:
+        return import_module(f"dashpot.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'dashpot' has no attribute {name!r}")
     return getattr(import_module(_HOME_OF[name]), name)
@@ -110,29 +113,30 @@ def __dir__() -> list[str]:
 class _CallableLayer(ModuleType):
     @property
     def __doc__(self) -> str | None:  # type: ignore[override]
-        return _verb().__doc__
+        return _verb(self).__doc__
 
     def __call__(self, *arguments: Any, **options: Any) -> Any:
-        return _verb()(*arguments, **options)
+        return _verb(self)(*arguments, **options)
 
     @property
     def __signature__(self) -> Any:
         from inspect import signature
 
-        return signature(_verb())
+        return signature(_verb(self))
 
 
 class _Package(ModuleType):
-    """The package; importing makes ``dashpot.fit`` its attribute, and this makes it one that can be called."""
+    """The package; importing makes ``dashpot.fit`` its attribute, and this makes it callable; so with other layers."""
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name == _LAYER and isinstance(value, ModuleType):
+        if name in _LAYERS and isinstance(value, ModuleType):
             value.__class__ = _CallableLayer
         super().__setattr__(name, value)
 
 
-def _verb() -> Any:
-    return getattr(import_module(_HOME_OF[_LAYER]), _LAYER)
+def _verb(layer: ModuleType) -> Any:
+    name = layer.__name__.rpartition(".")[2]
+    return getattr(import_module(_HOME_OF[name]), name)
 
 
 sys.modules[__name__].__class__ = _Package

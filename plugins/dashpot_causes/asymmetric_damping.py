@@ -37,7 +37,14 @@ class AsymmetricDamping(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """One dashpot that acts in compression or in rebound only; one with a power of the velocity."""
         yield Suspect(
-            "one direction", (COMPRESSION, REBOUND), _columns, _extend, unknowns=0, quantity="damping", unit="N*s/m"
+            "one direction",
+            (COMPRESSION, REBOUND),
+            _columns,
+            _extend,
+            unknowns=0,
+            quantity="damping",
+            unit="N*s/m",
+            of_motion=True,
         )
         reference = reference_speed(view)
         grid = tuple(side * power for side in (COMPRESSION, REBOUND) for power in POWERS)
@@ -50,7 +57,9 @@ class AsymmetricDamping(Cause):
             strength, place = atoms[0]
             return _branch(text, _numbers(strength, place, reference, NOTHING), place)
 
-        yield Suspect("a power in one direction", grid, columns, extend, quantity="damping", unit="N*s/m")
+        yield Suspect(
+            "a power in one direction", grid, columns, extend, quantity="damping", unit="N*s/m", of_motion=True
+        )
 
 
 def _columns(view: View, run: str) -> Array:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, added_branch, unchanged
+from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-Array = NDArray[np.float64]
 PLACES = 9
 SLIDING = np.array([0.005, 0.03, 0.15])  # of the stroke: how far the spring behind the play gives before it slides
 PLAIN = 0.01  # of the stroke: friction behind less play cannot be told from friction
@@ -35,7 +32,7 @@ class Clearance(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring behind play, or with a dead zone around zero; friction behind play; play ahead of the specimen."""
+        """A spring behind play, or with a dead zone around zero; friction behind play."""
         gaps = tuple(np.geomspace(2e-3 * view.stroke, 0.3 * view.stroke, PLACES))
         units = {"stiffness": "N/m", "gap": "m"}
         yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
@@ -48,8 +45,6 @@ class Clearance(Cause):
             yield added_branch("loose_friction", "clearance", loose, _loose(travel), {**units, "limit": "N"},
                                bounds={"gap": (least, view.stroke)},
                                admits=lambda found: all(gap > BEYOND * least for gap in _gaps(found)))  # fmt: skip
-        lost = _Lost(gaps[::2])
-        yield Suspect("play in series", lost.gaps, lost, unchanged, mends=True, tell=lost.tell)
 
 
 def _gaps(found: Mapping[str, float]) -> list[float]:
@@ -58,18 +53,3 @@ def _gaps(found: Mapping[str, float]) -> list[float]:
 
 def _loose(travel: float) -> Callable[[float, float], Mapping[str, float]]:
     return lambda limit, gap: {"limit": limit, "stiffness": limit / travel, "gap": gap}
-
-
-@dataclass(frozen=True)
-class _Lost:
-    """The whole specimen is moved only by what play leaves of the motion."""
-
-    gaps: tuple[float, ...]
-
-    def __call__(self, view: View, run: str) -> Array:
-        x = view.displacement(run)
-        behind = view.respond(run, "backlash", [{"stiffness": 1.0, "gap": gap} for gap in self.gaps])
-        return np.array([view.moved(run, follower - x) - view.force(run) for follower in behind])
-
-    def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-        return {"gap": (self.gaps[int(np.argmax(strengths))], "m"), "share": (max(strengths), "1")}

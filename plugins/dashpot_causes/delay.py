@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View, unchanged
+from dashpot.contract.cause import Atom, Cause, Suspect, View
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_measurement
 from dashpot.text.quantity import pretty
@@ -24,6 +24,7 @@ class Delay(Cause):
     kind = "measurement"
     about = "delay between the channels"
     shows = "loss stiffness changes with frequency in proportion to the storage stiffness, so it grows with preload"
+    evidence_of = "phase"
     confused_with = {
         "viscous_damping": "a known steel spring on the same channels: a delay stays, damping does not",
         "relaxation": "a known steel spring on the same channels: a delay stays, relaxation does not",
@@ -31,11 +32,13 @@ class Delay(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A shift of the model's force by a small time, or a low-pass, unless the network has a delay already."""
+        """A shift of the model's force by a small time, or a low-pass, unless the network has them already."""
         if "force.delay" not in network.measurement:
-            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, usual=1, unknowns=0, quantity="delay", unit="s")
-            yield Suspect("low-pass of first order", LAGS, _lagging, unchanged, most=2, mends=True,
-                          quantity="share", unit="1", tell=_tell)  # fmt: skip
+            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay",
+                          unit="s")  # fmt: skip
+        if "force.lag" not in network.measurement:
+            yield Suspect("low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share",
+                          unit="1")  # fmt: skip
 
 
 def _slope(view: View, run: str) -> Array:
@@ -54,8 +57,10 @@ def _lagging(view: View, run: str) -> Array:
     return np.array(rows)
 
 
-def _tell(strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-    return {"delay": (float(np.dot(strengths, LAGS)), "s")}
+def _low_pass(text: str, atoms: Sequence[Atom]) -> str:
+    share, lag = atoms[0]
+    start = float(np.clip(share * lag, LAGS[0], LAGS[-1]))
+    return add_measurement(text, "lag", f"{{start: {pretty(start, 's', 6)}, bounds: [1 us, {pretty(LONGEST, 's')}]}}")
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, one_of_the_runs
+from dashpot.contract.cause import Cause, ChannelFault, Suspect, View
+from dashpot.data.correction import Correction
 from dashpot.model.network import NetworkSpec
-
-Array = NDArray[np.float64]
-FASTER = 5.0  # how many times a zero settles within a run
 
 
 class Drift(Cause):
@@ -29,15 +26,15 @@ class Drift(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A force that rises evenly over a run, or settles within it, one for each run of a minority."""
-        for form, shape in (("steady drift", _steady), ("settling drift", _settling)):
-            yield one_of_the_runs(f"{form} of single runs", shape, "drift by the end", "N", view, share=0.5)
+        """None: no network drifts."""
+        return ()
 
-
-def _steady(view: View, run: str) -> Array:
-    return np.linspace(0.0, 1.0, view.force(run).size)
-
-
-def _settling(view: View, run: str) -> Array:
-    rise = -np.expm1(-FASTER * _steady(view, run))
-    return rise / rise[-1]
+    def channel_faults(self, view: View) -> Iterable[ChannelFault]:
+        """A zero that moves evenly over a run, wherever it began."""
+        yield ChannelFault(
+            "steady drift",
+            "drift by the end",
+            "N",
+            lambda view, run: np.array([np.linspace(0.0, 1.0, view.force(run).size), np.ones(view.force(run).size)]),
+            lambda strengths: Correction(drift=strengths[0], offset=strengths[1]),
+        )

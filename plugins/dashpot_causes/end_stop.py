@@ -45,7 +45,7 @@ class EndStop(Cause):
                 progressive = partial(_progressive, numbers, reference)
                 yield added_branch(
                     "end_stop", "end_stop", side, progressive, units, fixed=(*fixed, "reference"), unknowns=2,
-                    bounds={"exponent": EXPONENTS}, imitates=("stiffness_curve",), form="a progressive buffer",
+                    bounds={"exponent": EXPONENTS}, form="a progressive buffer",
                 )  # fmt: skip
 
 

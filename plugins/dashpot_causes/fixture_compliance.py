@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, unchanged
+from dashpot.contract.cause import Atom, Cause, Suspect, View
 from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import add_measurement
+from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 PROBE = 1e-9  # m/N
+MOST = 30.0  # times what the linear step foresees
 
 
 class FixtureCompliance(Cause):
@@ -22,15 +25,17 @@ class FixtureCompliance(Cause):
     about = "compliance of the fixture"
     shows = "everything looks softer, the more so the stiffer the specimen; mostly hidden in the numbers of the model"
     cure = "measure the displacement across the specimen, or a rigid bar in its place and subtract its deflection"
+    evidence_of = "data_sheet"
     confused_with = {
         "stiffness_curve": "a rigid bar in place of the specimen: its deflection is that of the fixture",
         "delay": "a rigid bar in place of the specimen",
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A deflection in proportion to the force, taken out of the measured one."""
-        yield Suspect("compliance", (0.0,), _lost, unchanged, unknowns=0, mends=True,
-                      quantity="compliance", unit="m/N", tell=_tell)  # fmt: skip
+        """A deflection in proportion to the force, ahead of the whole network."""
+        if "force.compliance" not in network.measurement:
+            yield Suspect("compliance", (0.0,), _lost, _extend, unknowns=0, measured=True,
+                          quantity="compliance", unit="m/N")  # fmt: skip
 
 
 def _lost(view: View, run: str) -> Array:
@@ -38,5 +43,7 @@ def _lost(view: View, run: str) -> Array:
     return (moved - view.force(run))[None] / PROBE
 
 
-def _tell(strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-    return {"stiffness": (1.0 / max(strengths[0], np.finfo(float).tiny), "N/m")}
+def _extend(text: str, atoms: Sequence[Atom]) -> str:
+    compliance = atoms[0][0]
+    bounds = f"[0 m/N, {pretty(MOST * compliance, 'm/N', 6)}]"
+    return add_measurement(text, "compliance", f"{{start: {pretty(compliance, 'm/N', 6)}, bounds: {bounds}}}")

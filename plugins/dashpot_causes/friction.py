@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,8 +11,10 @@ from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 from dashpot_causes.levelling import levelling_force
 
-UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1"}
+UNITS = {"limit": "N", "compression": "N", "rebound": "N", "stiffness": "N/m", "exponent": "1"}
 PLACES = 15
+DIRECTED = 7  # yield travels, for each direction in which it rubs harder
+ONE_WAY = 0.3  # of the limit in one direction, that in the other one
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
 MOST = 3
@@ -32,7 +35,9 @@ class Friction(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A slider of any approach, some behind springs, over yield travels; a rigid contact over creep velocities."""
+        """A slider of any approach, some behind springs, over yield travels, one that rubs harder in one direction; a
+        rigid contact over creep velocities.
+        """
         grid = tuple(np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES))
         yield added_branch(
             "dahl",
@@ -50,9 +55,23 @@ class Friction(Cause):
             UNITS,
             most=MOST,
             admits=is_one_contact,
-            imitates=("amplitude_softening",),
         )
+        yield _directed(view)
         yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))
+
+
+def _directed(view: View) -> Suspect:
+    travels = np.geomspace(5e-4 * view.stroke, 0.6 * view.stroke, DIRECTED)
+    sides = [side * travel for side in (1.0, -1.0) for travel in travels]
+
+    def values(limit: float, place: float) -> Mapping[str, float]:
+        limits = (limit, ONE_WAY * limit) if place > 0.0 else (ONE_WAY * limit, limit)
+        found = dict(zip(("compression", "rebound"), limits, strict=True))
+        return {**found, "stiffness": limit / abs(place), "exponent": 1.0}
+
+    suspect = added_branch("directional_friction", "friction", sides, values, UNITS, unknowns=3,
+                           form="a limit for each direction")  # fmt: skip
+    return replace(suspect, quantity="limit", unit="N")
 
 
 def is_one_contact(numbers: Mapping[str, float]) -> bool:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from dashpot.contract.cause import Cause, Suspect, View, one_of_the_runs
+from dashpot.contract.cause import Cause, ChannelFault, Suspect, View
+from dashpot.data.correction import Correction
 from dashpot.model.network import NetworkSpec
 
 
@@ -24,6 +25,10 @@ class Gain(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A relative error of the force, one for each run of a minority."""
-        if len(view.runs) > 1:
-            yield one_of_the_runs("gain of single runs", lambda view, run: view.force(run), "gain error", "1", view)
+        """None: a gain of all runs is part of every stiffness and damping."""
+        return ()
+
+    def channel_faults(self, view: View) -> Iterable[ChannelFault]:
+        """A relative error of the force."""
+        yield ChannelFault("gain", "gain error", "1", lambda view, run: view.force(run)[None],
+                           lambda strengths: Correction(gain=1.0 / (1.0 + strengths[0])))  # fmt: skip

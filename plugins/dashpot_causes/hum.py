@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, unchanged
+from dashpot.contract.cause import Cause, ChannelFault, Suspect, View
+from dashpot.data.correction import Correction
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
-MAINS = ((50.0,), (50.0, 150.0), (60.0,), (60.0, 180.0), (100.0,), (120.0,))  # Hz, some with a third harmonic
+MAINS = (50.0, 60.0, 100.0, 120.0, 150.0, 180.0)  # Hz, with harmonics
 HIGHEST = 0.4  # of the sampling rate
 
 
@@ -31,32 +32,22 @@ class Hum(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Sine and cosine of a frequency of the mains, alone or with its third harmonic, in every run."""
+        """None: its phase differs from run to run."""
+        return ()
+
+    def channel_faults(self, view: View) -> Iterable[ChannelFault]:
+        """Sine and cosine of a frequency of the mains or one of its harmonics."""
         highest = HIGHEST / max(view.step(run) for run in view.runs)
-        for frequencies in (mains for mains in MAINS if max(mains) < highest):
-            lines = _Lines(frequencies, tuple(view.runs))
-            grid = tuple(float(k) for k in range(2 * len(frequencies) * len(lines.runs)))
-            yield Suspect(" and ".join(f"{frequency:g} Hz" for frequency in frequencies), grid, lines, unchanged,
-                          joint=True, sign=0, unknowns=0, mends=True, local=True, quantity="amplitude", unit="N",
-                          tell=lines.tell)  # fmt: skip
+        for frequency in (line for line in MAINS if view.highest_frequency < line < highest):
+            yield ChannelFault(f"{frequency:g} Hz", "amplitude", "N", partial(_line, frequency),
+                               partial(_corrected, frequency), "at_rest",
+                               f"a line at {frequency:g} Hz, where nothing was driven")  # fmt: skip
 
 
-@dataclass(frozen=True)
-class _Lines:
-    frequencies: Sequence[float]
-    runs: tuple[str, ...]
+def _line(frequency: float, view: View, run: str) -> Array:
+    angle = 2.0 * np.pi * frequency * view.step(run) * np.arange(view.force(run).size)
+    return np.array([np.cos(angle), np.sin(angle)])
 
-    def __call__(self, view: View, run: str) -> Array:
-        samples, each = view.force(run).size, 2 * len(self.frequencies)
-        rows = np.zeros((each * len(self.runs), samples))
-        if run in self.runs:
-            angles = 2.0 * np.pi * np.outer(self.frequencies, view.step(run) * np.arange(samples))
-            place = each * self.runs.index(run)
-            rows[place : place + each] = np.concatenate([np.sin(angles), np.cos(angles)])
-        return rows
 
-    def tell(self, strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-        squares = np.square(strengths).reshape(len(self.runs), 2, len(self.frequencies))
-        amplitudes = np.sqrt(squares.sum(axis=1).mean(axis=0))
-        names = ["amplitude", *(f"amplitude at {frequency:g} Hz" for frequency in self.frequencies[1:])]
-        return {name: (float(amplitude), "N") for name, amplitude in zip(names, amplitudes, strict=True)}
+def _corrected(frequency: float, strengths: Sequence[float]) -> Correction:
+    return Correction(hum=(frequency, strengths[0], strengths[1]))

@@ -1,21 +1,21 @@
-"""Dry friction that grows with the load."""
+"""Dry friction that grows with the load, or with a side load."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Pair, Suspect, View, branch_lines, free_name
+from dashpot.contract.cause import Atom, Cause, Pair, Suspect, View, added_branch, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
-UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1", "creep_velocity": "m/s"}
+UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1", "creep_velocity": "m/s", "growth": "N/m", "middle": "m"}
 PLACES = 7
 CREEPS = (1e-3, 1e-2)  # of the largest speed
 ROOM = (0.1, 1.5)  # times the least and the largest of them: how far a refit may go
@@ -23,11 +23,14 @@ KNOTS = 5  # of the factor over the reach
 FACTORS = (0.06, 0.4)
 BOUNDS = "[0.02, 1.5]"
 BACK = 0.4  # of how far the factor goes one way it may come back: at the ends of the reach little is known of it
+MIDDLES, TRAVELS, LEAST = (0.35, 0.5, 0.65), (2e-3, 0.02, 0.2), 0.2  # of the reach, of the stroke, of the limit
 CHANGES = 0.9  # friction that changes by less does not depend on the load
 
 
 class LoadDependentFriction(Cause):
-    """A slider whose force has a factor over deflection: it changes from one end of the reach to the other."""
+    """A slider whose force has a factor over deflection: it changes from one end of the reach to the other, or grows
+    from a middle to both ends.
+    """
 
     word = "load_dependent_friction"
     kind = "specimen"
@@ -40,8 +43,9 @@ class LoadDependentFriction(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """Smooth sliders over yield travels, rigid contacts over creep velocities, their force growing or falling along
-        the reach.
+        the reach; smooth sliders whose limit grows to both sides of a middle, as under a side load.
         """
+        yield _side_load(view)
         travels = tuple(np.geomspace(5e-4 * view.stroke, 0.6 * view.stroke, PLACES))
         creeps = tuple(creep * view.speed for creep in CREEPS)
         within = {"creep_velocity": (ROOM[0] * creeps[0], ROOM[1] * creeps[-1])}
@@ -49,6 +53,37 @@ class LoadDependentFriction(Cause):
             for least in FACTORS:
                 yield _Scaled("dahl", travels, _yielding, view.reach, least, rising).suspect(KNOTS + 1)
             yield _Scaled("coulomb", creeps, _creeping, view.reach, FACTORS[0], rising, within).suspect(KNOTS + 1)
+
+
+def _side_load(view: View) -> Suspect:
+    """A slider whose limit grows to both sides of some place; the strength is the limit at the end that is further."""
+    low, high = view.reach
+    middles = [low + share * (high - low) for share in MIDDLES]
+    places = [(middle, travel * view.stroke) for middle in middles for travel in TRAVELS]
+
+    def values(limit: float, number: float) -> Mapping[str, float]:
+        middle, travel = places[int(number)]
+        furthest = max(high - middle, middle - low)
+        return {"limit": LEAST * limit, "growth": (1.0 - LEAST) * limit / furthest, "middle": middle,
+                "stiffness": limit / travel}  # fmt: skip
+
+    def admits(found: Mapping[str, float]) -> bool:
+        # both ends have to lie off the middle, and the limit has to grow to them
+        nearer = min(high - found["middle"], found["middle"] - low)
+        return CHANGES * (found["limit"] + found["growth"] * nearer) > found["limit"]
+
+    suspect = added_branch(
+        "side_load_friction",
+        "load_dependent_friction",
+        tuple(float(number) for number in range(len(places))),
+        values,
+        UNITS,
+        unknowns=3,
+        bounds={"middle": (low, high)},
+        admits=admits,
+        form="growing to both sides",
+    )
+    return replace(suspect, quantity="largest limit")
 
 
 def _yielding(limit: float, travel: float) -> Mapping[str, float]:
@@ -72,7 +107,7 @@ class _Scaled:
     def suspect(self, unknowns: int) -> Suspect:
         way = "growing" if self.rising else "falling"
         return Suspect(f"{self.element} {way} with deflection", self.grid, self, self.extend, unknowns=unknowns,
-                       quantity="limit", unit="N", admits=self.admits)  # fmt: skip
+                       quantity="limit", unit="N", admits=self.admits, of_motion=True)  # fmt: skip
 
     @property
     def places(self) -> tuple[float, ...]:

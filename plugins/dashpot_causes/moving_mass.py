@@ -22,6 +22,7 @@ class MovingMass(Cause):
     kind = "measurement"
     about = "moving mass between drive and load cell"
     shows = "storage stiffness changes with the square of frequency, alike at every amplitude and preload"
+    evidence_of = "phase"
     confused_with = {
         "relaxation": "a run without specimen: force over acceleration is the mass",
         "delay": "a run without specimen: force over acceleration is the mass",

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from dashpot.contract.cause import Cause, Suspect, View, one_of_the_runs
+from dashpot.contract.cause import Cause, ChannelFault, Suspect, View
+from dashpot.data.correction import Correction
 from dashpot.model.network import NetworkSpec
 
 
@@ -25,7 +26,10 @@ class Offset(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A constant force, one for each run of a minority."""
-        if len(view.runs) > 1:
-            yield one_of_the_runs("offset of single runs", lambda view, run: np.ones(view.force(run).size),
-                                  "offset", "N", view)  # fmt: skip
+        """None: a shift of all runs is part of the elastic curve."""
+        return ()
+
+    def channel_faults(self, view: View) -> Iterable[ChannelFault]:
+        """A constant force."""
+        yield ChannelFault("offset", "offset", "N", lambda view, run: np.ones((1, view.force(run).size)),
+                           lambda strengths: Correction(offset=strengths[0]))  # fmt: skip

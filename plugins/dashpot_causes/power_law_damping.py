@@ -57,7 +57,16 @@ class PowerLawDamping(Cause):
             ]
             return add_branch(text, "\n".join(lines))
 
-        yield Suspect("power of velocity", grid, columns, extend, quantity="force", unit="N", admits=is_broken_power)
+        yield Suspect(
+            "power of velocity",
+            grid,
+            columns,
+            extend,
+            quantity="force",
+            unit="N",
+            admits=is_broken_power,
+            of_motion=True,
+        )
         yield levelling_force(view, "power_law_damping", LEVELLING, LEVELS, (0.75, 4.0))
 
 

@@ -23,8 +23,6 @@ SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 BOUNDS = "bounds: [0.02, 50]"
 CHANGES = 0.9  # least over largest factor of a branch of its own: what changes by less does not depend on preload
-# a relaxing branch with a factor makes up each of these
-SIMPLER = ("relaxation", "viscous_damping", "delay", "moving_mass", "friction", "amplitude_softening", "creep")
 
 
 class PreloadDependentDamping(Cause):
@@ -46,9 +44,9 @@ class PreloadDependentDamping(Cause):
         plain = [branch for branch in branches if branch.scale is None]
         dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
-        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper,
-                       sign=0 if any(branch.element.word == "damper" for branch in branches) else 1,
-                       imitates=("viscous_damping",), admits=anyhow if dampers else changes)  # fmt: skip
+        sign: Literal[0, 1] = 0 if any(branch.element.word == "damper" for branch in branches) else 1
+        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper, sign=sign,
+                       admits=anyhow if dampers else changes)  # fmt: skip
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
@@ -57,7 +55,8 @@ class PreloadDependentDamping(Cause):
         for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
             yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
-                           found, found.extend, sign=1, unknowns=1, imitates=SIMPLER, admits=changes)  # fmt: skip
+                           found, found.extend, sign=1, unknowns=1, admits=changes,
+                           of_motion=True)  # fmt: skip
 
 
 def anyhow(numbers: Mapping[str, float]) -> bool:
@@ -79,8 +78,8 @@ def _suspect(
     extend: Callable[[str, Sequence[Atom]], str],
     sign: Literal[0, 1] = 0,
     unknowns: int = 0,
-    imitates: tuple[str, ...] = (),
     admits: Callable[[Mapping[str, float]], bool] = anyhow,
+    of_motion: bool = False,
 ) -> Suspect:
     """The suspect that the ``force(view, run)`` of a branch has a factor over deflection.
 
@@ -90,8 +89,8 @@ def _suspect(
     def columns(view: View, run: str) -> Array:
         return hats(knots, view.displacement(run)) * force(view, run)
 
-    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns, level=True,
-                   quantity=strength[0], unit=strength[1], imitates=imitates, admits=admits)  # fmt: skip
+    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns,
+                   quantity=strength[0], unit=strength[1], admits=admits, of_motion=of_motion)  # fmt: skip
 
 
 def _damping(view: View, run: str) -> Array:

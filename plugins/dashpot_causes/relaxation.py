@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
-from functools import partial
 
 import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.curve_relaxation import along_curves
 
 UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 SPRINGPOT_UNITS = {"stiffness": "N/m", "order": "1", "reference": "Hz", "lowest": "Hz", "decades": "1", "dwell": "s"}
@@ -23,7 +22,6 @@ DWELLS = (0.1, 1e4)
 SLOW, FAST = 0.1, 3.0  # over the length of a run, times the end of the band: the range of a springpot
 MOST = 3
 FASTEST = 0.5  # over the angular frequency at the end of the measured band: what relaxes faster is a dashpot
-STILL = 0.5  # times that, once it is named
 
 
 class Relaxation(Cause):
@@ -40,14 +38,16 @@ class Relaxation(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Maxwell branches on a logarithmic grid of relaxation times; a springpot over the measured band."""
+        """Maxwell branches on a logarithmic grid of relaxation times; a springpot over the measured band; where the
+        network has a spring with a curve, a force that relaxes along it.
+        """
         grid = np.geomspace(2.0 * view.dt, 0.3 * view.duration, PLACES)
         fastest = FASTEST / (2.0 * np.pi * view.highest_frequency)
 
-        def relaxes(found: Mapping[str, float], share: float = 1.0) -> bool:
-            return all(time > share * fastest for name, time in found.items() if name.startswith("relaxation_time"))
+        def relaxes(found: Mapping[str, float]) -> bool:
+            return all(time > fastest for name, time in found.items() if name.startswith("relaxation_time"))
 
-        branches = added_branch(
+        yield added_branch(
             "maxwell",
             "relaxation",
             tuple(grid),
@@ -56,11 +56,11 @@ class Relaxation(Cause):
             most=MOST,
             admits=relaxes,
         )
-        yield replace(branches, stays=partial(relaxes, share=STILL))
         lowest = SLOW / view.duration
         decades = float(np.log10(FAST * view.highest_frequency / lowest))
         if decades > 1.0:
             yield _springpot(lowest, min(decades, MOST_DECADES))
+        yield from along_curves(view, network, fastest)
 
 
 def _springpot(lowest: float, decades: float) -> Suspect:

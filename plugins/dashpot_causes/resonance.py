@@ -23,7 +23,6 @@ LOWEST = 0.15  # of the end of the measured band
 BELOW = 3.0  # times lower than where resonances are looked for
 OVERDAMPED = 1.0  # damping ratio from which on it is relaxation
 SMALLEST_MASS = 1.01e-3  # kg
-MAKES_UP = ("moving_mass", "viscous_damping", "relaxation")  # a resonance far beyond the band
 
 
 class Resonance(Cause):
@@ -107,5 +106,5 @@ def _form(form: str, element: str, mass: str, modes: Sequence[Mode], unknowns: i
         return band.shows(found[mass], found["stiffness"], found["damping"], found.get("quadratic_damping", 0.0))
 
     grid = tuple(map(float, range(len(modes))))
-    return Suspect(form, grid, columns, extend, unknowns=unknowns, quantity="stiffness", unit="N/m", admits=admits,
-                   imitates=MAKES_UP)  # fmt: skip
+    return Suspect(form, grid, columns, extend, unknowns=unknowns, quantity="stiffness", unit="N/m",
+                   admits=admits, of_motion=True)  # fmt: skip

@@ -73,5 +73,4 @@ def _falling(
         unknowns=unknowns,
         bounds=bounds,
         admits=lambda found: found["breakaway"] > FALLS * found["limit"],
-        imitates=("friction",),
     )

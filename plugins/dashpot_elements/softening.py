@@ -32,7 +32,7 @@ class Softening(Element):
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The old warmth fades towards that of the step."""
         gained = -np.expm1(-dt / p.time)
-        warmth = z.warmth + gained * (_mean_square(x, dt) / (p.speed * p.speed) - z.warmth)
+        warmth = z.warmth + gained * (mean_square(x, dt) / (p.speed * p.speed) - z.warmth)
         return Response(p.stiffness * x.new * _left(warmth, p), warmth=warmth)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
@@ -44,7 +44,7 @@ def _left(warmth: Any, p: Any) -> Any:
     return np.exp(-p.exponent * np.log(1.0 + np.expm1(np.log(2.0) / p.exponent) * warmth))
 
 
-def _mean_square(x: Motion, dt: Any) -> Any:
+def mean_square(x: Motion, dt: Any) -> Any:
     """The mean of v^2 over a step, v = v_old (1 - u) + v_new u + 6 bow u (1 - u)."""
     old, new = x.velocity_old, x.velocity_new
     bow = x.travel / dt - 0.5 * (old + new)

@@ -1,11 +1,12 @@
 """The built-in readers of measurement files, one format per file.
 
-- `delimited_text`, `delimited_layout`, `delimited_header`, `time_stamps` and `stated_sampling` help `csv` to make out
-  tables as rigs write them; `rpc_header` belongs to `rpc`, `tydex_channel` to `tydex`.
+- `delimited_text`, `delimited_layout`, `delimited_header`, `delimited_table`, `time_stamps` and `stated_sampling` help
+  `csv`, `lvm` and `xlsx` to make out tables as rigs write them; `lvm_header` belongs to `lvm`, `rpc_header` to `rpc`,
+  `tydex_channel` to `tydex`.
 - `apart` lets libraries of native code read in a process of their own, whose other side is `serve`; `extra` says how to
   install an optional one.
-- `unit_words` knows units in other spellings, `distinct` makes names unique, `flatten` turns the variables of `mat` and
-  `npz` files into columns, `option` reads what stands under `file_options`.
+- `unit_words` knows units in other spellings, `distinct` makes names unique, `flatten` turns the variables of `mat`,
+  `npz` and `hdf5` files into columns, `option` reads what stands under `file_options`.
 """
 
 from __future__ import annotations
@@ -19,12 +20,15 @@ hookimpl = pluggy.HookimplMarker("dashpot")
 def dashpot_formats() -> list[type]:
     """Every reader of this package."""
     from dashpot_formats.csv import Csv
+    from dashpot_formats.hdf5 import Hdf5
     from dashpot_formats.json_matrix import JsonMatrix
+    from dashpot_formats.lvm import Lvm
     from dashpot_formats.mat import Mat
     from dashpot_formats.mdf import Mdf
     from dashpot_formats.npz import Npz
     from dashpot_formats.rpc import Rpc
     from dashpot_formats.tdms import Tdms
     from dashpot_formats.tydex import Tydex
+    from dashpot_formats.xlsx import Xlsx
 
-    return [Csv, JsonMatrix, Mat, Mdf, Npz, Rpc, Tdms, Tydex]
+    return [Csv, Hdf5, JsonMatrix, Lvm, Mat, Mdf, Npz, Rpc, Tdms, Tydex, Xlsx]

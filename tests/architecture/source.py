@@ -10,6 +10,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FRAMEWORK = ROOT / "framework" / "dashpot"
 PLUGINS = ROOT / "plugins"
+# what users are told: the README, and where it sends them
+REFERENCE = ("network-file", "dataset-file", "study-file", "diagnosis-file", "command-line")
+MANUAL = (ROOT / "README.md", *(ROOT / "docs" / "reference" / f"{name}.md" for name in REFERENCE))
 
 
 def modules(folder: Path) -> list[Path]:
@@ -49,6 +52,11 @@ def texts(path: Path) -> Iterator[tuple[str, int]]:
     for node in ast.walk(tree(path)):
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in said:
             yield node.value, node.lineno
+
+
+def manual() -> str:
+    """The text of the README and of the reference, page by page."""
+    return "\n".join(page.read_text(encoding="utf-8") for page in MANUAL)
 
 
 def at(path: Path, line: int) -> str:

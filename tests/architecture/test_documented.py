@@ -6,9 +6,10 @@ import re
 
 import click
 import pytest
-from architecture.source import FRAMEWORK, PLUGINS, ROOT, modules, texts
+from architecture.source import FRAMEWORK, MANUAL, PLUGINS, ROOT, manual, modules, texts
 from architecture.written import PAGES, renewed, things
 
+import dashpot as dp
 from dashpot.cli.list import KINDS as LISTS
 from dashpot.cli.outcome import ExitCode
 from dashpot.cli.shell import VERBS
@@ -18,9 +19,11 @@ from dashpot.data.channel import Channel
 from dashpot.data.declaration import ACCEPTABLE, RunDeclaration
 from dashpot.data.run import KINDS as RUNS
 from dashpot.report.headline import SENTENCES
+from dashpot.report.schematic.svg import svg
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-COMMANDS = re.findall(r"^dashpot (.+)$", README, flags=re.MULTILINE)
+TOLD = manual()
+COMMANDS = re.findall(r"^dashpot (.+)$", TOLD, flags=re.MULTILINE)
 VARIABLES = {
     found
     for folder in (FRAMEWORK, PLUGINS)
@@ -42,7 +45,7 @@ def options(name: str) -> list[click.Option]:
     return [parameter for parameter in verb(name).params if isinstance(parameter, click.Option)]
 
 
-def mentioned(word: str, page: str = README) -> bool:
+def mentioned(word: str, page: str = TOLD) -> bool:
     """Whether a word stands in a page as code, alone or with something behind it."""
     return re.search(rf"`{re.escape(word)}[` =]", page) is not None
 
@@ -51,13 +54,13 @@ def mentioned(word: str, page: str = README) -> bool:
 
 
 @pytest.mark.parametrize("name", VERBS)
-def test_the_readme_shows_every_verb(name):
+def test_the_manual_shows_every_verb(name):
     assert any(line.split()[0] == name for line in COMMANDS)
     assert mentioned(name)
 
 
 @pytest.mark.parametrize("line", COMMANDS)
-def test_the_readme_uses_only_what_the_command_knows(line):
+def test_the_manual_uses_only_what_the_command_knows(line):
     name, *arguments = line.split()
     verb(name).make_context(name, arguments)
 
@@ -68,23 +71,34 @@ def test_every_option_says_what_it_does(name):
 
 
 @pytest.mark.parametrize("name", VERBS)
-def test_the_readme_explains_every_option(name):
+def test_the_manual_explains_every_option(name):
     assert not [text for option in options(name) for text in option.opts if not mentioned(text)]
 
 
 @pytest.mark.parametrize("kind", LISTS)
-def test_the_readme_names_everything_that_can_be_listed(kind):
+def test_the_manual_names_everything_that_can_be_listed(kind):
     assert mentioned(kind)
 
 
-def test_the_readme_tells_every_exit_code():
-    [sentence] = re.findall(r"^Exit codes: (.+?\.)$", README, flags=re.MULTILINE)
+def test_the_manual_tells_every_exit_code():
+    [sentence] = re.findall(r"^Exit codes: (.+?\.)$", TOLD, flags=re.MULTILINE)
     assert {int(number) for number in re.findall(r"\d+", sentence)} == {int(code) for code in ExitCode}
 
 
 @pytest.mark.parametrize("variable", sorted(VARIABLES))
 def test_every_environment_variable_is_documented(variable):
-    assert f"| `{variable}` |" in README
+    assert f"| `{variable}` |" in TOLD
+
+
+def test_the_readme_is_short_and_leads_to_the_whole_manual():
+    assert README.count("\n") <= 250
+    assert all(page.relative_to(ROOT).as_posix() in README for page in MANUAL[1:])
+
+
+def test_the_picture_of_the_readme_is_that_of_its_network():
+    [text] = re.findall(r"```yaml\n(format: dashpot-network/1\n.*?)```", README, flags=re.DOTALL)
+    [picture] = re.findall(r"\]\((docs/_static/\w+\.svg)\)", README)
+    assert (ROOT / picture).read_text(encoding="utf-8") == svg(dp.declare(text))
 
 
 # --- files ---------------------------------------------------------------------------------------------------------
@@ -97,22 +111,22 @@ def test_every_kind_of_run_is_explained(word):
 
 @pytest.mark.parametrize("key", sorted(set(RunDeclaration.__dataclass_fields__) - {"time", "notes", "order", "places"}))
 def test_every_key_of_a_run_is_explained(key):
-    assert re.search(rf"^\| [^|]*`{key}`", README, flags=re.MULTILINE)
+    assert re.search(rf"^\| [^|]*`{key}`", TOLD, flags=re.MULTILINE)
 
 
 def test_every_key_of_a_channel_is_explained():
-    [keys] = re.findall(r"`\{(column, .+?)\}` with value", README)
+    [keys] = re.findall(r"`\{(column, .+?)\}` with value", TOLD)
     assert set(keys.split(", ")) == set(Channel.__dataclass_fields__) - {"name", "place"}
 
 
 @pytest.mark.parametrize("word", ACCEPTABLE)
 def test_everything_that_can_be_accepted_is_explained(word):
-    assert f"`[{word}]`" in README
+    assert f"`[{word}]`" in TOLD
 
 
 @pytest.mark.parametrize("verdict", SENTENCES)
 def test_every_verdict_is_explained(verdict):
-    assert f"| `{verdict}` |" in README
+    assert f"| `{verdict}` |" in TOLD
 
 
 # --- plugins and modules -------------------------------------------------------------------------------------------
@@ -131,7 +145,7 @@ def test_everything_built_in_has_a_section(kind):
 
 
 @pytest.mark.parametrize("word", sorted(things("causes")))
-def test_the_readme_names_every_cause(word):
+def test_the_manual_names_every_cause(word):
     assert mentioned(word)
 
 

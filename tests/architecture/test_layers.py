@@ -15,12 +15,14 @@ LAYERS = (
     {"contract"},
     {"kernel"},
     {"fit"},
-    {"assess"},
+    {"triage"},
+    {"compare"},
+    {"diagnose", "study"},
     {"report"},
     {"cli", "notebook"},
 )
 # words of channels and of result files (the gain of a cause), which some causes have for their names, too
-ORDINARY_WORDS = {"gain", "offset", "delay", "drift", "clipping"}
+ORDINARY_WORDS = {"gain", "offset", "delay", "drift", "clipping", "hum"}
 RANK = {layer: rank for rank, layers in enumerate(LAYERS) for layer in layers}
 
 

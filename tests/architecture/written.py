@@ -90,7 +90,8 @@ def rigs() -> Iterator[str]:
 def modules() -> Iterator[str]:
     """A list for each layer of the framework: its modules, each with what it says about itself."""
     layers = (
-        "text", "expr", "model", "data", "contract", "kernel", "fit", "assess", "report", "cli", "notebook", "testing",
+        "text", "expr", "model", "data", "contract", "kernel", "fit", "triage", "compare", "diagnose", "study",
+        "report", "cli", "notebook", "testing",
     )  # fmt: skip
     for layer in layers:
         found = sorted(path for path in (FRAMEWORK / layer).rglob("*.py") if path.name != "__init__.py")

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from seeds import seed_of
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -13,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 @pytest.fixture
 def seed():
     """Drawn anew for every test; BLIND_SEED repeats it."""
-    value = int(os.environ.get("BLIND_SEED") or int.from_bytes(os.urandom(4), "little"))
+    value = int(os.environ.get("BLIND_SEED") or seed_of("conftest"))
     print(f"seed {value}: BLIND_SEED={value} repeats it")
     return value
 

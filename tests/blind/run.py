@@ -25,9 +25,9 @@ from truth import KINDS_OF_BASE, Case, draw_case
 from truth.design import further
 
 if TYPE_CHECKING:
-    from dashpot.assess.diagnosis import Diagnosis
     from dashpot.contract.registry import Registry
     from dashpot.data.dataset import Dataset
+    from dashpot.diagnose.diagnosis import Diagnosis
     from dashpot.fit.result import FitResult
     from dashpot.model.network import NetworkSpec
 
@@ -91,7 +91,7 @@ class Bench:
 
 def diagnose_folder(folder: Path, base: str, jobs: int, without: list[str]) -> Diagnosis:
     """What the engine says of a dataset, from the network of a base, without the plugins of some causes."""
-    from dashpot.assess.diagnose import diagnose
+    from dashpot.diagnose.diagnose import diagnose
 
     spec, dataset, registry = _read(folder, base)
     registry = replace(registry, causes={word: c for word, c in registry.causes.items() if word not in without})

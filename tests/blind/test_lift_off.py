@@ -9,8 +9,8 @@ from truth.folder import write_dataset
 from truth.motion import at_samples, sweep
 
 from dashpot import load_registry
-from dashpot.assess.diagnose import diagnose
 from dashpot.data.dataset import read_dataset
+from dashpot.diagnose.diagnose import diagnose
 from dashpot.model.reading import read_network
 
 STIFFNESS, DAMPING, NOISE = 190e3, 280.0, 8.0

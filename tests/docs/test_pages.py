@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 import pytest
-from architecture.source import ROOT
+from architecture.source import MANUAL, ROOT
 
 import dashpot as dp
 from dashpot.cli.shell import dashpot as command
@@ -31,7 +31,8 @@ def typed(page: Path) -> list[str]:
 
 
 COMMANDS = [line for page in PAGES for line in typed(page)]
-NETWORKS = [text for page in PAGES for text in blocks(page, "yaml", "format: dashpot-network/1")]
+# those of the reference name files beside them, and one is wrong on purpose: the journeys check them
+NETWORKS = [text for page in PAGES if page not in MANUAL for text in blocks(page, "yaml", "format: dashpot-network/1")]
 
 
 def test_there_is_something_to_test():

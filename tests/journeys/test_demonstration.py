@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 import pytest
+from seeds import seed_of
 
 import dashpot as dp
 from dashpot import load_registry
@@ -16,7 +17,7 @@ RELAXING = {"relaxation", "preload_dependent_damping"}
 @pytest.mark.slow
 def test_sliding_and_relaxing_rubber_are_named_and_no_fault_of_the_measurement(tmp_path):
     """The laws of the virtual tire are those of no element: Iwan's sliders, a stretched exponential with a level."""
-    seed = int(os.environ.get("DEMO_SEED") or int.from_bytes(os.urandom(2), "little"))
+    seed = int(os.environ.get("DEMO_SEED") or seed_of("test_demonstration") % 65536)
     print(f"seed {seed}: DEMO_SEED={seed} repeats it")
     data = load_registry().specimens["test_tire"]().measure(tmp_path, seed)
     found = dp.diagnose("kelvin_voigt", dp.load_dataset(data), jobs=2).as_dict()

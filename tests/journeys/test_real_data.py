@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from dashpot.assess.diagnose import diagnose
 from dashpot.contract.registry import load_registry
 from dashpot.data.dataset import read_dataset
+from dashpot.diagnose.diagnose import diagnose
 from dashpot.model.reading import parse_network
 
 pytestmark = pytest.mark.slow

@@ -13,10 +13,13 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from unit.compare.specimens import sweeps
 from unit.report.fit_samples import fit, page_of
 from unit.report.report_samples import comparison, comparison_evidence, diagnosis, evidence
 
+from dashpot.compare.look import look
 from dashpot.report import comparison_page, diagnosis_page, figures, write_page
+from dashpot.report.look import look_page
 from dashpot.report.parts import Column, Grid, Page, Section
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed (pip install playwright)")
@@ -44,9 +47,15 @@ def reports(tmp_path_factory) -> dict[str, str]:
         "diagnosis": diagnosis_page(diagnosis(), evidence()),
         "comparison": comparison_page(comparison(), comparison_evidence()),
         "fit": page_of(fit()),
+        "look": seen_page(),
         "hostile": hostile_page(),
     }
     return {name: write_page(folder / f"{name}.html", page).as_uri() for name, page in pages.items()}
+
+
+def seen_page() -> Page:
+    seen = look(sweeps())
+    return look_page(seen.as_dict(), seen.evidence())
 
 
 def hostile_page() -> Page:
@@ -101,7 +110,7 @@ def visit(browser, reports) -> Iterator:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit", "hostile"])
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit", "look", "hostile"])
 def test_a_report_opens_silently_and_asks_for_nothing(visit, reports, name, theme):
     opened = visit(name, color_scheme=theme)
     assert opened.complaints == []
@@ -109,7 +118,7 @@ def test_a_report_opens_silently_and_asks_for_nothing(visit, reports, name, them
 
 
 @pytest.mark.parametrize("width", [1366, 420])
-@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit"])
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit", "look"])
 def test_every_figure_is_drawn_and_nothing_is_wider_than_the_screen(visit, name, width):
     opened = visit(name, viewport={"width": width, "height": 768})
     drawn = opened.page.eval_on_selector_all(

@@ -28,10 +28,10 @@ EVERY, SWEEP = 20, 10.0  # 1 kHz; half as long as the sweeps of the shipped spec
 def identify_car(seed: int, number: int) -> dict[str, Any]:
     """The true mass of one car, and what the study finds, with every model."""
     from dashpot import load_registry
-    from dashpot.assess.study import study_content
     from dashpot.data.dataset import read_dataset
     from dashpot.fit.study.reading import find_study, read_study
     from dashpot.fit.study.run import run_study
+    from dashpot.study.study import study_content
     from dashpot_specimens.test_car import measure_car
 
     registry = load_registry()

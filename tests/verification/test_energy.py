@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from verification.shipped import KNOTS
 
 from dashpot import load_registry
@@ -16,10 +17,13 @@ from dashpot.model.shipped import shipped_networks
 from dashpot.testing import draw_sizes, draw_specimens, random_drive
 
 REGISTRY = load_registry()
-RNG = np.random.default_rng()
+RNG = np.random.default_rng(seed_of("test_energy"))
 SEED = int(RNG.integers(2**32))
 DT = 1e-3
+# a contact that is shorter than a step has no work that could be counted; see test_elements_that_change
+STRUCK = {"rattling_mass"}
 REMEMBERING = sorted(word for word, law in REGISTRY.elements.items() if law.passive and law.declares.states)
+REMEMBERING = [word for word in REMEMBERING if word not in STRUCK]
 QUICK = {"kelvin_voigt", "eub", "quarter_car"}
 NETWORKS = [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in shipped_networks()]
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from verification.alone import network_of
 
 from dashpot.data.drive import drive_from_samples, moved_drive
@@ -53,7 +54,7 @@ MOTIONS = {"large sweep": sweep(5e-3), "small sweep": sweep(0.5e-3), "slow strok
 
 @pytest.mark.parametrize("element", LAWS)
 def test_a_noisy_path_leaves_no_phantom(element, state):
-    (numbers, law), rng = LAWS[element], np.random.default_rng()
+    (numbers, law), rng = LAWS[element], np.random.default_rng(seed_of("test_measured_path"))
     network = network_of(element, **numbers)
     for name, motion in MOTIONS.items():
         truth, x = law(*motion)[::FINE], motion[0][::FINE]
@@ -67,7 +68,7 @@ def test_a_noisy_path_leaves_no_phantom(element, state):
 
 
 def test_the_velocity_of_a_slow_path_is_smoother_than_that_of_a_fast_one():
-    errors, rng = {}, np.random.default_rng()
+    errors, rng = {}, np.random.default_rng(seed_of("test_measured_path2"))
     for name, (x, v, _) in MOTIONS.items():
         noisy = x[::FINE] + SENSOR * rng.standard_normal(x[::FINE].size)
         errors[name] = np.std((drive_from_samples(DT, noisy).velocity - v[::FINE])[INSIDE])
@@ -75,7 +76,8 @@ def test_the_velocity_of_a_slow_path_is_smoother_than_that_of_a_fast_one():
 
 
 def test_a_moved_path_is_not_smoothed_once_more():
-    x = MOTIONS["small sweep"][0][::FINE] + SENSOR * np.random.default_rng().standard_normal(5000)
+    noise = np.random.default_rng(seed_of("test_measured_path3")).standard_normal(5000)
+    x = MOTIONS["small sweep"][0][::FINE] + SENSOR * noise
     drive = drive_from_samples(DT, x)
     same = moved_drive(drive, np.zeros(x.size))
     assert np.array_equal(same.displacement, drive.displacement)

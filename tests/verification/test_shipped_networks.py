@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from verification.shipped import NAMES, Dice, filled
 from verification.truth.history import Histories
 from verification.truth.static import elastic, factor
@@ -100,7 +101,7 @@ def numbers(branch: Branch) -> tuple[float, ...]:
 
 @pytest.fixture(scope="module")
 def truth(state: Callable[[str], None]) -> Truth:
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = seed_of("test_shipped_networks")
     state(f"random numbers of the networks: seed {seed}")
     dice, histories = Dice(seed), Histories()
     networks = {name: filled(name, dice) for name in NAMES}

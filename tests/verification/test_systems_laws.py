@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from seeds import seed_of
 from verification.systems import drawn, excitation, shipped, system, times
 from verification.truth.motion import Cosines, smooth_motion
 
@@ -84,7 +85,7 @@ def test_names_do_not_matter(seed):
 
 
 def test_units_of_the_file_do_not_matter():
-    motion = smooth_motion(np.random.default_rng(), 0.0, 4e-3)
+    motion = smooth_motion(np.random.default_rng(seed_of("test_systems_laws")), 0.0, 4e-3)
     one = system("{table: driven, block: {mass: 3 kg}}", "k: {element: spring, stiffness: 25 N/mm, between: "
                  "[table, block], offset: 2 mm}", "9.81 m/s^2")  # fmt: skip
     other = system("{table: driven, block: {mass: 3000 g}}", "k: {element: spring, stiffness: 2.5e4, between: "

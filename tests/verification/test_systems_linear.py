@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from verification.linear_systems import LINEAR, QUARTER_CAR
 from verification.systems import excitation, lanes, rms, system, times
 from verification.truth.motion import Cosines, smooth_motion
 
 from dashpot.kernel.system import Status
 
-SEED = int(np.random.SeedSequence().generate_state(1)[0])
+SEED = seed_of("test_systems_linear")
 LANES, PAIRS = 48, (1, 2, 4)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,7 @@ import click
 from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
-from dashpot.text.problem import InputError, Problem
+from dashpot.text.problem import InputError, Place, Problem
 
 if TYPE_CHECKING:
     from dashpot.model.network import NetworkSpec
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
     """Say every mistake and every weakness of network files, each as file:line:column with what to do.
 
-    Of a dataset, all that is wrong with its file and its measurements.
+    Of a dataset, all that is wrong with its file and its measurements, such as runs that give back work.
 
     With --against the networks are compared by their structure, whatever names their parts have; where the structure is
     the same, by their numbers.
@@ -70,20 +71,29 @@ def praise(spec: str, problems: tuple[Problem, ...]) -> str:
 
 def problems_of(spec: str, session: Session) -> tuple[Problem, ...]:
     """What is wrong or weak with one network: with its text, its laws, or its structure. Or with a dataset."""
-    from dashpot.data.dataset import read_dataset
     from dashpot.data.description import is_dataset
     from dashpot.kernel.trace import trace_branch
     from dashpot.model.lint import find_weaknesses
 
     try:
         if is_dataset(Path(spec)):
-            return read_dataset(spec, session.readers()).problems
+            return problems_of_dataset(spec, session)
         network: NetworkSpec = session.network(spec)
         for branch in network.leaves():
             trace_branch(branch)
     except InputError as error:
         return error.problems
     return find_weaknesses(network)
+
+
+def problems_of_dataset(path: str, session: Session) -> tuple[Problem, ...]:
+    """What is wrong with a dataset file, and what triage finds in the runs that it holds."""
+    from dashpot.data.dataset import read_dataset
+    from dashpot.triage.examine import examine
+
+    dataset = read_dataset(path, session.readers())
+    found = (replace(problem, place=Place(path)) for problem in examine(dataset).problems)
+    return (*dataset.problems, *found)
 
 
 def differences(specs: tuple[str, ...], other: str, session: Session) -> list[dict[str, Any]]:

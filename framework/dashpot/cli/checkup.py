@@ -28,7 +28,8 @@ COMPARISONS: dict[str, Callable[[tuple, tuple], bool]] = {
     "<": lambda a, b: a < b,
 }
 PURPOSES = {
-    "matlab73": "reads MATLAB 7.3 files",
+    "matlab73": "reads MATLAB 7.3 and HDF5 files",
+    "excel": "reads Excel workbooks",
     "pandas": "gives tables as data frames in Python",
     "docs": "builds the documentation",
     "dev": "runs the tests",

@@ -36,11 +36,11 @@ def verb(
     Example:
       dashpot compare kelvin_voigt gehmann tire_model_5 --data my/dataset.yaml -o comparison
     """
-    from dashpot.assess.compare import compare
+    from dashpot.compare.comparison import compare
 
     session = Session(switches, optimizer, settings)
     networks = [session.network(spec) for spec in specs]
-    measured = session.dataset(dataset)
+    measured = session.sound_dataset(dataset)
     folder = session.claim(output, *COMPARISON_FILES)
     comparison = session.run(compare, networks, measured)
     with session.watch("writing the report"):

@@ -39,8 +39,8 @@ def verb(specimen: str | None, output: Path, switches: Switches) -> None:
     Example:
       dashpot demo -o dashpot-demo
     """
-    from dashpot.assess.compare import compare
-    from dashpot.assess.diagnose import diagnose
+    from dashpot.compare.comparison import compare
+    from dashpot.diagnose.diagnose import diagnose
 
     session = Session(switches)
     chosen = choose_specimen(specimen, session.registry)

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from dashpot.cli import complete
-from dashpot.cli.results import diagnosis_files, diagnosis_text, write_diagnosis
+from dashpot.cli.results import checked, diagnosis_files, diagnosis_text, write_diagnosis
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
@@ -20,8 +20,6 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @optimizer_options
 @click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
               help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
-@click.option("--most-looks", metavar="N", type=click.IntRange(1), default=24, show_default=True,
-              help="After how many looks at all suspects the search for causes ends.")  # fmt: skip
 @switches("seed", "jobs", "json", "quiet", "force")
 def verb(
     spec: str,
@@ -30,7 +28,6 @@ def verb(
     optimizer: str | None,
     settings: tuple[str, ...],
     relevance: float,
-    most_looks: int,
     switches: Switches,
 ) -> None:
     """Say what a network gets wrong, name the cause, extend the network and measure the gain.
@@ -42,13 +39,15 @@ def verb(
     Example:
       dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
     """
-    from dashpot.assess.diagnose import diagnose
+    from dashpot.diagnose.diagnose import diagnose
 
     session = Session(switches, optimizer, settings)
     network, measured = session.network(spec), session.dataset(dataset)
     folder = session.claim(output, *diagnosis_files(network.name))
-    diagnosis = session.run(partial(diagnose, relevance=relevance / 100.0, most_looks=most_looks), network, measured)
+    diagnosis = session.run(partial(diagnose, relevance=relevance / 100.0), network, measured)
     with session.watch("writing the report"):
         report = write_diagnosis(diagnosis, folder)
+        check = checked(diagnosis, folder, session.registry)
     session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
+    session.talk.say(check)
     session.talk.say(f"report: {report}")

@@ -33,7 +33,7 @@ def verb(
     from dashpot.fit.api import fit_network
 
     session = Session(switches, optimizer, settings)
-    network, measured = session.network(spec), session.dataset(dataset)
+    network, measured = session.network(spec), session.sound_dataset(dataset)
     folder = session.claim(output, *fit_files(network.name))
     found = session.run(fit_network, network, measured)
     with session.watch("writing the report"):

@@ -130,7 +130,7 @@ def run_row(run: ImportedRun) -> list[str]:
     """A line for a run: name, kind, and its settings or the run that it repeats."""
     from dashpot.data.importing.text import told_settings
 
-    settings = told_settings(run.finding.settings)
+    settings = told_settings(run.finding.settings) | dict(run.finding.conditions)
     about = f"repeats {run.repeats}" if run.repeats else ", ".join(f"{key} {value}" for key, value in settings.items())
     return [run.name, run.finding.kind, about]
 
@@ -153,12 +153,14 @@ def as_dict(imported: Imported, written: Path) -> dict[str, Any]:
 
 def run_entry(run: ImportedRun) -> dict[str, Any]:
     """What was found about one run."""
+    from dashpot.text.quantity import measure
+
     finding = run.finding
     return {
         "name": run.name,
         "file": str(run.file),
         "kind": finding.kind,
-        "settings": dict(finding.settings),
+        "settings": dict(finding.settings) | {key: measure(text) for key, text in finding.conditions.items()},
         "repeats": run.repeats,
         "time": {"column": finding.timing.column, "unit": finding.timing.unit, "sampling": finding.timing.sampling},
         "channels": {

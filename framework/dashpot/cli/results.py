@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
@@ -10,18 +11,22 @@ from typing import TYPE_CHECKING, Any, cast
 from dashpot.cli.output import OutputFolder
 
 if TYPE_CHECKING:
-    from dashpot.assess.compare import Comparison
-    from dashpot.assess.diagnosis import Diagnosis
+    from dashpot.compare.comparison import Comparison
+    from dashpot.compare.look import Look
+    from dashpot.contract.registry import Registry
+    from dashpot.diagnose.diagnosis import Diagnosis
     from dashpot.fit.result import FitResult
     from dashpot.model.network import NetworkSpec
     from dashpot.report.evidence import Evidence
 
+SAME_ERROR = 1e-6  # of an RMSE: what is told and what the files say
 COMPARISON_FILES = ("compare.json", "compare.csv", "report.html")
+LOOK_FILES = ("look.json", "report.html")
 
 
 def diagnosis_files(network: str) -> tuple[str, ...]:
     """Patterns of the files that the diagnosis of a network may write."""
-    return "diagnosis.json", "report.html", f"{escape(network)}+*.yaml"
+    return "diagnosis.json", "report.html", "dataset.yaml", f"{escape(network)}.yaml", f"{escape(network)}+*.yaml"
 
 
 def fit_files(network: str) -> tuple[str, ...]:
@@ -31,7 +36,7 @@ def fit_files(network: str) -> tuple[str, ...]:
 
 def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
     """Write the identified network, and the fit as JSON, table and report; the path of the report."""
-    from dashpot.assess.compare import comparison_of
+    from dashpot.compare.comparison import comparison_of
     from dashpot.report.fit import fit_page, knots_grid, numbers_grid
     from dashpot.report.json_text import json_text
     from dashpot.report.page import render
@@ -64,6 +69,27 @@ def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
     return folder.write("report.html", render(comparison_page(content, evidence)))
 
 
+def write_look(look: Look, folder: OutputFolder) -> Path:
+    """Write a look at measured runs as JSON and report; the path of the report."""
+    from dashpot.report.json_text import json_text
+    from dashpot.report.look import look_page
+    from dashpot.report.page import render
+
+    content = look.as_dict()
+    folder.write("look.json", json_text(content))
+    return folder.write("report.html", render(look_page(content, look_evidence(look))))
+
+
+def look_evidence(look: Look) -> Evidence:
+    """The evidence of a look, with dynamic stiffness and where it comes from."""
+    from dashpot.compare.provenance import provenance_of
+    from dashpot.compare.signals import signal_evidence
+
+    stiffness = signal_evidence(look.setting.dataset.runs, {})["dynamic_stiffness"]
+    provenance = provenance_of(look.setting, look.seed)
+    return cast("Evidence", {**look.evidence(), "dynamic_stiffness": stiffness, "provenance": provenance})
+
+
 def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
     """Write the diagnosis as JSON and report, and the extended network if there is one; the path of the report."""
     from dashpot.report.diagnosis import diagnosis_page
@@ -72,11 +98,37 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
 
     content = diagnosis.as_dict()
     folder.write("diagnosis.json", json_text(content))
+    folder.write(diagnosis.fitted_name, diagnosis.fitted_text)
     if diagnosis.extended_name is not None and diagnosis.extended_text is not None:
         folder.write(diagnosis.extended_name, diagnosis.extended_text)
+    if diagnosis.corrected_name is not None:
+        folder.write(diagnosis.corrected_name, diagnosis.corrected_dataset(folder.path))
     title = (diagnosis.extended_name or diagnosis.model.name).removesuffix(".yaml")
     evidence = with_schematics(diagnosis.evidence(), {title: diagnosis.final})
     return folder.write("report.html", render(diagnosis_page(content, evidence)))
+
+
+def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> str:
+    """The written files read again and simulated: what was told beside what they say. InputError where they differ."""
+    from dashpot.data.dataset import read_dataset
+    from dashpot.fit.api import measure_errors, prepare
+    from dashpot.model.reading import read_network
+    from dashpot.text.problem import InputError, Place
+
+    name = diagnosis.extended_name or diagnosis.fitted_name
+    network = read_network(str(folder.path / name), registry.elements)
+    setting = diagnosis.after_setting
+    if diagnosis.corrected_name is not None:
+        readers = {word: reader() for word, reader in registry.formats.items()}
+        again = prepare(read_dataset(folder.path / diagnosis.corrected_name, readers), diagnosis.seed)
+        setting = replace(setting, scored={run: again.scored[run] for run in setting.scored})
+    told, found = diagnosis.after, measure_errors(network, setting, diagnosis.jobs)
+    for one, other in ((told.train, found.train), (told.held_out, found.held_out)):
+        if one is not None and other is not None and abs(one - other) > SAME_ERROR * one:
+            raise InputError.at(Place(str(folder.path / name)), f"expected an RMSE of {one:.9g} N, got {other:.9g} N",
+                                "the result does not hold: please report it with the dataset")  # fmt: skip
+    unseen = "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
+    return f"check: {name} read again and simulated errs by {found.train:.4g} N on training runs{unseen}, as told"
 
 
 def with_schematics(evidence: Mapping[str, Any], networks: Mapping[str, NetworkSpec]) -> Evidence:
@@ -101,6 +153,15 @@ def comparison_text(comparison: Comparison) -> str:
 
     content = comparison.as_dict()
     return f"{plain_table(comparison_grid(content))}\n{comparison_headline(content)}"
+
+
+def look_text(look: Look) -> str:
+    """A look for the terminal: the runs in a table, then what there is to explain."""
+    from dashpot.report.look import FEW, look_grid, look_headline
+    from dashpot.report.tables import plain_table
+
+    content = look.as_dict()
+    return f"{plain_table(look_grid(content, FEW))}\n{look_headline(content)}"
 
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:

@@ -58,6 +58,16 @@ class Session:
         self.warn_of(dataset.problems)
         return dataset
 
+    def sound_dataset(self, path: str | Path) -> Dataset:
+        """The dataset at ``path`` as triage leaves it; what is wrong with runs, and what was done, is warned of."""
+        from dashpot.triage.examine import examined
+
+        dataset = self.dataset(path)
+        with self.watch("looking for faults of the measurement"):
+            sound = examined(dataset)
+        self.warn_of(sound.problems[len(dataset.problems) :])
+        return sound
+
     def runs(self, path: str | Path) -> RunStream:
         """The runs of the dataset at ``path`` one at a time; ``warn_of`` its problems when they were read."""
         from dashpot.data.stream import open_dataset

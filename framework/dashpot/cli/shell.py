@@ -18,6 +18,7 @@ VERBS = (
     "list",
     "import",
     "check",
+    "look",
     "draw",
     "simulate",
     "fit",

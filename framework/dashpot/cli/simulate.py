@@ -76,8 +76,10 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     """Write the force along every measured run; no more than one of them is in memory at a time."""
     from dashpot.data.excitation import Excitation
     from dashpot.kernel.api import forces_by_name, solve_each
+    from dashpot.kernel.settings import require_settings
 
     runs = session.runs(dataset)
+    require_settings(network, runs.conditions)
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{name}.csv" for name in runs.names]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)

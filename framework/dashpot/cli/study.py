@@ -65,8 +65,8 @@ def data_of(planned: StudySpec, dataset: str | None, folder: Path, session: Sess
 
 def preview(planned: StudySpec, measured: Dataset, session: Session) -> None:
     """Say what the data can and cannot identify."""
-    from dashpot.assess.study import preview_content, preview_text
     from dashpot.fit.study.preview import preview_study
+    from dashpot.study.study import preview_content, preview_text
 
     with session.watch("looking at the data"):
         previews = preview_study(planned, measured, session.switches.jobs)
@@ -96,13 +96,13 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
 
 def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> None:
     """Write the networks, the result file, the table and the report."""
-    from dashpot.assess.masses import mass_sentence
-    from dashpot.assess.study import study_content, study_evidence
     from dashpot.report.grids import comparison_grid
     from dashpot.report.json_text import json_text
     from dashpot.report.page import render
     from dashpot.report.study import study_page
     from dashpot.report.tables import plain_table, to_csv
+    from dashpot.study.masses import mass_sentence
+    from dashpot.study.study import study_content, study_evidence
 
     content = study_content(result)
     grid = comparison_grid(content)

@@ -11,6 +11,7 @@ from typing import ClassVar, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.correction import Correction
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch, branch_names
 
@@ -68,6 +69,9 @@ class View(Protocol):
     def step(self, run: str) -> float:
         """The sample time in s."""
 
+    def settings(self, run: str) -> Mapping[str, float]:
+        """The settings of a run in SI and the means of its further channels, as ``mean of temperature``."""
+
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) in N of the present model if the deflection were larger by ``change`` (n,) in m."""
 
@@ -80,21 +84,15 @@ class Suspect:
     """One form of a cause.
 
     ``columns(view, run)`` answers its force (m, n) at unit strength for each place of ``grid`` (m,); with ``joint`` all
-    columns act together with a strength each. ``sign`` 1 admits positive strengths only; with ``usual`` 1 they are
-    mostly, and of causes alike one with a negative strength comes last. With ``level`` equal strengths of all columns
-    are a simpler law: it is this cause only if they differ for certain. ``unknowns`` counts what the cure leaves to be
-    found besides a strength. ``extend(text, atoms)`` writes the cure into a network's text, with start values; at most
-    ``most`` atoms of the grid act together.
+    columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts what is
+    left to be found besides a strength. ``extend(text, atoms)`` writes it into a network's text, with start values; at
+    most ``most`` atoms of the grid act together.
 
-    With ``mends`` the columns are no part of any network: the cure takes them out of the measured force and leaves the
-    text as it is. Then ``tell(strengths)`` gives the strengths (m,) as named quantities with their SI unit.
-    ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network;
-    those of mends always do. ``local`` says that a column touches one run only. ``quantity`` and ``unit`` (SI) say what
-    a strength of one is. ``admits(numbers)`` says whether what a refit has found, by the last words of the paths
-    (those of a second branch end in ``_2``), is still what the cause is about, and not its opposite; ``stays(numbers)``
-    the same of later refits, where that may be less strict. ``imitates`` are
-    the words of causes whose law this one can make up with its many numbers: one of these that explains nearly as much
-    by fewer is the cause.
+    ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network.
+    ``quantity`` and ``unit`` (SI) say what a strength of one is, ``largest`` how large it can be. ``admits(numbers)``
+    says whether what a refit has found, by the last words of the paths (those of a second branch end in ``_2``), is
+    still what the cause is called: the borders between causes.
+    ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -109,18 +107,34 @@ class Suspect:
     sign: Literal[0, 1] = 1
     unknowns: int = 1
     most: int = 1
-    mends: bool = False
     measured: bool = False
-    local: bool = False
     quantity: str = "strength"
     unit: str = ""
     largest: float = np.inf
-    tell: Callable[[Sequence[float]], Mapping[str, tuple[float, str]]] = lambda strengths: {}
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
-    stays: Callable[[Mapping[str, float]], bool] | None = None
-    imitates: tuple[str, ...] = ()
-    usual: Literal[0, 1] = 0
-    level: bool = False
+    of_motion: bool = False
+
+
+@dataclass(frozen=True)
+class ChannelFault:
+    """A fault that the force channel may have in single runs.
+
+    ``shapes(view, run)`` answers the force (k, n) in N that it adds at unit strengths, ``correct(strengths)`` what puts
+    the run right. ``evidence_of`` says what shows it: ``repeats`` where runs under the same conditions have to
+    disagree, ``at_rest`` where it acts without motion, which ``evidence`` then tells in words.
+
+    Examples:
+        >>> fault.quantity, fault.correct([3.0]).offset
+        ('offset', 3.0)
+    """
+
+    form: str
+    quantity: str
+    unit: str
+    shapes: Callable[[View, str], Array]
+    correct: Callable[[Sequence[float]], Correction]
+    evidence_of: Literal["repeats", "at_rest"] = "repeats"
+    evidence: str = ""
 
 
 class Cause(ABC):
@@ -128,8 +142,9 @@ class Cause(ABC):
 
     ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
     other words to the measurement that tells the two apart; one that no plugin provides is a rival. ``cure`` says what
-    to do about the measurement, where it is to blame; ``faults`` are the kinds of faults found by triage that the cause
-    stands for.
+    to do about the measurement, where it is to blame; ``evidence_of`` says what has to show that it is: ``phase`` that
+    its numbers are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
+    sheet of the channel names it. ``faults`` are the kinds of faults found by triage that the cause stands for.
 
     Examples:
         >>> class MissingBumper(dp.Cause):
@@ -147,12 +162,17 @@ class Cause(ABC):
     about: ClassVar[str]
     shows: ClassVar[str]
     cure: ClassVar[str] = ""
+    evidence_of: ClassVar[Literal["phase", "range", "data_sheet"]] = "phase"
     faults: ClassVar[tuple[str, ...]] = ()
     confused_with: ClassVar[Mapping[str, str]] = {}
 
     @abstractmethod
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """The forms to try on a network."""
+
+    def channel_faults(self, view: View) -> Iterable[ChannelFault]:
+        """The faults that the force channel may have in single runs."""
+        return ()
 
 
 def added_branch(
@@ -167,13 +187,12 @@ def added_branch(
     fixed: Sequence[str] = (),
     bounds: Mapping[str, Pair] = NOTHING,
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
-    imitates: Sequence[str] = (),
     form: str = "",
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
-    ``admits``, ``imitates`` and ``form`` are those of the suspect; without a word the form is that of the element.
+    ``admits`` and ``form`` are those of the suspect; without a word the form is that of the element.
 
     Examples:
         >>> lengths, units = np.geomspace(1e-3, 1e-2, 8), {"stiffness": "N/m", "length": "m"}
@@ -195,34 +214,8 @@ def added_branch(
     quantity = next(iter(values(1.0, grid[0])))
     return Suspect(
         form or element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
-        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits, imitates=tuple(imitates),
+        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits, of_motion=True,
     )  # fmt: skip
-
-
-def unchanged(text: str, atoms: Sequence[Atom]) -> str:
-    """The cure of a suspect that mends the measurement: the network stays as it is."""
-    return text
-
-
-def one_of_the_runs(
-    form: str, shape: Callable[[View, str], Array], quantity: str, unit: str, view: View, share: float = 0.34
-) -> Suspect:
-    """The suspect that the force of one run, or of a minority of them, carries ``shape(view, run)`` (n,) N."""
-    names = tuple(view.runs)
-
-    def columns(view: View, run: str) -> Array:
-        rows = np.zeros((len(names), view.force(run).size))
-        if run in names:
-            rows[names.index(run)] = shape(view, run)
-        return rows
-
-    def tell(strengths: Sequence[float]) -> Mapping[str, tuple[float, str]]:
-        return {f"{quantity} of {run}": (b, unit) for run, b in zip(names, strengths, strict=True) if b != 0.0}
-
-    most = max(1, int(share * len(names)))
-    grid = tuple(float(number) for number in range(len(names)))
-    return Suspect(form, grid, columns, unchanged, sign=0, unknowns=0, most=most, mends=True, local=True,
-                   quantity=quantity, unit=unit, tell=tell)  # fmt: skip
 
 
 def branch_lines(

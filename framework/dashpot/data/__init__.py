@@ -7,6 +7,7 @@ Reading a dataset:
 - `declaration`, `channel`, `inherit`: what it says about a run, and what the defaults say in its place
 - `table`: what a reader of measurement files hands over; `columns`: from its columns to SI
 - `measured`: from a declaration and a table to a run; `clock`, `resample`: even sampling, delays, decimation
+- `disturbance`: drift and hum; `correction`, `run_entries`: faults of single runs, written into a dataset file
 - `checks`, `clipping`, `trouble`: what makes a run unusable; `groups`: repeats; `digest`: a fingerprint
 
 Reading from runs:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
+from dashpot.data.disturbance import Hum, read_hum
 from dashpot.text.form import Form, read_integer, read_text
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place
@@ -24,10 +26,11 @@ CHANNEL_UNITS = {
 
 @dataclass(frozen=True)
 class Channel:
-    """SI value = sign * gain * (number in `unit`, brought to SI) - offset.
+    """SI value = sign * gain * (number in `unit`, brought to SI) - offset - drift * t / T - hum(t).
 
-    `delay` is the time in s by which the channel lags behind; `unit` None means the unit that the file states, and SI
-    where it states none.
+    t is the time of the run as it was read, from 0 at its first sample to T at its last one: `drift` is what the zero
+    has moved by at the end. `delay` is the time in s by which the channel lags behind; `unit` None means the unit that
+    the file states, and SI where it states none.
     """
 
     name: str
@@ -38,6 +41,8 @@ class Channel:
     gain: float = 1.0
     offset: float = 0.0
     delay: float = 0.0
+    drift: float = 0.0
+    hum: tuple[Hum, ...] = ()
 
 
 def unit_of_channel(name: str) -> str | None:
@@ -94,7 +99,10 @@ def _read_channel(below: Form, name: str) -> Channel | None:
         gain=form.quantity("gain", "1", 1.0),
         offset=form.quantity("offset", kind, 0.0),
         delay=form.quantity("delay", "s", 0.0),
-    )
+        drift=0.0 if name == "time" else form.quantity("drift", kind, 0.0),
+        hum=() if name == "time" else form.take("hum", partial(read_hum, unit=kind, what=form.what,
+                                                               problems=form.problems), ()),
+    )  # fmt: skip
     form.close()
     return channel
 

@@ -15,10 +15,14 @@ LONGEST_GAP = 20.0
 
 @dataclass(frozen=True)
 class Clock:
-    """`step` in s between samples; `remark` says why the samples are not evenly spaced, None when they are."""
+    """`step` in s between samples; `remark` says why the samples are not evenly spaced, None when they are.
+
+    `longest` is the longest step in s of a clock that is uneven, 0 where it is even.
+    """
 
     step: float
     remark: str | None = None
+    longest: float = 0.0
 
 
 def read_clock(time: np.ndarray, where: Callable[[int], str]) -> Clock:
@@ -42,7 +46,7 @@ def read_clock(time: np.ndarray, where: Callable[[int], str]) -> Clock:
         f"its sample time varies from {1e3 * steps.min():.4g} to {1e3 * steps.max():.4g} ms (longest at "
         f"{time[longest]:.6g} s); it was laid on an even grid of {1e3 * typical:.4g} ms"
     )
-    return Clock(typical, remark)
+    return Clock(typical, remark, float(steps[longest]))
 
 
 def lay_on_grid(time: np.ndarray, values: np.ndarray, step: float) -> np.ndarray:

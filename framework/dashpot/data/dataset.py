@@ -13,6 +13,7 @@ from dashpot.data.run import Run
 from dashpot.data.stream import open_dataset
 from dashpot.data.table import FileReader
 from dashpot.data.trouble import Trouble
+from dashpot.text.document import Document
 from dashpot.text.problem import InputError, Place, Problem, nearest
 
 
@@ -20,7 +21,8 @@ from dashpot.text.problem import InputError, Place, Problem, nearest
 class Dataset:
     """Runs in the order of the dataset file; `problems` tells which were set aside and what to know about the others.
 
-    `folder` is where the dataset file is, None for a dataset made in memory. `faults` are the faults of the measurement
+    `folder` is where its measured files lie and `document` the text that describes them, `file` the only measured file
+    that this text stands beside; all None for a dataset made in memory. `faults` are the faults of the measurement
     itself that were found in reading, as (name of the run, finding).
     """
 
@@ -29,6 +31,8 @@ class Dataset:
     problems: tuple[Problem, ...] = ()
     folder: Path | None = None
     faults: tuple[tuple[str, Trouble], ...] = ()
+    document: Document | None = None
+    file: str | None = None
 
     @cached_property
     def digest(self) -> str:
@@ -66,4 +70,5 @@ def read_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> Dataset
     """
     stream = open_dataset(path, readers)
     runs = group_repeats(list(stream))
-    return Dataset(stream.name, tuple(runs), stream.problems, stream.folder, stream.faults)
+    return Dataset(stream.name, tuple(runs), stream.problems, stream.folder, stream.faults, stream.document,
+                   stream.source.file)  # fmt: skip

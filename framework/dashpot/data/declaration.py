@@ -33,7 +33,10 @@ _SAFE_NAME = re.compile(r"[^./\\:*?\"<>|\x00-\x1f\x7f][^/\\:*?\"<>|\x00-\x1f\x7f
 
 @dataclass(frozen=True)
 class RunDeclaration:
-    """Everything said about one run. `rows` counts from 1, both ends included; `start` and `stop` are in s."""
+    """Everything said about one run. `set_aside` is why it is not read, None where it is.
+
+    `rows` counts from 1, both ends included; `start` and `stop` are in s.
+    """
 
     name: str
     file: str
@@ -45,6 +48,7 @@ class RunDeclaration:
     notes: Mapping[str, str]
     repeats: str | None
     held_out: bool | None
+    set_aside: str | None
     sensors: Mapping[str, Mapping[str, float]]
     rows: tuple[int, int | None]
     start: float | None
@@ -107,6 +111,7 @@ def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
         notes=notes,
         repeats=form.text("repeats", None),
         held_out=form.flag("held_out", None),
+        set_aside=form.text("set_aside", None),
         sensors=_read_sensors(form),
         rows=form.take("rows", _read_rows, (1, None)),
         start=form.quantity("start", "s", None),

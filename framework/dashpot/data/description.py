@@ -17,14 +17,18 @@ from dashpot.text.problem import InputError, Place, Problem
 FORMAT = "dashpot-dataset/1"
 
 # keys of a dataset that are no keys of a run, also where dataset and run are one
-_OWN_KEYS = ("format", "allow_outside")
+_OWN_KEYS = ("format", "folder", "allow_outside")
 
 
 @dataclass(frozen=True)
 class Description:
-    """The sound declarations of a dataset, the names of all its runs, and the problems found in its text."""
+    """The sound declarations of a dataset, the names of all its runs, and the problems found in its text.
+
+    `folder` is what the text says about where the measured files lie, None for beside it.
+    """
 
     name: str
+    folder: str | None
     allow_outside: bool
     declarations: tuple[RunDeclaration, ...]
     names: tuple[str, ...]
@@ -53,12 +57,12 @@ def read_description(document: Document, source: Source) -> Description:
     if problems:
         raise InputError(problems)
     name = form.text("name", stem_of(source.file or source.folder.resolve().name))
-    allow_outside = form.flag("allow_outside", False)
+    folder, allow_outside = form.text("folder", None), form.flag("allow_outside", False)
     nodes, defaults = _many_runs(form) if "runs" in form or not source.file else _single_run(form)
     form.close()
     declarations = tuple(_declare(nodes, defaults, source.file, problems))
     names = tuple(filter(None, (name_of(node, source.file) for node in nodes)))
-    return Description(name, allow_outside, declarations, names, tuple(problems))
+    return Description(name, folder, allow_outside, declarations, names, tuple(problems))
 
 
 def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:

@@ -14,6 +14,9 @@ from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 
+# what drives a specimen or is its answer; of every other channel a run has a mean
+MOVING = ("time", "displacement", "velocity", "acceleration", "force")
+
 
 def channel_at(quantity: str, node: str) -> str:
     """The name of a channel: ``force@wheel_left``, or ``force`` alone in a network with two ends."""
@@ -24,7 +27,9 @@ def channel_at(quantity: str, node: str) -> str:
 class Excitation:
     """Motions (Drive) and loads (n,) in N by the name of the node, and the numbers of the test procedure, in SI.
 
-    The node of a network with two ends has the name "". ``name`` is that of the run, ``source`` its file.
+    The node of a network with two ends has the name "". Among the settings are the means of all further channels that
+    were measured (temperature, pressure ...), as ``mean_of`` names them. ``name`` is that of the run, ``source`` its
+    file.
     """
 
     motions: Mapping[str, Drive]
@@ -47,7 +52,7 @@ class Excitation:
                    for name, samples in run.channels.items() if name.partition("@")[0] == "displacement"}  # fmt: skip
         loads = {_node(name): np.array(samples) for name, samples in run.channels.items()
                  if name.partition("@")[0] == "force" and _node(name) not in motions}  # fmt: skip
-        return cls(motions, loads, run.settings, run.sample_time, run.time.size, run.record, run.source)
+        return cls(motions, loads, settings_of(run), run.sample_time, run.time.size, run.record, run.source)
 
     def at(self, driven: Sequence[str], loaded: Sequence[str]) -> Excitation:
         """The excitation of a network with these nodes; a single motion without a name is that of its only driven node.
@@ -64,6 +69,18 @@ class Excitation:
                                         f"'{channel_at(quantity, node)}', which the network needs; it has motions of "
                                         f"{_names(self.motions)}", "declare it under 'channels'")  # fmt: skip
         return replace(self, motions=motions)
+
+
+def settings_of(run: Run) -> dict[str, float]:
+    """The settings of a run and the means of its further channels."""
+    means = {mean_of(name): float(np.mean(samples)) for name, samples in run.channels.items()
+             if name.partition("@")[0] not in MOVING}  # fmt: skip
+    return {**run.settings, **means}
+
+
+def mean_of(channel: str) -> str:
+    """The name of the mean of a channel among the settings."""
+    return f"mean of {channel}"
 
 
 def _node(channel: str) -> str:

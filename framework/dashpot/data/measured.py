@@ -12,6 +12,7 @@ from dashpot.data.clipping import clipped_channels
 from dashpot.data.clock import Clock, lay_on_grid, read_clock
 from dashpot.data.columns import common_length, find_columns, read_si
 from dashpot.data.declaration import RunDeclaration
+from dashpot.data.disturbance import disturbance
 from dashpot.data.resample import advance, decimate, trim
 from dashpot.data.run import Run
 from dashpot.data.table import Table
@@ -46,7 +47,7 @@ def read_run(declaration: RunDeclaration, table: Table) -> tuple[Run, list[Troub
     step, channels = _even_channels(declaration, clock, piece)
     refuse(too_short(next(iter(channels.values())).size))
     warnings = _warnings(clock) + dead_force(channels)
-    return _make_run(declaration, step, channels), warnings
+    return _make_run(declaration, step, clock.remark is not None, channels), warnings
 
 
 def _take_piece(declaration: RunDeclaration, table: Table) -> _Piece:
@@ -103,8 +104,8 @@ def _within(declaration: RunDeclaration, time: np.ndarray) -> np.ndarray:
 
 
 def _even_channels(declaration: RunDeclaration, clock: Clock, piece: _Piece) -> tuple[float, dict[str, np.ndarray]]:
-    """Sample time and channels on one even grid, delays taken out, decimated."""
-    channels = piece.channels
+    """Sample time and channels on one even grid, delays taken out, decimated, without drift and hum."""
+    channels = dict(piece.channels)
     if clock.remark:
         channels = {name: lay_on_grid(piece.time, values, clock.step) for name, values in channels.items()}
     shifts = {channel.name: channel.delay / clock.step for channel in declaration.channels}
@@ -112,7 +113,12 @@ def _even_channels(declaration: RunDeclaration, clock: Clock, piece: _Piece) -> 
         channels = _without_delays(channels, shifts)
     if declaration.decimate > 1:
         channels = {name: decimate(values, declaration.decimate) for name, values in channels.items()}
-    return clock.step * declaration.decimate, channels
+    step = clock.step * declaration.decimate
+    for channel in declaration.channels:
+        if channel.drift or channel.hum:
+            shown = channels[channel.name]
+            channels[channel.name] = shown - disturbance(channel.drift, channel.hum, step, shown.size)
+    return step, channels
 
 
 def _without_delays(channels: dict[str, np.ndarray], shifts: dict[str, float]) -> dict[str, np.ndarray]:
@@ -132,7 +138,7 @@ def _warnings(clock: Clock) -> list[Trouble]:
     return [Trouble(clock.remark, hint, severity="warning")] if clock.remark else []
 
 
-def _make_run(declaration: RunDeclaration, step: float, channels: dict[str, np.ndarray]) -> Run:
+def _make_run(declaration: RunDeclaration, step: float, uneven: bool, channels: dict[str, np.ndarray]) -> Run:
     count = next(iter(channels.values())).size
     run = Run(
         name=declaration.name,
@@ -147,6 +153,7 @@ def _make_run(declaration: RunDeclaration, step: float, channels: dict[str, np.n
         source=declaration.file,
         order=declaration.order,
         notes=declaration.notes,
+        uneven=uneven,
     )
     for values in (run.time, *run.channels.values()):
         values.flags.writeable = False

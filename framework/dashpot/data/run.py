@@ -20,6 +20,7 @@ class Run:
     held_out: what the dataset says about it, None when it says nothing.
     sensors: channel -> its specification in SI (gain, zero, delay, noise).
     source: the file it came from; order: its number in the dataset, from 0, as it was measured.
+    uneven: whether the clock was not, and the samples were laid on the even grid.
     end: the node whose force it is about, where a run with several forces was taken apart.
     """
 
@@ -35,6 +36,7 @@ class Run:
     source: str = ""
     order: int = 0
     notes: Mapping[str, str] = field(default_factory=dict)
+    uneven: bool = False
     end: str = ""
 
     @property

@@ -19,6 +19,7 @@ def dataset_schema(readers: Collection[str]) -> Schema:
     head = {
         "format": s.choice((FORMAT,)),
         "name": s.text("the name of the dataset"),
+        "folder": s.text("where the measured files lie, if not beside this file"),
         "allow_outside": s.flag("measured files may lie outside the folder of the dataset"),
     }
     many = s.mapping(
@@ -58,6 +59,7 @@ def _run_keys(readers: Collection[str], channels: str) -> dict[str, Schema]:
         "settings": _settings(),
         "repeats": s.text("the run that this one repeats"),
         "held_out": s.flag("keep it out of every fit"),
+        "set_aside": s.text("why the run is not read"),
         "sensors": _sensors(),
         "rows": {"type": "array", "items": [s.integer(minimum=1), {"type": ["integer", "null"]}], "minItems": 2,
                  "maxItems": 2, "description": "[first, last] from 1; null: to the end"},
@@ -91,6 +93,11 @@ def _channels(*required: str) -> Schema:
     return {**found, "anyOf": [{"required": ["displacement", "force"]}, at_nodes]}
 
 
+def _hum(unit: str) -> Schema:
+    keys = {"frequency": s.quantity("Hz"), **{key: s.quantity(unit) for key in ("cosine", "sine")}}
+    return s.mapping(keys, ("frequency",), "taken off: cosine * cos(2 pi f t) + sine * sin(2 pi f t)")
+
+
 def _channel(unit: str, required: Collection[str]) -> Schema:
     column = {**s.text(), "description": "its name in the file, or its number from 1"}
     keys = {
@@ -100,6 +107,8 @@ def _channel(unit: str, required: Collection[str]) -> Schema:
         "gain": s.quantity("1", "value = sign * gain * number - offset"),
         "offset": s.quantity(unit, "value = sign * gain * number - offset"),
         "delay": s.quantity("s", "by how much the channel is late"),
+        "drift": s.quantity(unit, "what the zero has moved by at the end of the run: taken off in proportion to time"),
+        "hum": {"if": {"type": "array"}, "then": s.items(_hum(unit)), "else": _hum(unit)},
     }
     return {
         "if": {"type": "object"},

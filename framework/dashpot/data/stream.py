@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
+from dashpot.data.excitation import mean_of
 from dashpot.data.groups import resolve_repeats
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
-from dashpot.data.source import choose_reader, find_file, locate
+from dashpot.data.source import Source, choose_reader, find_file, locate
 from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Trouble, Unusable
 from dashpot.text.document import Document
-from dashpot.text.problem import InputError, Place, Problem, in_text_order
+from dashpot.text.problem import InputError, Problem, in_text_order
 
 
 def open_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> RunStream:
@@ -24,7 +26,7 @@ def open_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> RunStre
     """
     source = locate(Path(path))
     document = Document.read(source.description)
-    return RunStream(read_description(document, source), source.folder, readers, document.root.place)
+    return RunStream(read_description(document, source), source, readers, document)
 
 
 class RunStream:
@@ -34,9 +36,12 @@ class RunStream:
     It raises InputError, with everything that is wrong, when no run was left.
     """
 
-    def __init__(self, description: Description, folder: Path, readers: Mapping[str, FileReader], place: Place) -> None:
-        self.name, self.folder = description.name, folder
-        self._description, self._readers, self._place = description, readers, place
+    def __init__(
+        self, description: Description, source: Source, readers: Mapping[str, FileReader], document: Document
+    ) -> None:
+        self.name, self.source, self.document = description.name, source, document
+        self.folder = source.folder / description.folder if description.folder else source.folder
+        self._description, self._readers = description, readers
         self._begin()
 
     def _begin(self) -> None:
@@ -48,6 +53,16 @@ class RunStream:
     def names(self) -> tuple[str, ...]:
         """The names of all runs whose declaration is sound."""
         return tuple(declaration.name for declaration in self._description.declarations)
+
+    @property
+    def conditions(self) -> dict[str, dict[str, float]]:
+        """The settings of every run in SI before its file is read, named as by `settings_of`.
+
+        The means of further channels are not known yet: NaN.
+        """
+        resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
+        return {each.name: {**each.settings, **{mean_of(channel.name): math.nan for channel in each.channels}}
+                for each in resolved}  # fmt: skip
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -72,10 +87,18 @@ class RunStream:
                 some = True
                 yield run
         if not some:
-            nothing = Problem(self._place, "the dataset has no runs", "list some under 'runs'")
-            raise InputError(self._problems or [nothing])
+            raise InputError([*self._problems, *self._without_runs()])
+
+    def _without_runs(self) -> Iterator[Problem]:
+        if not self._description.declarations and not self._problems:
+            yield Problem(self.document.root.place, "the dataset has no runs", "list some under 'runs'")
+        elif all(problem.severity == "warning" for problem in self._problems):
+            yield Problem(self.document.root.place, "every run of the dataset is set aside", "keep at least one")
 
     def _run(self, declaration: RunDeclaration) -> Run | None:
+        if declaration.set_aside is not None:
+            self._note(declaration, _wished(declaration))
+            return None
         try:
             run, warnings = read_run(declaration, self._table(declaration))
         except Unusable as error:
@@ -97,10 +120,15 @@ class RunStream:
     def _note(self, declaration: RunDeclaration, trouble: Trouble) -> None:
         if trouble.fault:
             self._faults.append((declaration.name, trouble))
-        state = " is set aside" if trouble.severity == "error" else ""
+        state = " is set aside" if trouble.severity == "error" or declaration.set_aside is not None else ""
         message = f"run '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
         place = trouble.place or declaration.place("file")
         self._problems.append(Problem(place, message, trouble.hint, trouble.severity))
+
+
+def _wished(declaration: RunDeclaration) -> Trouble:
+    assert declaration.set_aside is not None
+    return Trouble(declaration.set_aside, "", declaration.place("set_aside"), "warning")
 
 
 def _read_file(reader: FileReader, path: Path, options: Mapping[str, object]) -> Table:

@@ -35,7 +35,9 @@ from dashpot.fit.search import run_search
 from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.settings import require_settings
 from dashpot.model.network import NetworkSpec, Slot
+from dashpot.text.problem import InputError, Place, Problem
 
 Array = NDArray[np.float64]
 Progress = Callable[..., None]
@@ -74,11 +76,28 @@ class Setting:
 
 
 def prepare(dataset: Dataset, seed: int = 0) -> Setting:
-    """Score the runs, each force by itself, split them, find the noise floor."""
+    """Score the runs, each force by itself, split them, find the noise floor of the training runs.
+
+    Raises InputError for runs without a force, or with one at a node whose motion was not measured.
+    """
     dataset = one_force_each(dataset)
-    return Setting(
-        dataset, {run.name: score_run(run) for run in dataset.runs}, split_runs(dataset, seed), noise_floor(dataset)
-    )
+    _refuse_without_force(dataset)
+    split = split_runs(dataset, seed)
+    floor = noise_floor(dataset.select(split.train))
+    return Setting(dataset, {run.name: score_run(run) for run in dataset.runs}, split, floor)
+
+
+def _refuse_without_force(dataset: Dataset) -> None:
+    """A network is fitted to forces, each at the place whose motion is known."""
+    problems = []
+    for run in dataset.runs:
+        if "force" not in run.channels or "displacement" not in run.channels:
+            known = ", ".join(f"'{name}'" for name in run.channels)
+            message = f"run '{run.name}' measures no force at a place whose displacement it measures: it has {known}"
+            hint = "add 'force' beside 'displacement' (or 'force@NODE' beside 'displacement@NODE') to its channels"
+            problems.append(Problem(Place(run.source or None), message, hint))
+    if problems:
+        raise InputError(problems)
 
 
 def fit_network(
@@ -107,6 +126,7 @@ def fit_prepared(
 ) -> FitResult:
     """Identify a network on a dataset made ready."""
     watch = _Watch(progress, spec.name, setting.floor.value)
+    require_settings(spec, {name: run.excitation.settings for name, run in setting.scored.items()})
     grounded = with_ranges(ground_curves(spec, setting.train), natural_sizes(setting.train))
     curves = set(grounded.data_curves())
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train

@@ -123,7 +123,8 @@ class _Kind:
 
 def _kinds(member: int, part: Part, start: Array, searched: set[int], sizes: Sizes) -> Iterator[_Kind]:
     # branches of which other numbers are searched are of another kind
-    powers = [dimensions(slot.value.unit) for slot in part.network.spec.slots()]
+    # what a number does over a setting is left to the search
+    powers = [(0.0, 0.0, 0.0) if slot.of else dimensions(slot.value.unit) for slot in part.network.spec.slots()]
     forces = tuple(number for number, power in enumerate(powers) if power[0] == 1.0)
     alike: dict[tuple[int, ...], list[Sequence[int]]] = {}
     for slots in part.slots:

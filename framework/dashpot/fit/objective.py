@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from functools import cached_property
-from typing import cast
+from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,16 @@ from dashpot.kernel.workers import spread
 Array = NDArray[np.float64]
 
 
-Whiten = Callable[[str, Array], Array]
+class Whitening(Protocol):
+    """Makes misfits of a run independent of one another and of variance one."""
+
+    def whiten(self, run: str, signals: Array) -> Array:
+        """Signals (..., samples) of a run, whitened and reduced to (..., kept)."""
+
+    def kept(self, run: str, samples: int) -> int:
+        """How many values are kept of so many samples."""
+
+
 # the numbers of runs whose forces were measured together
 Team = tuple[int, ...]
 
@@ -29,8 +38,8 @@ class Objective:
     """The misfit of a compiled network on runs.
 
     As it is, all runs weigh the same, whatever their length, and a loss is the root of the mean over runs of the mean
-    squared error, in N. ``weights`` (runs,), of which only the proportions count, change that. With
-    ``whiten(run, misfits)`` a loss is the root mean square of all whitened misfits.
+    squared error, in N. ``weights`` (runs,), of which only the proportions count, change that. With a ``whitening`` a
+    loss is the root mean square of all whitened misfits.
     """
 
     def __init__(
@@ -38,18 +47,19 @@ class Objective:
         network: CompiledNetwork | CompiledSystem,
         runs: Sequence[ScoredRun],
         jobs: int = 1,
-        whiten: Whiten | None = None,
+        whitening: Whitening | None = None,
         weights: Sequence[float] | None = None,
     ) -> None:
-        self.network, self.runs, self.jobs, self.whiten = network, tuple(runs), jobs, whiten
+        self.network, self.runs, self.jobs, self.whitening = network, tuple(runs), jobs, whitening
         shares = np.ones(len(self.runs)) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
         prepared = {team: network.prepare(self.runs[team[0]].excitation) for team in self.teams}
         self.rows = [prepared[team] for number in range(len(self.runs)) for team in self.teams if number in team]
-        ends = np.cumsum([0] + [run.samples for run in self.runs])
-        self.pieces = [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
-        self.total = int(ends[-1])
+        self.pieces = _pieces([run.samples for run in self.runs])
+        if whitening is not None:
+            self.pieces = _pieces([whitening.kept(run.name, run.samples) for run in self.runs])
+        self.total = self.pieces[-1].stop if self.pieces else 0
 
     def weighing(self, weights: Sequence[float]) -> Objective:
         """The same runs with other weights (runs,); what was prepared is shared."""
@@ -61,28 +71,29 @@ class Objective:
     def parts(self) -> tuple[Parts, list[list[Rows]]]:
         """The branches of the network alone, and the runs as they see them."""
         parts = take_apart(self.network.spec)
-        return parts, [parts.prepare(run.drive) for run in self.runs]
+        return parts, [parts.prepare(run.excitation) for run in self.runs]
 
     def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
         """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots move."""
-        if isinstance(self.network, CompiledSystem) or any(slot.value.setting for slot in self.network.spec.slots()):
+        if isinstance(self.network, CompiledSystem):
             return self._linearise_as_a_whole(values, which, shifts)
         block = np.empty((1 + len(which), self.total))
         parts, rows = self.parts
 
         def fill(number: int) -> None:
-            run, piece = self.runs[number], self.pieces[number]
+            run = self.runs[number]
             seen = self.network.observation(values).linear(
                 *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
             )
-            block[0, piece] = seen[0][run.first :] - run.force[run.first :]
-            block[1:, piece] = seen[1][:, run.first :]
+            found = np.empty((1 + len(which), run.samples))
+            found[0] = seen[0][run.first :] - run.force[run.first :]
+            found[1:] = seen[1][:, run.first :]
             for k in (k for k, slot in enumerate(which) if parts.owner[slot] is None):
                 moved = values.copy()
                 moved[which[k]] += shifts[k]
                 other = self.network.observation(moved).see(seen[2][None], run.drive.dt)[0]
-                block[1 + k, piece] = (other - seen[0])[run.first :]
-            self._weigh(number, block)
+                found[1 + k] = (other - seen[0])[run.first :]
+            block[:, self.pieces[number]] = self._weighed(number, found)
 
         spread(fill, range(len(self.runs)), jobs=self.jobs)
         return block[0], block[1:]
@@ -108,25 +119,27 @@ class Objective:
     def misfits(self, values: Array) -> Array:
         """Simulated minus measured force (lanes, all counted samples), run after run, in N."""
         values = np.atleast_2d(values)
-        out = np.empty((values.shape[0], self.total))
+        return np.concatenate(self._misfits(values, lambda number, misfits: misfits), axis=1)
+
+    def residuals(self, values: Array) -> Array:
+        """Misfits (lanes, values) of all runs, weighted or whitened so that their root mean square is the loss."""
+        values = np.atleast_2d(values)
+        return np.concatenate(self._misfits(values, self._weighed), axis=1)
+
+    def _misfits(self, values: Array, seen: Callable[[int, Array], Array]) -> list[Array]:
+        found: list[Array] = [np.empty(0)] * len(self.runs)
 
         def fill(team: Team) -> None:
             for number, force in self._forces(team, values):
                 run = self.runs[number]
-                out[:, self.pieces[number]] = force[:, run.first :] - run.force[run.first :]
+                found[number] = seen(number, force[:, run.first :] - run.force[run.first :])
 
         spread(fill, self.teams, jobs=self.jobs)
-        return out
-
-    def residuals(self, values: Array) -> Array:
-        """Misfits (lanes, all counted samples) weighted or whitened so that their root mean square is the loss."""
-        misfits = self.misfits(values)
-        spread(lambda number: self._weigh(number, misfits), range(len(self.runs)), jobs=self.jobs)
-        return misfits
+        return found
 
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,); a lane that fails costs infinity."""
-        if self.whiten is None:
+        if self.whitening is None:
             squares = np.square(self.rmse(values))
             counted = self.shares > 0.0
             return np.sqrt(np.mean(self.shares[counted, None] * squares[counted], axis=0) * counted.mean())
@@ -137,9 +150,8 @@ class Objective:
     def rmse(self, values: Array) -> Array:
         """The root mean square error of every run (runs, lanes) in N; a lane that fails has infinity."""
         values = np.atleast_2d(values)
-        if not self.network.observation(values).plain:
-            misfits = self.misfits(values)
-            squares = np.array([np.mean(np.square(misfits[:, piece]), axis=1) for piece in self.pieces])
+        if not all(self.network.observation(values, run.excitation.settings).plain for run in self.runs):
+            squares = np.array([np.mean(np.square(misfit), axis=1) for misfit in self._misfits(values, lambda _, m: m)])
         else:
             squares = self._scores(values)
         return np.sqrt(np.where(np.isfinite(squares), squares, np.inf))
@@ -169,16 +181,16 @@ class Objective:
         """By what the misfits of a run are multiplied, where they are not whitened."""
         return float(np.sqrt(self.shares[number] * self.total / (len(self.runs) * self.runs[number].samples)))
 
-    def _weigh(self, number: int, misfits: Array) -> None:
-        run, piece = self.runs[number], self.pieces[number]
-        if self.whiten is None:
-            misfits[:, piece] *= self.factor(number)
-        else:
-            misfits[:, piece] = self.whiten(run.name, misfits[:, piece])
+    def _weighed(self, number: int, misfits: Array) -> Array:
+        """The misfits (lanes, samples) of a run as they count."""
+        if self.whitening is None:
+            return misfits * self.factor(number)
+        return self.whitening.whiten(self.runs[number].name, misfits)
 
     def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
         # what the load cells show in runs that were measured together
-        rows, see = self.rows[team[0]], self.network.observation(values).see
+        rows = self.rows[team[0]]
+        see = self.network.observation(values, self.runs[team[0]].excitation.settings).see
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)
             for number in team:
@@ -188,6 +200,11 @@ class Objective:
         found = self.network.forces(rows, values)
         for number in team:
             yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
+
+
+def _pieces(sizes: Sequence[int]) -> list[slice]:
+    ends = np.cumsum([0, *sizes]).tolist()
+    return [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
 
 
 def _teams(runs: Sequence[ScoredRun]) -> list[Team]:

@@ -7,16 +7,18 @@ meganewtons, and a slider that a run of a millimetre sees is in reach beside run
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.settings import key_of
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.text.quantity import dimensions
 
 BELOW, ABOVE = 1e-4, 30.0
+MOST_OVER_SETTINGS = 10.0  # times its own size a number may change over the settings
 
 
 @dataclass(frozen=True)
@@ -30,11 +32,12 @@ class Size:
 
 @dataclass(frozen=True)
 class Sizes:
-    """The sizes of all runs, shortest and longest time (s) of the dataset."""
+    """The sizes of all runs, shortest and longest time (s) of the dataset, and how far its settings are apart."""
 
     runs: tuple[Size, ...]
     shortest: float
     longest: float
+    spreads: Mapping[str, float] = field(default_factory=dict)
 
     def of_unit(self, unit: str) -> tuple[float, float] | None:
         """The smallest and the largest natural size of this unit; None for a pure number, or where nothing moves."""
@@ -62,7 +65,14 @@ def natural_sizes(runs: Sequence[ScoredRun]) -> Sizes:
         runs=tuple(size for size in map(_size_of, dynamic) if size.force > 0.0 and size.speed > 0.0),
         shortest=0.5 * min(run.drive.dt for run in dynamic),
         longest=max(run.drive.dt * run.drive.samples for run in runs),
+        spreads=_spreads([run.excitation.settings for run in runs]),
     )
+
+
+def _spreads(settings: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    # where all runs have the same setting nothing can be told from it, and its size has to do
+    found = {key: [each[key] for each in settings if key in each] for each in settings for key in each}
+    return {key: float(np.ptp(values) or np.max(np.abs(values)) or 1.0) for key, values in found.items()}
 
 
 def _size_of(run: ScoredRun) -> Size:
@@ -75,7 +85,20 @@ def _size_of(run: ScoredRun) -> Size:
 
 def with_ranges(spec: NetworkSpec, sizes: Sizes) -> NetworkSpec:
     """The network with bounds for every searched value that has none; a start outside them moves to the next one."""
-    return spec.with_values({slot.path: _ranged(slot.value, sizes) for slot in spec.slots() if slot.value.searched})
+    return spec.with_values({slot.path: _over_settings(slot.value, slot.of, sizes) if slot.of else
+                             _ranged(slot.value, sizes) for slot in spec.slots() if slot.value.searched})  # fmt: skip
+
+
+def _over_settings(value: Value, of: Value, sizes: Sizes) -> Value:
+    """A slope, a rate or a factor of the number ``of``: what makes it another one over the settings of these runs."""
+    assert of.over is not None
+    if value.bounds is not None or of.over.way == "factor":
+        return _ranged(value, sizes)
+    spread = sizes.spreads.get(key_of(of.over), 1.0)
+    natural = sizes.of_unit(of.unit)
+    size = max(abs(of.number), natural[1] if natural else 0.0) if of.over.way == "slope" else 1.0
+    span = MOST_OVER_SETTINGS * max(abs(value.number), (size or 1.0) / spread)
+    return replace(value, bounds=(value.number - span, value.number + span))
 
 
 def _ranged(value: Value, sizes: Sizes) -> Value:

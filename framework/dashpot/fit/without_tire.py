@@ -24,6 +24,7 @@ from dashpot.fit.scored import score_run
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import MASSES, NetworkSpec
+from dashpot.model.topology import COMPLIANCE
 
 STEPS = 12
 
@@ -75,12 +76,13 @@ def wheels_behind(spec: NetworkSpec) -> dict[str, str]:
 
 
 def cut_off(spec: NetworkSpec, wheels: Mapping[str, str]) -> NetworkSpec:
-    """The network without the driven nodes and their branches; the wheels are driven instead."""
+    """The network without the driven nodes, their branches and a fixture below them; the wheels are driven instead."""
     ends = {name: pair for name, pair in spec.ends.items() if not {pair.lower, pair.upper} & set(wheels)}
     members = tuple(member for member in spec.root.members if member.name in ends)
     joints = {name: replace(joint, hold="driven") if name in wheels.values() else joint
               for name, joint in spec.joints.items() if name not in wheels}  # fmt: skip
-    return replace(spec, root=replace(spec.root, members=members), joints=joints, ends=ends)
+    measurement = {key: value for key, value in spec.measurement.items() if key != COMPLIANCE}
+    return replace(spec, root=replace(spec.root, members=members), measurement=measurement, joints=joints, ends=ends)
 
 
 def _at_wheels(run: Run, wheels: Mapping[str, str]) -> Run:

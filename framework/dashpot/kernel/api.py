@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from dashpot.contract.registry import Registry, load_registry
 from dashpot.data.dataset import Dataset
-from dashpot.data.excitation import Excitation
+from dashpot.data.excitation import Excitation, settings_of
 from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.kernel.settings import require_settings
 from dashpot.kernel.system import CompiledSystem, Status
 from dashpot.model.network import END, NetworkSpec
 from dashpot.model.reading import read_network
@@ -46,6 +47,7 @@ def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int 
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
+    require_settings(spec, {run.name: settings_of(run) for run in dataset.runs})
     solved = solve_each(spec, dataset.runs, len(dataset.runs), refine=refine, progress=progress)
     return {run.name: solution for run, solution in solved}
 
@@ -62,7 +64,7 @@ def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: in
 
 def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int = 1) -> RunSolution:
     """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
-    observation = network.observation(network.start)
+    observation = network.observation(network.start, excitation.settings)
     if isinstance(network, CompiledNetwork):
         alone = network.simulate(network.prepare(excitation))
         return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0})

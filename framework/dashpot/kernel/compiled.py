@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
+from types import MappingProxyType
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -15,6 +16,7 @@ from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.observe import Observation, read_observation
+from dashpot.kernel.settings import with_settings
 from dashpot.kernel.structure import recipe_of
 from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic, NetworkSpec
@@ -55,9 +57,9 @@ class Compiled(ABC, Generic[Prepared]):
         """What simulates ``values`` along a motion; this is prepared once."""
         return partial(self.simulate, self.prepare(motion))
 
-    def observation(self, values: Array) -> Observation:
-        """How the load cells see each lane."""
-        return read_observation(self.paths, np.atleast_2d(values))
+    def observation(self, values: Array, settings: Mapping[str, float] = MappingProxyType({})) -> Observation:
+        """How the load cells see each lane in a run with these settings."""
+        return read_observation(self.paths, with_settings(self.spec, np.atleast_2d(values), settings))
 
     def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
         # a workspace (rows, lanes) with the constants of the lanes in its first rows

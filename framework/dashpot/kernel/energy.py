@@ -97,7 +97,8 @@ class EnergyCounter:
         branches = tuple(_branch(edge.branch.name, edge.branch.element.word, found[edge_row(edge, WORK)],
                                  found.get(edge_row(edge, STORED)), found.get(edge_row(edge, BEGIN)))
                          for edge in topology.edges)  # fmt: skip
-        masses = tuple(_mass(joint, found) for joint in topology.joints if row_of(joint, STORED) in found)
+        masses = tuple(_mass(joint, "fixture" if joint in topology.mounts else "mass", found)
+                       for joint in topology.joints if row_of(joint, STORED) in found)  # fmt: skip
         return EnergyBalance(name, sum(work.value for work in inputs), sum(work.error for work in inputs), branches,
                              masses)  # fmt: skip
 
@@ -139,9 +140,9 @@ def _branch(name: str, word: str, work: _Refined, stored: _Refined | None, begin
     return Share(name, word, work.value, stored.value - (begin.value if begin else 0.0), work.error)
 
 
-def _mass(joint: str, found: Mapping[str, _Refined]) -> Share:
+def _mass(joint: str, word: str, found: Mapping[str, _Refined]) -> Share:
     gained = found[row_of(joint, STORED)].value - found[row_of(joint, BEGIN)].value
-    return Share(joint, "mass", gained, gained, found[row_of(joint, STORED)].error)
+    return Share(joint or word, word, gained, gained, found[row_of(joint, STORED)].error)
 
 
 def _sum(numbers: Sequence[float | None]) -> float | None:

@@ -1,8 +1,9 @@
 """The equations of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
 
-The unknowns are the new positions of the free nodes. Every edge answers its force and its new memory for a given motion
-of its two ends; the derivative of that force after the new position is the tangent that Newton's method needs. The
-equations come in passes, each a set of rows of the workspace and their new values:
+The unknowns are the new positions of the free nodes; that of a node on a fixture counts from the driven node that
+carries it, so that a fixture that does not give way adds nothing to the motion. Every edge answers its force and its
+new memory for a given motion of its two ends; the derivative of that force after the new position is the tangent that
+Newton's method needs. The equations come in passes, each a set of rows of the workspace and their new values:
 
 start    a first guess of the static equilibrium
 settle   Newton's step towards it
@@ -23,11 +24,12 @@ from typing import Protocol
 import numpy as np
 
 from dashpot.expr.derive import derive
-from dashpot.expr.node import Node, constant, lookup, maximum, minimum, symbol, symbols_of, where
-from dashpot.expr.rebuild import rebuild, replaced
-from dashpot.kernel.elimination import ZERO, solve_symmetric
+from dashpot.expr.node import Node, constant, maximum, minimum, symbol, where
+from dashpot.expr.rebuild import replaced
+from dashpot.kernel.elimination import ZERO, Mount, solve_symmetric
+from dashpot.kernel.own_tables import with_own_tables
 from dashpot.kernel.trace import RATES, TracedBranch, trace_along
-from dashpot.model.topology import Edge, Topology
+from dashpot.model.topology import COMPLIANCE, Edge, Topology
 
 SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1
 ONE, NEVER = constant(1.0), constant(1e300)
@@ -35,7 +37,7 @@ ONE, NEVER = constant(1.0), constant(1e300)
 # what drives the steps, the same for all lanes
 SLOPE, NOW, BEFORE, SWING = (symbol(f"rule.{key}") for key in ("slope", "now", "before", "swing"))
 TOLERANCE, FARTHEST = symbol("newton.tolerance"), symbol("newton.farthest")
-GRAVITY, STEP = symbol("gravity"), symbol("dt")
+GRAVITY, STEP, GIVES_WAY = symbol("gravity"), symbol("dt"), symbol(f"measurement.{COMPLIANCE}")
 # rows that belong to the whole network
 DONE, DAMPING, DISTANCE, NOTHING = (f"newton|{key}" for key in ("done", "damping", "distance", "nothing"))
 RULE = ("rule.slope", "rule.now", "rule.before", "rule.swing", "newton.tolerance", "newton.farthest")
@@ -93,37 +95,17 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
     still, moving = _Still(topology, laws), Moving(topology, laws)
-    states = {name for law in laws for name in law.states} | {row_of(joint, key) for joint in topology.unknown
-                                                               for key in (*_KEPT, "next")}  # fmt: skip
     rest, commit = still.rest(), moving.commit()
     if meter:
         rest, commit = {**rest, **meter.rest(still)}, {**commit, **meter.commit(moving)}
-    finish = _Finish(states | {NOTHING})
     start, settle, rest, predict, improve, commit = (
-        finish(rows) for rows in (still.start(), still.improve(), rest, moving.predict(), moving.improve(), commit)
+        with_own_tables(rows, NOTHING)
+        for rows in (still.start(), still.improve(), rest, moving.predict(), moving.improve(), commit)
     )
     return Equations(start, settle, rest, predict, improve, commit, frozenset(known))
 
 
 _KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
-
-
-class _Finish:
-    """Makes every table one that each lane looks up by itself."""
-
-    def __init__(self, states: set[str]) -> None:
-        self.states = states
-
-    def __call__(self, rows: Rows) -> dict[str, Node]:
-        return dict(zip(rows, rebuild(list(rows.values()), self.look_up), strict=True))
-
-    def look_up(self, node: Node) -> Node:
-        if node.operation != "table":
-            return node
-        argument = node.arguments[0]
-        # an argument that is the same for all lanes has no row of its own yet
-        moves = any("|" in name for name in symbols_of(argument))
-        return lookup(node.payload[0], argument if moves else argument + symbol(NOTHING), node.payload[1])
 
 
 class Meter(Protocol):
@@ -164,7 +146,7 @@ class Balance(ABC):
     def position(self, joint: str) -> Node:
         """Where a node is at the end of the step."""
         known = self.known(joint, "new")
-        return self._next(joint) if known is None else known
+        return self.carrier(joint, "new") + self._next(joint) if known is None else known
 
     @abstractmethod
     def velocity(self, joint: str) -> Node:
@@ -199,7 +181,8 @@ class Balance(ABC):
         """Newton's step of all unknowns, damped where the last one did not get nearer; finished lanes stay."""
         unknown = self.topology.unknown
         missing = {joint: self.load(joint) - self.carried(joint) for joint in unknown}
-        ways = solve_symmetric(self._matrix(), missing)
+        mounts = {inner: Mount(GIVES_WAY, -self._next(inner)) for inner in self.topology.mounts.values()}
+        ways = solve_symmetric(self._matrix(), missing, mounts)
         distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
         done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
         # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
@@ -249,9 +232,18 @@ class Balance(ABC):
         hold = self.topology.joints[joint].hold
         return {"ground": ZERO, "driven": symbol(driven_symbol(joint, key))}.get(hold)
 
+    def carrier(self, joint: str, key: str) -> Node:
+        """The motion that the position of an unknown node counts from."""
+        mounted = self.topology.joints[joint].mounted
+        return ZERO if mounted is None else symbol(driven_symbol(mounted, key))
+
     def outputs(self, forces: Sequence[Node] | None = None) -> dict[str, Node]:
         """The forces at the driven nodes; ``forces`` as in ``push``."""
-        return {force_row(joint): self.carried(joint, forces) for joint in self.topology.held("driven")}
+        return {force_row(joint): self.driving(joint, forces) for joint in self.topology.held("driven")}
+
+    def driving(self, joint: str, forces: Sequence[Node] | None = None) -> Node:
+        """The force at a driven node, through its fixture if it has one; ``forces`` as in ``push``."""
+        return self.carried(self.topology.mounts.get(joint, joint), forces)
 
     @staticmethod
     def offset(edge: Edge) -> Node:
@@ -260,16 +252,36 @@ class Balance(ABC):
 
 
 class _Still(Balance):
-    """The static equilibrium: nothing moves, no branch has a memory."""
+    """The static equilibrium: nothing moves, no branch has a memory.
+
+    Where all that gives way is a fixture, a law without a memory sees the first motion of the drive, as it does where
+    the fixture is rigid.
+    """
+
+    def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
+        prompt = set(topology.unknown) == set(topology.mounts.values()) != set()
+        self.prompt = {law.name for law in laws if prompt and not law.states}
+        super().__init__(topology, laws)
 
     def velocity(self, joint: str) -> Node:
-        """Unknown nodes begin at rest, driven ones as they are driven."""
+        """Unknown nodes begin at rest, driven ones as they are driven, and so what they carry."""
         known = self.known(joint, "velocity_new")
-        return ZERO if known is None else known
+        return self.carrier(joint, "velocity_new") if known is None else known
 
     def motion(self, edge: Edge) -> Mapping[str, Node]:
         place = self.difference(edge, self.position) + self.offset(edge)
-        return {"edge.new": place, **self._rest(place)}
+        return {"edge.new": place, **self._rest(place), **self._rates(edge)}
+
+    def _rates(self, edge: Edge) -> dict[str, Node]:
+        if edge.branch.name not in self.prompt:
+            return {}
+        speed = self.difference(edge, self.velocity)
+        return {"edge.velocity_old": speed, "edge.velocity_new": speed,
+                "edge.acceleration": self.difference(edge, self._acceleration)}  # fmt: skip
+
+    def _acceleration(self, joint: str) -> Node:
+        known = self.known(joint, "acceleration")
+        return self.carrier(joint, "acceleration") if known is None else known
 
     def _rest(self, place: Node) -> dict[str, Node]:
         memory = {name: ZERO for law in self.laws for name in law.states}
@@ -285,7 +297,8 @@ class _Still(Balance):
         """All unknown nodes in the middle of the known ones."""
         driven = [symbol(driven_symbol(joint, "new")) for joint in self.topology.held("driven")]
         middle = sum(driven, ZERO) / float(max(len(driven), 1))
-        first = {row_of(joint, "next"): middle for joint in self.topology.unknown}
+        carried = self.topology.mounts.values()
+        first = {row_of(joint, "next"): ZERO if joint in carried else middle for joint in self.topology.unknown}
         return {**first, DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
 
     def rest(self) -> dict[str, Node]:
@@ -302,17 +315,24 @@ class Moving(Balance):
 
     def velocity(self, joint: str) -> Node:
         known = self.known(joint, "velocity_new")
-        return SLOPE * self._next(joint) + symbol(row_of(joint, "drift")) if known is None else known
+        return self.carrier(joint, "velocity_new") + self._own_velocity(joint) if known is None else known
+
+    def _own_velocity(self, joint: str) -> Node:
+        """That of an unknown node, against what carries it."""
+        return SLOPE * self._next(joint) + symbol(row_of(joint, "drift"))
+
+    def _own_acceleration(self, joint: str) -> Node:
+        return SLOPE * self._own_velocity(joint) + symbol(row_of(joint, "swing"))
 
     def acceleration(self, joint: str) -> Node:
         """The acceleration of a node at the end of the step."""
         known = self.known(joint, "acceleration")
-        return SLOPE * self.velocity(joint) + symbol(row_of(joint, "swing")) if known is None else known
+        return self.carrier(joint, "acceleration") + self._own_acceleration(joint) if known is None else known
 
     def before(self, joint: str, key: str, row: str) -> Node:
         """The motion of a node at the begin of the step."""
         known = self.known(joint, key)
-        return symbol(row_of(joint, row)) if known is None else known
+        return self.carrier(joint, key) + symbol(row_of(joint, row)) if known is None else known
 
     def motion(self, edge: Edge) -> Mapping[str, Node]:
         offset = self.offset(edge)
@@ -350,6 +370,11 @@ class Moving(Balance):
         ways = [self.difference(edge, lambda joint: moves.get(joint, ZERO)) for edge in self.topology.edges]
         forces = [force + tangent * way for force, tangent, way in zip(self.forces, self.tangents, ways, strict=True)]
         found = self.outputs(forces)
+        for joint, inner in self.topology.mounts.items():
+            mass = self.mass(inner)
+            if mass is not ZERO:
+                row = force_row(joint)
+                found[row] = found[row] + mass * self.inertia(inner)[1] * moves[inner]
         for edge, law, way in zip(self.topology.edges, self.laws, ways, strict=True):
             for name, node in law.states.items():
                 found[name] = self.along(edge, node) + self.along(edge, self.tangent(node)) * way
@@ -363,8 +388,8 @@ class Moving(Balance):
         for joint in self.topology.unknown:
             rows |= {
                 row_of(joint, "position"): self._next(joint),
-                row_of(joint, "velocity"): self.velocity(joint),
-                row_of(joint, "acceleration"): self.acceleration(joint),
+                row_of(joint, "velocity"): self._own_velocity(joint),
+                row_of(joint, "acceleration"): self._own_acceleration(joint),
                 row_of(joint, "position_before"): symbol(row_of(joint, "position")),
                 row_of(joint, "velocity_before"): symbol(row_of(joint, "velocity")),
             }

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dashpot.expr.node import Node, symbol
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.elimination import ZERO
-from dashpot.kernel.mechanics import GRAVITY, Balance, Moving, Rows, row_of
+from dashpot.kernel.mechanics import GIVES_WAY, GRAVITY, Balance, Moving, Rows, row_of
 from dashpot.kernel.trace import TracedBranch, trace_stored
 from dashpot.model.topology import Edge, Topology
 
@@ -24,7 +24,8 @@ def edge_row(edge: Edge, key: str) -> str:
 
 
 class EnergyMeter:
-    """Rows ``work``, ``stored`` and ``begin`` of every branch and of every node with a mass, ``work`` of every drive.
+    """Rows ``work``, ``stored`` and ``begin`` of every branch, of every node with a mass and of every driven node with
+    a fixture that gives way; ``work`` of every drive.
 
     What a branch stores is not known where its element does not say it: then it has no rows ``stored`` and ``begin``.
     """
@@ -45,6 +46,9 @@ class EnergyMeter:
             rows |= {row_of(joint, BEGIN): held, row_of(joint, STORED): held}
         for joint in self._pushed():
             rows |= {row_of(joint, WORK): ZERO, row_of(joint, "push"): self._outside(still, joint)}
+        for joint in self.topology.mounts:
+            held = self._strain(still, joint)
+            rows |= {row_of(joint, BEGIN): held, row_of(joint, STORED): held}
         return rows
 
     def commit(self, moving: Moving) -> Rows:
@@ -62,6 +66,8 @@ class EnergyMeter:
             travel = moving.position(joint) - moving.before(joint, "old", "position")
             rows |= {row_of(joint, WORK): _added(row_of(joint, WORK), row_of(joint, "push"), push, travel),
                      row_of(joint, "push"): push}  # fmt: skip
+        for joint in self.topology.mounts:
+            rows[row_of(joint, STORED)] = self._strain(moving, joint)
         return rows
 
     def _edges(self, balance: Balance) -> list[tuple[Edge, TracedBranch, Node]]:
@@ -86,7 +92,12 @@ class EnergyMeter:
         return self.topology.held("driven", "loaded")
 
     def _outside(self, balance: Balance, joint: str) -> Node:
-        return balance.carried(joint) if self.topology.joints[joint].hold == "driven" else balance.load(joint)
+        return balance.driving(joint) if self.topology.joints[joint].hold == "driven" else balance.load(joint)
+
+    def _strain(self, balance: Balance, joint: str) -> Node:
+        """What a fixture stores."""
+        force = balance.driving(joint)
+        return 0.5 * GIVES_WAY * force * force
 
 
 def _first(name: str, value: Node | None) -> Mapping[str, Node]:

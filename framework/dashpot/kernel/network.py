@@ -18,7 +18,7 @@ from dashpot.kernel.columns import Rows, prepare_rows
 from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.layout import score_row
 from dashpot.kernel.native import Native, load_native
-from dashpot.kernel.settings import with_settings
+from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.source import ARGUMENTS
 from dashpot.kernel.structure import program_of, source_of
 from dashpot.kernel.system import CompiledSystem, compile_system
@@ -57,7 +57,8 @@ class CompiledNetwork(Compiled[Rows]):
         """The part of the work that depends on the drive alone."""
         if isinstance(motion, Drive):
             return prepare_rows(self.program, self.curves, motion, {})
-        return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], motion.settings)
+        settings = used_settings(self.spec, motion.settings, motion.name)
+        return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], settings)
 
     def simulate(self, run: Rows, values: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""

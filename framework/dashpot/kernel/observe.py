@@ -1,4 +1,4 @@
-"""How a load cell sees the force of a specimen: not below what the rig can hold, late, with a gain, with an offset."""
+"""How a load cell shows the force of a specimen: smoothed, late, with a gain, an offset and hum, within a range."""
 
 from __future__ import annotations
 
@@ -7,39 +7,59 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from dashpot.kernel.lowpass import smoothed
+from dashpot.kernel.spline import slopes
 
-FEWEST = 5  # samples of a spline without a knot beside either end
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Observation:
-    """Gain, offset (N), delay (s) and least force (N) of the force channel, one of each per lane.
+    """The force channel, one number per lane: what it shows of a force F is
 
-    A specimen that is pressed but not held lifts off instead of pulling: its least force is zero.
+    min(gain * smoothed(max(F, least))(t - delay) + offset + hum(t), largest)
+
+    with gain, offset (N), delay (s), the time constant ``lag`` (s) of a low-pass of first order, and hum with a
+    ``frequency`` (Hz), a ``cosine`` and a ``sine`` (N) by the time of the run. A specimen that is pressed but not held
+    lifts off instead of pulling: its ``least`` force is zero, whatever the channel makes of it. ``largest`` (N) is the
+    end of the range of the channel: nothing above it is shown, whatever the force is.
     """
 
     gain: Array
     offset: Array
     delay: Array
     least: Array = field(default_factory=lambda: np.array([-np.inf]))
+    lag: Array = field(default_factory=lambda: np.zeros(1))
+    largest: Array = field(default_factory=lambda: np.array([np.inf]))
+    frequency: Array = field(default_factory=lambda: np.zeros(1))
+    cosine: Array = field(default_factory=lambda: np.zeros(1))
+    sine: Array = field(default_factory=lambda: np.zeros(1))
 
     @property
     def plain(self) -> bool:
         """Whether the channel shows the force as it is."""
-        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0)
-                    or np.any(self.least > -np.inf))  # fmt: skip
+        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0) or np.any(self.lag)
+                    or np.any(self.cosine) or np.any(self.sine)
+                    or np.any(self.least > -np.inf) or np.any(self.largest < np.inf))  # fmt: skip
 
     def see(self, force: Array, dt: float) -> Array:
         """What the channel shows of ``force`` (lanes, samples).
 
-        The delay is a shift along the interpolating cubic spline; before the first sample the force is held.
+        Between samples the force is the interpolating cubic spline, along which it is smoothed and shifted; before the
+        first sample it is held.
         """
         if self.plain:
             return force
-        held = np.maximum(force, self.least[:, None])
+        return np.minimum(self._unlimited(force, dt), self.largest[:, None])
+
+    def _unlimited(self, force: Array, dt: float) -> Array:
+        held = smoothed(np.maximum(force, self.least[:, None]), self.lag, dt)
         late = _shifted(held, np.broadcast_to(self.delay / dt, len(held)))
-        return self.gain[:, None] * late + self.offset[:, None]
+        shown = self.gain[:, None] * late + self.offset[:, None]
+        if np.any(self.cosine) or np.any(self.sine):
+            phase = 2.0 * np.pi * self.frequency[:, None] * dt * np.arange(force.shape[1])
+            shown = shown + self.cosine[:, None] * np.cos(phase) + self.sine[:, None] * np.sin(phase)
+        return shown
 
     def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
         """What one lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
@@ -49,9 +69,11 @@ class Observation:
         if self.plain:
             return force, changes, force
         at = np.arange(force.size) - self.delay[0] / dt
-        held = np.where(force > self.least[0], changes, 0.0)
+        held = smoothed(np.where(force > self.least[0], changes, 0.0), self.lag, dt)
         late = np.array([np.interp(at, np.arange(force.size), row) for row in held]).reshape(changes.shape)
-        return self.see(force[None], dt)[0], self.gain[0] * late, force
+        shown = self._unlimited(force[None], dt)[0]
+        inside = shown < self.largest[0]
+        return np.where(inside, shown, self.largest[0]), np.where(inside, self.gain[0] * late, 0.0), force
 
 
 def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
@@ -65,6 +87,11 @@ def read_observation(paths: tuple[str, ...], values: Array) -> Observation:
         column("measurement.force.offset", 0.0),
         column("measurement.force.delay", 0.0),
         column("measurement.force.least", -np.inf),
+        column("measurement.force.lag", 0.0),
+        column("measurement.force.largest", np.inf),
+        column("measurement.force.hum.frequency", 0.0),
+        column("measurement.force.hum.cosine", 0.0),
+        column("measurement.force.hum.sine", 0.0),
     )
 
 
@@ -73,7 +100,7 @@ def _shifted(forces: Array, samples: Array) -> Array:
     found = np.where((samples == 0.0)[:, None], forces, np.nan)
     late = np.flatnonzero((samples != 0.0) & np.isfinite(samples) & np.isfinite(forces).all(axis=1))
     if late.size:
-        for number, slope in zip(late, _slopes(forces[late]), strict=True):
+        for number, slope in zip(late, slopes(forces[late]), strict=True):
             found[number] = _along(forces[number], slope, samples[number])
     return found
 
@@ -86,19 +113,3 @@ def _along(force: Array, slope: Array, samples: float) -> Array:
     rise = force[begin + 1] - force[begin]
     bow = slope[begin] - rise, rise - slope[begin + 1]
     return force[begin] + part * (rise + (1.0 - part) * ((1.0 - part) * bow[0] + part * bow[1]))
-
-
-def _slopes(forces: Array) -> Array:
-    """The slopes (lanes, n) per sample of the cubic splines through forces without a knot beside either end."""
-    from scipy.interpolate import CubicSpline
-    from scipy.linalg import solve_banded
-
-    count = forces.shape[1]
-    if count < FEWEST:
-        return CubicSpline(np.arange(count), forces, axis=1)(np.arange(count), 1)
-    bands = np.ones((3, count))
-    bands[1, 1:-1], bands[0, 1], bands[2, -2] = 4.0, 2.0, 2.0
-    rise = np.diff(forces, axis=1)
-    ends = 2.5 * rise[:, [0, -1]] + 0.5 * rise[:, [1, -2]]
-    right = np.concatenate([ends[:, :1], 3.0 * (rise[:, 1:] + rise[:, :-1]), ends[:, 1:]], axis=1)
-    return solve_banded((1, 1), bands, right.T, overwrite_b=True, check_finite=False).T

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.model.network import Branch, Group, NetworkSpec
+from dashpot.model.network import Branch, Group, NetworkSpec, Value, branch_slots
 
 Array = NDArray[np.float64]
 
@@ -35,9 +36,9 @@ class Parts:
     members: tuple[Part, ...]
     owner: tuple[tuple[int, int] | None, ...]
 
-    def prepare(self, drive: Drive) -> list[Rows]:
-        """The part of the work that depends on the drive alone."""
-        return [part.network.prepare(drive) for part in self.members]
+    def prepare(self, motion: Drive | Excitation) -> list[Rows]:
+        """The part of the work that depends on the motion alone."""
+        return [part.network.prepare(motion) for part in self.members]
 
     def sensitivities(
         self, rows: Sequence[Rows], values: Array, which: Sequence[int], shifts: Array
@@ -85,4 +86,12 @@ def _make(branch: Branch) -> tuple[Hashable, ...]:
     # different laws may print the same kernel, as the drive is prepared outside: it does not tell them apart
     written = branch.characteristics().items()
     curves = ((key, curve.form, curve.at, len(curve.values)) for key, curve in written)
-    return (branch.element, *branch.values, *curves)
+    given = ((slot.path.removeprefix(branch.numbers), slot.value.setting, _dependence(slot.value))
+             for slot in branch_slots(branch) if slot.value.setting or slot.value.over)  # fmt: skip
+    return (branch.element, *branch.values, *curves, *given)
+
+
+def _dependence(value: Value) -> Hashable:
+    # settings are looked up by the first branch of a make for all of them
+    over = value.over
+    return over and (over.word, over.channel, over.way, over.at, len(over.numbers), value.sensible)

@@ -1,23 +1,90 @@
-"""Numbers of a network that a run gives by its settings."""
+"""Numbers of a network that a run gives by its settings, or that depend on them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.model.network import NetworkSpec
+from dashpot.data.excitation import mean_of
+from dashpot.model.network import NetworkSpec, Over, Slot
+from dashpot.text.problem import InputError, Place, Problem
 
 Array = NDArray[np.float64]
 
+STEEPEST = 50.0  # exponent of a rate over the settings, so that a search may try what it likes
+
 
 def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
-    """The lanes (lanes, slots) with the numbers that the run itself gives."""
-    given = {number: settings[slot.value.setting] for number, slot in enumerate(spec.slots())
+    """The lanes (lanes, slots) with the numbers that the run itself gives, and with those that depend on its settings.
+
+    A number over a setting that is not there stays what it is at the place where it is told.
+    """
+    slots = spec.slots()
+    given = {number: settings[slot.value.setting] for number, slot in enumerate(slots)
              if slot.value.setting in settings}  # fmt: skip
-    if not given:
+    moving = [(number, slot.value.over) for number, slot in enumerate(slots)
+              if slot.value.over and key_of(slot.value.over) in settings]  # fmt: skip
+    if not given and not moving:
         return lanes
     own = lanes.copy()
-    own[:, list(given)] = list(given.values())
+    if given:
+        own[:, list(given)] = list(given.values())
+    for number, over in moving:
+        # the numbers of a dependence stand behind the number that depends
+        inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
+        moved = _at(over, lanes[:, number], inner, settings[key_of(over)])
+        own[:, number] = np.clip(moved, *slots[number].value.sensible)
     return own
+
+
+def used_settings(spec: NetworkSpec, settings: Mapping[str, float], run: str = "") -> dict[str, float]:
+    """What a network needs of the settings of a run. Raises InputError for one on which a number depends and that is
+    not there.
+    """
+    problems = list(_missing(spec, settings, run))
+    if problems:
+        raise InputError(problems)
+    needed = {key for slot in spec.slots() for key in (slot.value.setting, slot.value.over and key_of(slot.value.over))}
+    return {key: value for key, value in settings.items() if key in needed}
+
+
+def key_of(over: Over) -> str:
+    """Under which name the settings of an excitation hold what a number depends on."""
+    return mean_of(over.word) if over.channel else over.word
+
+
+def require_settings(spec: NetworkSpec, runs: Mapping[str, Mapping[str, float]]) -> None:
+    """Raise InputError for all runs, by name, that lack a setting or a channel on which a number depends."""
+    problems = [problem for run, settings in runs.items() for problem in _missing(spec, settings, run)]
+    if problems:
+        raise InputError(problems)
+
+
+def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iterator[Problem]:
+    told: set[str] = set()
+    for slot in spec.slots():
+        over = slot.value.over
+        if over and key_of(over) not in settings and key_of(over) not in told:
+            told.add(key_of(over))
+            yield _problem(slot, over, run)
+
+
+def _problem(slot: Slot, over: Over, run: str) -> Problem:
+    what, how = ("channel", "channels") if over.channel else ("setting", "settings")
+    place = slot.value.node.place if slot.value.node else Place()
+    which = f"run '{run}'" if run else "the run"
+    return Problem(place, f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",
+                   f"add '{over.word}' to the {how} of the run in the dataset file, or leave the run out")  # fmt: skip
+
+
+def _at(over: Over, base: Array, numbers: Array, setting: float) -> Array:
+    """The number (lanes,) at a setting."""
+    if over.way == "slope":
+        return base + numbers[:, 0] * (setting - over.at[0])
+    if over.way == "rate":
+        return base * np.exp(np.clip(numbers[:, 0] * (setting - over.at[0]), -STEEPEST, STEEPEST))
+    # hats over the places: the outer ones go on as they are
+    weights = np.array([np.interp(setting, over.at, hat) for hat in np.eye(len(over.at))])
+    return base * (numbers @ weights)

@@ -31,7 +31,10 @@ class Build:
 
 def structure_of(topology: Topology) -> Hashable:
     """What the equations of a network with nodes depend on."""
-    joints = tuple((joint.name, joint.hold, joint.numbers, tuple(joint.masses)) for joint in topology.joints.values())
+    joints = tuple(
+        (joint.name, joint.hold, joint.numbers, tuple(joint.masses), joint.mounted)
+        for joint in topology.joints.values()
+    )
     edges = tuple((_structure(edge.branch), edge.lower, edge.upper, edge.offset) for edge in topology.edges)
     return joints, edges
 

@@ -21,7 +21,7 @@ from dashpot.kernel.layout import Shelf
 from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, write_equations
 from dashpot.kernel.native import Native, load_native
 from dashpot.kernel.scheme import PAIR, alternate
-from dashpot.kernel.settings import with_settings
+from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.structure import KEPT, Build, structure_of
 from dashpot.kernel.system_source import ARGUMENTS, UNBALANCED, UNSOLVED, SystemLayouts, print_system
 from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
@@ -104,6 +104,8 @@ class CompiledSystem(Compiled[SystemRows]):
         """The part of the work that depends on the excitation alone; ``pairs`` of coarse steps lie in a sample."""
         whole = Excitation.of_drive(motion) if isinstance(motion, Drive) else motion
         excitation = whole.at(self.outputs, self.topology.held("loaded"))
+        if whole is motion:
+            excitation = replace(excitation, settings=used_settings(self.spec, whole.settings, whole.name))
         return SystemRows(
             excitation,
             pairs,
@@ -136,6 +138,8 @@ class CompiledSystem(Compiled[SystemRows]):
             out[block.place] = answer[:, :, : block.count].transpose(2, 1, 0)
             error[block.place] = np.sqrt(miss[:, : block.count] / samples).T / 3.0
         force, motion = out[:, : len(driven)], out[:, len(driven) :]
+        for joint, inner in self.topology.mounts.items():
+            motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
         states = tuple(status_of(code, own) for code, own in zip(status, force, strict=True))
         return Solution(driven, unknown, force, motion, error, states)
 
@@ -233,7 +237,7 @@ class CompiledSystem(Compiled[SystemRows]):
         for joint in self.outputs:
             motion = excitation.motions[joint]
             place, speed = float(motion.displacement[0]), float(motion.velocity[0])
-            begin = dict(zip(MOVED, (place, place, speed, speed, 0.0), strict=True))
+            begin = dict(zip(MOVED, (place, place, speed, speed, float(motion.acceleration[0])), strict=True))
             seen |= {driven_symbol(joint, key): number for key, number in begin.items()}
         for joint in self.topology.held("loaded"):
             seen[driven_symbol(joint, "load")] = float(excitation.loads[joint][0])

@@ -89,6 +89,9 @@ def _shared_numbers(spec: NetworkSpec) -> Iterator[Problem]:
         if number is None or node is None:
             continue
         name, _, key = slot.path.partition("[")[0].rpartition(".")
+        if slot.of and name not in families:
+            name, _, inner = name.rpartition(".")
+            key = f"{inner}.{key}"
         home = f"{families.get(name, name)}.{key}"
         known, first = homes.setdefault(id(number), (home, node))
         if known != home or first is not node:

@@ -121,6 +121,10 @@ def _read_column(entry: Node, curve: Curve, reading: Reading, role: Role) -> lis
         values = [read_value(item, kind, reading) for item in entry.items]
     else:
         values = _read_whole_column(entry, kind, reading)
+    for value in values:
+        if value and value.over:
+            reading.complain(value.node.place if value.node else entry.place, "a knot of a table cannot depend on a "
+                             "setting", "write a constant or a polynomial, or give the branch a 'scale'")  # fmt: skip
     return [value.as_role(role) if value and role != "fixed" else value for value in values]
 
 

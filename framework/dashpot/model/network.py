@@ -19,6 +19,9 @@ Hold = Literal["driven", "loaded", "ground", "free"]
 
 END, GROUND = "", "ground"  # the nodes of a network that has only two ends
 MASSES = ("mass", "added_mass")
+# what a number may do over a setting: rise along a line, grow by an exponential, follow factors between places
+Way = Literal["slope", "rate", "factor"]
+WAYS_OVER: tuple[Way, ...] = ("slope", "rate", "factor")
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,8 @@ class Value:
 
     ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``setting``
     the setting by which a run may give the number itself, ``node`` where it stands. A ``known`` number is fixed, but
-    its interval is one to be allowed for: it was weighed or taken from a drawing.
+    its interval is one to be allowed for: it was weighed or taken from a drawing. With ``over`` it is another number
+    in each run, as a setting of the run says.
     """
 
     number: float
@@ -39,6 +43,7 @@ class Value:
     sensible: tuple[float, float] = (-math.inf, math.inf)
     setting: str = ""
     known: bool = False
+    over: Over | None = None
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -54,6 +59,29 @@ class Value:
     def as_role(self, role: Role) -> Value:
         """The same number in another role."""
         return replace(self, role=role)
+
+
+@dataclass(frozen=True)
+class Over:
+    """How a number b depends on a setting s, or on the mean of a channel over a run.
+
+    ``slope``: b + slope (s - at); ``rate``: b exp(rate (s - at)); ``factor``: b times a factor that goes along straight
+    lines between the places ``at`` and stays as it is outside of them. ``numbers`` are the slope, the rate or the
+    factors, fixed or to be found like all numbers. What comes out is kept inside the sensible range of b.
+    """
+
+    word: str
+    way: Way
+    at: tuple[float, ...]
+    numbers: tuple[Value, ...]
+    channel: bool = False
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """What stands behind the path of b in the paths of the numbers."""
+        if self.way != "factor":
+            return (f".{self.way}",)
+        return tuple(f".factor[{number}]" for number in range(len(self.numbers)))
 
 
 @dataclass(frozen=True)
@@ -116,13 +144,17 @@ class Group:
 
 @dataclass(frozen=True)
 class Joint:
-    """A node of the network; its motion counts upwards. ``shares`` is the node whose masses it has, if not its own."""
+    """A node of the network; its motion counts upwards. ``shares`` is the node whose masses it has, if not its own.
+
+    ``mounted`` is the driven node that carries it by a fixture that gives way, where there is one.
+    """
 
     name: str
     hold: Hold
     masses: Mapping[str, Value] = field(default_factory=dict)
     shares: str = ""
     place: Place = field(default_factory=Place, compare=False)
+    mounted: str | None = None
 
     @property
     def numbers(self) -> str:
@@ -146,10 +178,14 @@ class Ends:
 
 @dataclass(frozen=True)
 class Slot:
-    """One number of a network with the path by which everybody calls it, e.g. ``maxwell_1.stiffness``."""
+    """One number of a network with the path by which everybody calls it, e.g. ``maxwell_1.stiffness``.
+
+    ``of`` is the number that it changes over a setting, where it is a slope, a rate or a factor.
+    """
 
     path: str
     value: Value
+    of: Value | None = None
 
 
 @dataclass(frozen=True)
@@ -193,7 +229,8 @@ class NetworkSpec:
                   if ends.offset and not ends.shares]  # fmt: skip
         found += [Slot(f"{joint.name}.{key}", value) for joint in self.joints.values() if not joint.shares
                   for key, value in joint.masses.items()]  # fmt: skip
-        return (*found, *(Slot(f"measurement.{key}", value) for key, value in self.measurement.items()))
+        found += [Slot(f"measurement.{key}", value) for key, value in self.measurement.items()]
+        return tuple(each for slot in found for each in (slot, *over_slots(slot)))
 
     def with_values(self, values: Mapping[str, Value]) -> NetworkSpec:
         """The same network with the values of some slots replaced, by path. KeyError for a path that it has not."""
@@ -203,7 +240,7 @@ class NetworkSpec:
         return replace(
             self,
             root=_regroup(self.root, lambda branch: _revalue(branch, values)),
-            measurement={key: values.get(f"measurement.{key}", value) for key, value in self.measurement.items()},
+            measurement={key: _renewed(f"measurement.{key}", value, values) for key, value in self.measurement.items()},
             joints={name: _reweigh(joint, values) for name, joint in self.joints.items()},
             ends={name: _replace_offset(name, ends, values) for name, ends in self.ends.items()},
         )
@@ -237,8 +274,19 @@ class NetworkSpec:
         return {path: curve for path, curve in self.curves().items() if curve.data}
 
 
+def over_slots(slot: Slot) -> Iterator[Slot]:
+    """The numbers by which the number of a slot depends on a setting."""
+    over = slot.value.over
+    if over:
+        for ending, value in zip(over.endings, over.numbers, strict=True):
+            yield Slot(slot.path + ending, value, slot.value)
+
+
 def branch_slots(branch: Branch) -> Iterator[Slot]:
-    """The numbers of one branch, in the order of its declaration; those of a twin have the paths of its model."""
+    """The numbers of one branch, in the order of its declaration; those of a twin have the paths of its model.
+
+    What they do over settings is left out.
+    """
     for key in (*branch.element.declares.curves, *branch.element.declares.parameters):
         if key in branch.curves:
             yield from _curve_slots(f"{branch.numbers}.{key}", branch.curves[key])
@@ -262,20 +310,33 @@ def _regroup(group: Group, change: Callable[[Branch], Branch]) -> Group:
 
 
 def _revalue(branch: Branch, values: Mapping[str, Value]) -> Branch:
-    plain = {key: values.get(f"{branch.numbers}.{key}", value) for key, value in branch.values.items()}
+    plain = {key: _renewed(f"{branch.numbers}.{key}", value, values) for key, value in branch.values.items()}
     curves = {key: _recurve(f"{branch.numbers}.{key}", curve, values) for key, curve in branch.curves.items()}
     scale = _recurve(f"{branch.numbers}.scale", branch.scale, values) if branch.scale else None
     return replace(branch, values=plain, curves=curves, scale=scale)
 
 
+def _renewed(path: str, value: Value, values: Mapping[str, Value]) -> Value:
+    # the number of a path, and its slope, rate or factors
+    found = values.get(path, value)
+    if found.over is None:
+        return found
+    inner = zip(found.over.endings, found.over.numbers, strict=True)
+    return replace(found, over=replace(found.over, numbers=tuple(values.get(path + end, number)
+                                                                 for end, number in inner)))  # fmt: skip
+
+
 def _reweigh(joint: Joint, values: Mapping[str, Value]) -> Joint:
-    return replace(joint, masses={k: values.get(f"{joint.numbers}.{k}", value) for k, value in joint.masses.items()})
+    return replace(joint, masses={k: _renewed(f"{joint.numbers}.{k}", value, values)
+                                  for k, value in joint.masses.items()})  # fmt: skip
 
 
 def _replace_offset(name: str, ends: Ends, values: Mapping[str, Value]) -> Ends:
-    return replace(ends, offset=values.get(f"{ends.shares or name}.offset", ends.offset)) if ends.offset else ends
+    if ends.offset is None:
+        return ends
+    return replace(ends, offset=_renewed(f"{ends.shares or name}.offset", ends.offset, values))
 
 
 def _recurve(path: str, curve: Characteristic, values: Mapping[str, Value]) -> Characteristic:
     paths = [slot.path for slot in _curve_slots(path, curve)]
-    return replace(curve, values=tuple(values.get(p, v) for p, v in zip(paths, curve.values, strict=True)))
+    return replace(curve, values=tuple(_renewed(p, v, values) for p, v in zip(paths, curve.values, strict=True)))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from dashpot.model.inserting import Edit, add_entry, apply_edits, end_of_line, is_flow, plain_or_quoted, replace_entry
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.written_out import write_out_uses
 from dashpot.text.document import Document
+from dashpot.text.inserting import Edit, add_entry, apply_edits, end_of_line, is_flow, plain_or_quoted, replace_entry
 from dashpot.text.node import Mapping as MappingNode
-from dashpot.text.node import Node
+from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import InputError, Place, nearest
 from dashpot.text.quantity import pretty
 
@@ -51,6 +51,39 @@ def add_to_branch(text: str, branch: str, lines: str) -> str:
     Raises InputError when there is no such branch, ValueError when it has that entry already.
     """
     document = Document.parse(text)
+    return add_entry(document, _branch_node(document, branch), lines)
+
+
+def make_dependent(text: str, branch: str, key: str, over: str) -> str:
+    """The text in which the number ``key`` of a branch depends on a setting: ``{over}`` is written with it.
+
+    A plain number becomes ``{fixed: ..., over: {...}}``. Raises InputError when there is no such number, ValueError for
+    one that depends on a setting already or is given in another way.
+    """
+    document = Document.parse(text)
+    home = _branch_node(document, branch)
+    if not _has(home, key):
+        raise InputError.at(home.place, f"the branch '{branch}' has no '{key}'", "`dashpot check` tells more")
+    node = _mapping(home).entries[key]
+    if isinstance(node, Scalar):
+        plain = document.text[node.start : node.end]
+        return apply_edits(text, [Edit(node.start, node.end, f"{{fixed: {plain}, over: {{{over}}}}}")])
+    if not (_has(node, "start") or _has(node, "value")) or _has(node, "over"):
+        raise ValueError(f"expected a number of '{branch}' without 'over', got {node.describe()}")
+    return add_entry(document, node, f"over: {{{over}}}")
+
+
+def replace_branch(text: str, branch: str, entry: str) -> str:
+    """The text with another branch, ``{element: ...}`` on one line, under the name of one that is there.
+
+    Raises InputError when there is no such branch.
+    """
+    document = Document.parse(text)
+    node = _branch_node(document, branch)
+    return apply_edits(text, [Edit(node.start, node.end, entry)])
+
+
+def _branch_node(document: Document, branch: str) -> Node:
     node: Node = document.root
     for name in branch.split("."):
         members = next((_mapping(node, key) for key in ("branches", "series", "parallel") if _has(node, key)), None)
@@ -58,7 +91,7 @@ def add_to_branch(text: str, branch: str, lines: str) -> str:
             hint = nearest(name, members.entries) if members else ""
             raise InputError.at(Place(document.file), f"the network has no branch '{branch}'", hint)
         node = members.entries[name]
-    return add_entry(document, node, lines)
+    return node
 
 
 def use_in_branch(text: str, branch: str, word: str) -> str:
@@ -74,9 +107,10 @@ def use_in_branch(text: str, branch: str, word: str) -> str:
 
 
 def add_measurement(text: str, key: str, entry: str) -> str:
-    """The text with ``key: entry`` (of ``delay``, ``gain``, ``offset``, ``least``) under ``measurement: force:``.
+    """The text with ``key: entry`` under ``measurement: force:``; an entry of that key is replaced.
 
-    An entry of that key is replaced.
+    The key is one of ``gain``, ``offset``, ``delay``, ``lag``, ``least``, ``largest``, ``compliance`` and ``hum``; the
+    entry of the last one is a mapping, ``{frequency: 50 Hz, cosine: {start: 1 N}, sine: {start: 0 N}}``.
     """
     document = Document.parse(text)
     if not _has(document.root, "measurement"):

@@ -12,9 +12,11 @@ from dashpot.model.element import Element
 from dashpot.model.joints import read_joints
 from dashpot.model.network import Group, NetworkSpec, Value
 from dashpot.model.shipped import find_network, find_used_network
+from dashpot.model.topology import COMPLIANCE
 from dashpot.model.values import Kind, Reading, read_value
 from dashpot.text.document import Document
 from dashpot.text.form import Form
+from dashpot.text.node import Mapping
 from dashpot.text.problem import InputError, Place, Problem
 
 FORMAT = "dashpot-network/1"
@@ -23,6 +25,12 @@ MEASUREMENT = {
     "force.gain": Kind("1", (0.2, 5.0), "linear"),
     "force.offset": Kind("N", (-1e6, 1e6), "linear"),
     "force.least": Kind("N", (-1e6, 1e6), "linear"),
+    "force.largest": Kind("N", (-1e9, 1e9), "linear"),
+    "force.lag": Kind("s", (0.0, 1e3), "linear"),
+    COMPLIANCE: Kind("m/N", (0.0, 1.0), "linear"),
+    "force.hum.frequency": Kind("Hz", (1e-3, 1e5), "linear"),
+    "force.hum.cosine": Kind("N", (-1e6, 1e6), "linear"),
+    "force.hum.sine": Kind("N", (-1e6, 1e6), "linear"),
 }
 
 Elements = MappingType[str, type[Element]]
@@ -75,18 +83,35 @@ def build_network(document: Document, elements: Elements, trail: tuple[Path, ...
 
 
 def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:
-    outer = form.form("measurement", default=None)
-    inner = outer.form("force", default=None) if outer else None
+    forms = {"": form.form("measurement", default=None)}
     found = {}
     for path, kind in MEASUREMENT.items():
-        node = inner.node(path.partition(".")[2]) if inner else None
+        inner, _, key = path.rpartition(".")
+        within = _form_at(inner, forms)
+        node = within.node(key) if within else None
         value = read_value(node, kind, Reading(f"measurement, {path}", problems)) if node else None
-        if value:
+        if value and value.over:
+            place = value.node.place if value.node else Place()
+            problems.append(Problem(place, f"measurement, {path}: a number of the load cell cannot depend on a setting",
+                                    "write the number alone"))  # fmt: skip
+        elif value:
             found[path] = value
-    for part in (outer, inner):
+    hum = forms.get("force.hum")
+    if hum and isinstance(hum.origin, Mapping) and "frequency" not in hum:
+        hum.complain(None, f"{hum.what} lacks 'frequency'", "add 'frequency: 50 Hz'")
+    for part in forms.values():
         if part:
             part.close()
     return found
+
+
+def _form_at(path: str, forms: dict[str, Form | None]) -> Form | None:
+    """The mapping at a path under ``measurement``, None where there is none; ``forms`` are those known so far."""
+    if path not in forms:
+        outer, _, key = path.rpartition(".")
+        above = _form_at(outer, forms)
+        forms[path] = above.form(key, default=None) if above else None
+    return forms[path]
 
 
 @dataclass(frozen=True)

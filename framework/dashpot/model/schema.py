@@ -50,7 +50,7 @@ def network_schema(elements: Mapping[str, type[Element]]) -> Schema:
 
 
 def _parts(elements: Mapping[str, type[Element]]) -> dict[str, Schema]:
-    parts = {"value": _value(), "single": _single(), "scale": _table(FACTOR)}
+    parts = {"value": _value(), "over": _over(), "single": _single(), "scale": _table(FACTOR)}
     for word, law in elements.items():
         for key, curve in law.declares.curves.items():
             parts[f"{word}.{key}"] = _curve(curve)
@@ -119,7 +119,8 @@ def _value() -> Schema:
     found = {"bounds": s.pair(s.quantity(), "where it is searched"),
              "scale": s.choice(get_args(Scale), "how it is searched"),
              "interval": {"anyOf": [s.pair(s.quantity()), s.items(s.pair(s.quantity()))],
-                          "description": "how well it is known"}}  # fmt: skip
+                          "description": "how well it is known"},
+             "over": s.part("over")}  # fmt: skip
     numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
     searched = s.mapping({"start": numbers, **found}, ("start",), "a number to be found")
     known = s.mapping({"value": numbers, **found}, ("value",), "a number found by an earlier fit")
@@ -129,8 +130,27 @@ def _value() -> Schema:
     measured = s.mapping({"known": s.quantity(), "interval": s.pair(s.quantity(), "its 95 % interval")},
                          ("known", "interval"), "a number known from elsewhere, not searched")  # fmt: skip
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
-    return s.by_key({"setting": given, "known": measured, "value": known, "start": searched},
+    fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a number that is not searched")
+    return s.by_key({"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
                     {"if": {"type": "object"}, "then": searched, "else": plain})  # fmt: skip
+
+
+def _over() -> Schema:
+    """What a number does over a setting or over the mean of a channel."""
+    words = {"setting": s.text("the setting of a run on which it depends"),
+             "channel": s.text("the channel on whose mean over the run it depends")}  # fmt: skip
+    place = {"at": s.quantity("", "where it is the number that is told")}
+    ways = {
+        "slope": s.mapping({**words, **place, "slope": s.part("value", "what it rises by per setting")},
+                           ("at", "slope"), "along a straight line"),
+        "rate": s.mapping({**words, **place, "rate": s.part("value", "rise of its logarithm per setting")},
+                          ("at", "rate"), "along an exponential"),
+    }  # fmt: skip
+    table = s.mapping({**words, "at": s.items(s.quantity(), "growing", minItems=2),
+                       "factor": s.items(s.part("value"), "one for each place", minItems=2)},
+                      ("at", "factor"), "by factors between places")  # fmt: skip
+    one = {"oneOf": [{"required": [word]} for word in words]}
+    return {"allOf": [s.by_key(ways, table), one]}
 
 
 def _single() -> Schema:
@@ -185,8 +205,10 @@ def _weight(key: str, kind: Kind) -> str:
 
 
 def _measurement() -> Schema:
-    sensed = {path.partition(".")[2]: s.part("value", s.in_unit("of the load cell", kind.unit))
-              for path, kind in MEASUREMENT.items()}  # fmt: skip
-    return s.mapping(
-        {"force": s.mapping(sensed)}, about="how the load cell sees the force: gain * force(time - delay) + offset"
-    )
+    keys = {path.partition(".")[2]: s.part("value", s.in_unit("of the load cell", kind.unit))
+            for path, kind in MEASUREMENT.items()}  # fmt: skip
+    sensed = {key: part for key, part in keys.items() if "." not in key}
+    hum = {key.partition(".")[2]: part for key, part in keys.items() if key.startswith("hum.")}
+    sensed["hum"] = s.mapping(hum, ("frequency",), "cosine * cos(2 pi f t) + sine * sin(2 pi f t), t: time of the run")
+    return s.mapping({"force": s.mapping(sensed)}, about="how the load cell shows the force: "
+                     "min(gain * smoothed(max(force, least))(time - delay) + offset + hum, largest)")  # fmt: skip

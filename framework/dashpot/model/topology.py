@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 
 from dashpot.model.network import END, GROUND, Branch, Ends, Group, Hold, Joint, NetworkSpec
 
+COMPLIANCE = "force.compliance"  # the key of a measurement under which the fixture gives way
+
 
 @dataclass(frozen=True)
 class Edge:
@@ -39,13 +41,42 @@ class Topology:
         """Whether every element sees the motion of the one driven node alone."""
         return not self.unknown and self.held("driven") == (END,)
 
+    @property
+    def mounts(self) -> dict[str, str]:
+        """The nodes that a fixture carries, by the driven node that it is fixed to."""
+        return {joint.mounted: name for name, joint in self.joints.items() if joint.mounted is not None}
+
     def edges_at(self, joint: str) -> tuple[Edge, ...]:
         """The edges that end at a node."""
         return tuple(edge for edge in self.edges if joint in (edge.lower, edge.upper))
 
 
-def topology_of(spec: NetworkSpec) -> Topology:
-    """The graph of a network. Nodes inside the series connection ``leg`` are called ``leg:1``, ``leg:2`` ..."""
+def topology_of(spec: NetworkSpec, fixture: bool = True) -> Topology:
+    """The graph of a network. Nodes inside the series connection ``leg`` are called ``leg:1``, ``leg:2`` ...
+
+    With a compliance of the ``fixture`` each driven node ``wheel`` moves the network by way of a free one,
+    ``wheel:mounted``, which also has its masses; no edge lies between the two.
+    """
+    topology = _rigid_topology(spec)
+    return _mounted(topology) if fixture and COMPLIANCE in spec.measurement else topology
+
+
+def _mounted(topology: Topology) -> Topology:
+    joints: dict[str, Joint] = {}
+    names: dict[str, str] = {}
+    for name, joint in topology.joints.items():
+        if joint.hold != "driven":
+            joints[name] = joint
+            continue
+        names[name] = inner = f"{name}:mounted"
+        joints[name] = replace(joint, masses={}, shares="")
+        joints[inner] = replace(joint, name=inner, hold="free", shares=joint.numbers, mounted=name)
+    edges = (replace(edge, lower=names.get(edge.lower, edge.lower), upper=names.get(edge.upper, edge.upper))
+             for edge in topology.edges)  # fmt: skip
+    return Topology(joints, tuple(edges))
+
+
+def _rigid_topology(spec: NetworkSpec) -> Topology:
     joints = dict(spec.joints) or {END: Joint(END, "driven"), GROUND: Joint(GROUND, "ground")}
     edges: list[Edge] = []
     for member in spec.root.members:

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from dashpot.model.element import Parameter, Scale
-from dashpot.model.network import Role, Value
+from dashpot.model.network import Over, Role, Value
+from dashpot.model.over import read_over
 from dashpot.text.form import Form, read_items, read_quantity
 from dashpot.text.node import Mapping, Node, Sequence
 from dashpot.text.problem import Place, Problem
@@ -78,8 +79,9 @@ def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
     """A number: fixed (``220 N/mm``), free (``{start, bounds, scale}``) or identified (``{value, bounds, interval}``).
 
     With ``{setting: word, value: 0 kg}`` a run that has a setting of that word gives the number; one that is ``{known:
-    1.5 kg, interval: [1 kg, 2 kg]}`` is not searched, but its 95 % interval is allowed for. In a repeated branch a list
-    holds one number for each copy. None when there is no number to be had; every mistake is noted.
+    1.5 kg, interval: [1 kg, 2 kg]}`` is not searched, but its 95 % interval is allowed for. One that is free, found or
+    ``{fixed: 30 N}`` may depend on a setting, ``over: {...}``; see ``read_over``. In a repeated branch a list holds one
+    number for each copy. None when there is no number to be had; every mistake is noted.
     """
     if isinstance(node, Mapping):
         special = next((read for key, read in SPECIAL.items() if key in node.entries), _read_searched)
@@ -106,11 +108,12 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     bounds = form.take("bounds", lambda inner: _read_bounds(inner, kind), None)
     scale: Scale = "log" if form.choice("scale", ("log", "linear"), kind.scale) == "log" else "linear"
     interval = form.take("interval", lambda inner: _read_interval(_pick_pair(inner, reading), kind.unit), None)
+    over = _read_over(form, kind, reading)
     form.close()
     if number is None:
         return None
     role: Role = "identified" if key == "value" else "free"
-    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, node=node)
+    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, over=over, node=node)
     for complaint in _complaints(value):
         reading.complain(form.place_of(key), complaint)
     return value
@@ -142,7 +145,34 @@ def _read_known(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     return Value(number, kind.unit, scale=kind.scale, interval=interval, sensible=kind.bounds, known=True, node=node)
 
 
-SPECIAL = {"setting": _read_setting, "known": _read_known}
+def _read_fixed(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
+    form = reading.form(node)
+    number = form.take("fixed", lambda inner: read_quantity(reading.pick(inner), kind.unit))
+    over = _read_over(form, kind, reading)
+    if "over" not in form:
+        form.complain("fixed", f"{reading.what}: 'fixed' is for a number with 'over'", "write the number alone")
+    form.close()
+    if number is None:
+        return None
+    _refuse_outside(number, kind, form.place_of("fixed"), reading)
+    return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, over=over, node=node)
+
+
+def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
+    below = form.form("over", f"{reading.what}, 'over'", None)
+    if below is None:
+        return None
+
+    def read(node: Node, unit: str, bounds: tuple[float, float], scale: Scale, name: str) -> Value | None:
+        value = read_value(node, Kind(unit, bounds, scale), reading.named(f"{reading.what}, {name}"))
+        if value and (value.over or value.setting):
+            reading.complain(node.place, f"the {name} cannot depend on a setting itself", "write a number")
+        return value
+
+    return read_over(below, kind.unit, read)
+
+
+SPECIAL = {"setting": _read_setting, "known": _read_known, "fixed": _read_fixed}
 
 
 def _pick_pair(node: Node, reading: Reading) -> Node:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from dashpot.model.inserting import Edit, apply_edits, flow_text, indented, is_flow, plain_or_quoted
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import build_network
 from dashpot.model.shipped import SUFFIXES, find_used_network
 from dashpot.text.document import Document
+from dashpot.text.inserting import Edit, apply_edits, flow_text, indented, is_flow, plain_or_quoted
 from dashpot.text.node import Mapping, Node, Scalar
 
 GROUPS = ("branches", "series", "parallel")

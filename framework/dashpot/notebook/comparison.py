@@ -6,13 +6,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from dashpot.assess.compare import Comparison as PlainComparison
+from dashpot.compare.comparison import Comparison as PlainComparison
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.plots import PLOTS, interactive, plot
 from dashpot.report.comparison import comparison_headline, comparison_page
 from dashpot.report.figures import rmse_bars
-from dashpot.report.grids import comparison_grid, floor_value, runs_grid
+from dashpot.report.grids import comparison_grid, explainable_value, floor_value, runs_grid
 from dashpot.report.page import write_page
 from dashpot.report.schematic.svg import svg
 
@@ -38,7 +38,7 @@ class Comparison(PlainComparison):
         return comparison_headline(self.as_dict())
 
     def table(self) -> Listing:
-        """The errors of every network on training and held-out runs, next to the noise floor."""
+        """The errors of every network, next to the explainable error and the noise floor."""
         return Listing.of(comparison_grid(self.as_dict()))
 
     def runs(self) -> Listing:
@@ -54,7 +54,7 @@ class Comparison(PlainComparison):
         if what == "errors":
             content = self.as_dict()
             bars = [{"name": model["name"], **model["rmse"]} for model in content["models"] if model["rmse"]]
-            return interactive(rmse_bars(bars, floor_value(content)))
+            return interactive(rmse_bars(bars, floor_value(content), explainable_value(content)))
         return plot(what, self._evidence, ("errors", *PLOTS))
 
     def report(self, path: str | Path) -> Path:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dashpot.assess.signals import signal_evidence
+from dashpot.compare.signals import signal_evidence
 from dashpot.data.channel import unit_of_channel
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each

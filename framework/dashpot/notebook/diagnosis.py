@@ -7,8 +7,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from dashpot.assess.diagnosis import Diagnosis as PlainDiagnosis
 from dashpot.contract.registry import load_registry
+from dashpot.diagnose.diagnosis import Diagnosis as PlainDiagnosis
 from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing

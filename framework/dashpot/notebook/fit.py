@@ -6,7 +6,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from dashpot.assess.compare import Comparison as PlainComparison
+from dashpot.compare.comparison import Comparison as PlainComparison
 from dashpot.contract.registry import load_registry
 from dashpot.fit.api import prepare
 from dashpot.fit.result import FitResult

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from dashpot.assess.compare import compare as compare_networks
-from dashpot.assess.diagnose import diagnose as diagnose_network
+from dashpot.compare.comparison import compare as compare_networks
+from dashpot.compare.look import look as look_at
 from dashpot.contract.bench import find_bench
 from dashpot.contract.registry import Registry, load_registry
 from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.writing import dataset_files
+from dashpot.diagnose.diagnose import diagnose as diagnose_network
 from dashpot.fit.api import fit_network
 from dashpot.fit.result import FitResult
 from dashpot.fit.virtual_test import virtual_test
@@ -22,8 +23,10 @@ from dashpot.notebook.comparison import Comparison
 from dashpot.notebook.data import Data
 from dashpot.notebook.diagnosis import Diagnosis
 from dashpot.notebook.fit import Fit
+from dashpot.notebook.look import Look
 from dashpot.notebook.model import Model
 from dashpot.notebook.promoted import promoted
+from dashpot.triage.examine import examined
 
 if TYPE_CHECKING:
     import numpy as np
@@ -72,6 +75,17 @@ def load_dataset(path: str | Path, *, registry: Registry | None = None) -> Data:
     """
     readers = {word: reader() for word, reader in (registry or load_registry()).formats.items()}
     return promoted(Data, read_dataset(path, readers))
+
+
+def look(data: AnyData, *, seed: int = 0, registry: Registry | None = None) -> Look:
+    """Look at measured runs before any model: their shapes, the work of their cycles, repeats, what is explainable.
+
+    Examples:
+        >>> seen = dp.look(data)
+        >>> "Force over velocity at mid stroke" in seen.pictures
+        True
+    """
+    return promoted(Look, look_at(_data(data, registry), seed))
 
 
 def simulate(model: AnyModel, data: AnyData, *, refine: int = 1,
@@ -134,6 +148,8 @@ def fit(
 ) -> Fit:
     """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
 
+    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them.
+
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
     starts. InputError for a model that does not compile.
 
@@ -144,8 +160,9 @@ def fit(
         ...
     """
     found = registry or load_registry()
-    return _shown_fit(fit_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options,
-                                  seed=seed, jobs=jobs, registry=found))  # fmt: skip
+    sound = examined(_data(data, found))
+    return _shown_fit(fit_network(_model(model, found), sound, optimizer=optimizer, options=options, seed=seed,
+                                  jobs=jobs, registry=found))  # fmt: skip
 
 
 def compare(
@@ -167,7 +184,8 @@ def compare(
         True
     """
     found = registry or load_registry()
-    compared = compare_networks([_model(model, found) for model in models], _data(data, found), optimizer=optimizer,
+    sound = examined(_data(data, found))
+    compared = compare_networks([_model(model, found) for model in models], sound, optimizer=optimizer,
                                 options=options, seed=seed, jobs=jobs, registry=found)  # fmt: skip
     return promoted(Comparison, compared, fits=tuple(map(_shown_fit, compared.fits)))
 
@@ -181,13 +199,12 @@ def diagnose(
     seed: int = 0,
     jobs: int = 1,
     relevance: float = 1.5e-3,
-    most_looks: int = 24,
     registry: Registry | None = None,
 ) -> Diagnosis:
     """What a model gets wrong, the cause by name, the extended model, and what it gains on held-out runs.
 
-    Causes that make the training error smaller by less than the share ``relevance`` are not named; after ``most_looks``
-    looks at all suspects the search ends. InputError for a model that does not compile on these data.
+    Causes without which the training error grows by less than the share ``relevance`` are not named. InputError for a
+    model that does not compile on these data.
 
     Examples:
         >>> diagnosis = dp.diagnose("mount.yaml", data)
@@ -196,7 +213,7 @@ def diagnose(
     """
     found = registry or load_registry()
     made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options, seed=seed,
-                            jobs=jobs, registry=found, relevance=relevance, most_looks=most_looks)  # fmt: skip
+                            jobs=jobs, registry=found, relevance=relevance)  # fmt: skip
     return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
 
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from dashpot.assess.masses import mass_sentence, mass_warnings
 from dashpot.report import figures
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Part, Section
 from dashpot.report.readable import MISSING, number, quantity
+from dashpot.study.masses import mass_sentence, mass_warnings
 
 Json = Mapping[str, Any]
 

@@ -9,10 +9,18 @@ from typing import Any
 from dashpot.report import figures
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
-from dashpot.report.grids import comparison_grid, floor_origin, floor_value, parameters_grid, runs_grid
+from dashpot.report.grids import (
+    comparison_grid,
+    explainable_value,
+    floor_origin,
+    floor_value,
+    parameters_grid,
+    runs_grid,
+)
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Grid, KeyFigures, Notice, Page, Part, Picture, Section
 from dashpot.report.readable import number, quantity, shown_with_unit
+from dashpot.report.shapes import shape_figures
 
 Json = Mapping[str, Any]
 
@@ -22,7 +30,7 @@ FEW = 2  # models that a plot takes without becoming crowded
 def comparison_page(comparison: Json, evidence: Evidence) -> Page:
     """The report of a `dashpot-comparison/1`; in `evidence` the labels are the names of the models.
 
-    Used keys: `loops`, `residuals`, `dynamic_stiffness`, `harmonics`, `misfit_map`, `history`, `schematic`,
+    Used keys: `loops`, `residuals`, `shapes`, `dynamic_stiffness`, `harmonics`, `misfit_map`, `history`, `schematic`,
     `warnings`, `provenance`; see `Evidence` for shapes and units. Beyond the contract a parameter of a model may be
     `{"value", "unit"}`, and `status` other than "ok" is shown as it is.
     """
@@ -62,6 +70,7 @@ def _sections(comparison: Json, evidence: Evidence) -> Iterator[Section]:
     series = _first_shown(comparison)
     yield Section("Result", parts=list(_result(comparison, evidence)))
     yield Section("Over frequency and amplitude", parts=list(frequency_parts(evidence, series)))
+    yield Section("The shape of the force", parts=list(shape_parts(evidence, series)))
     yield Section("Over displacement and time", parts=list(signal_parts(evidence, series)))
     yield Section("The models", parts=list(_models(comparison, evidence)))
 
@@ -70,7 +79,7 @@ def _result(comparison: Json, evidence: Evidence) -> Iterator[Part]:
     yield _key_figures(comparison)
     yield comparison_grid(comparison)
     bars = [{"name": model["name"], **model["rmse"]} for model in comparison["models"] if model["rmse"]]
-    yield figures.rmse_bars(bars, floor_value(comparison))
+    yield figures.rmse_bars(bars, floor_value(comparison), explainable_value(comparison))
     yield from _filled(runs_grid(comparison))
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 
@@ -83,6 +92,12 @@ def frequency_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[
         yield figures.misfit_map(evidence["misfit_map"])
     if evidence.get("harmonics"):
         yield figures.harmonic_bars(evidence["harmonics"], series)
+
+
+def shape_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[Part]:
+    """What measured and simulated force look like without a model, where there are such curves."""
+    if "shapes" in evidence:
+        yield from shape_figures(evidence["shapes"], series)
 
 
 def signal_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[Part]:
@@ -117,6 +132,9 @@ def _key_figures(comparison: Json) -> KeyFigures:
     if best is not None:
         shown.append(("best model", best["name"], "", ""))
         shown.append(("its error", *shown_with_unit(_error(best), "N"), f"RMSE on {RUNS[_judged_on(best)]}"))
+    explainable = explainable_value(comparison)
+    if explainable is not None:
+        shown.append(("explainable", *shown_with_unit(explainable, "N"), "a general model of the past motion leaves"))
     if floor is not None:
         shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {comparison['noise_floor']['from']}"))
     return KeyFigures(shown)

@@ -7,7 +7,7 @@ from typing import Any
 
 from dashpot.report import figures
 from dashpot.report.colophon import colophon
-from dashpot.report.comparison import closeness, frequency_parts, signal_parts
+from dashpot.report.comparison import closeness, frequency_parts, shape_parts, signal_parts
 from dashpot.report.evidence import Evidence
 from dashpot.report.grids import floor_origin, floor_value, runs_grid
 from dashpot.report.headline import RUNS
@@ -30,6 +30,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
         Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
         Section("The numbers", _ending(fit), parts=tables),
         Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
+        Section("The shape of the force", parts=list(shape_parts(evidence))),
         Section("Over displacement and time", parts=list(signal_parts(evidence))),
         Section("The runs", parts=[runs_grid(comparison)]),
         Section("The model", parts=list(_model(fit, evidence))),

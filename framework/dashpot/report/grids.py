@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from dashpot.report.parts import Column, Grid
-from dashpot.report.readable import join, percent_interval, rig_unit, with_interval
+from dashpot.report.readable import join, number, percent_interval, rig_unit, with_interval
 
 Json = Mapping[str, Any]
 
@@ -21,14 +21,17 @@ UNIT = Column("unit", "unit")
 
 
 def comparison_grid(comparison: Json) -> Grid:
-    """Every model of a `dashpot-comparison/1` on training and held-out runs, next to the noise floor."""
+    """Every model of a `dashpot-comparison/1`, next to the explainable error and the noise floor."""
     floor = floor_value(comparison)
     rows = [_model_row(model, floor) for model in comparison["models"]]
+    if explainable_value(comparison) is not None:
+        rows.append(_explainable_row(comparison, floor))
     if floor is not None:
         rows.append({"name": "noise floor", "train": floor, "held_out": floor, "all": floor, "ratio": 1.0})
     columns = [Column("name", "model"), Column("free", "free parameters", "", 3), *ERROR_COLUMNS]
     used = [column for column in columns if any(row.get(column.key) is not None for row in rows)]
-    caption = " ".join(filter(None, [floor_origin(comparison), *_remarks(comparison["models"])]))
+    remarks = [floor_origin(comparison), explainable_origin(comparison), *_remarks(comparison["models"])]
+    caption = " ".join(filter(None, remarks))
     return Grid("Models against the measurement", used, rows, caption, "models.csv")
 
 
@@ -163,6 +166,36 @@ def floor_origin(result: Json) -> str:
         "residual": "The noise floor is estimated from the residual: there are no repeated runs.",
     }
     return origins.get((result.get("noise_floor") or {}).get("from") or "", "")
+
+
+def explainable_value(result: Json) -> float | None:
+    """The error in N that a general model leaves on runs that it did not see, None where there is none."""
+    told = result.get("explainable") or {}
+    return told.get("cross_validated") if told.get("held_out") is None else told["held_out"]
+
+
+def explainable_origin(result: Json) -> str:
+    """What the explainable error is and how far it can be trusted, in sentences; empty without one."""
+    told = result.get("explainable") or {}
+    if explainable_value(result) is None:
+        return f"No explainable error: {told['reason']}." if told.get("reason") else ""
+    kind = "ridge regression" + (" and boosted trees" if told.get("by") == "boosting" else "")
+    seen = (
+        ""
+        if told.get("held_out") is not None
+        else (
+            f"No run is held out: left out in turn, training runs are foretold to {number(told['cross_validated'])} N."
+        )
+    )
+    remarks = [f"Explainable is what a general model of the past motion leaves ({kind}).", seen]
+    return " ".join(filter(None, [*remarks, *(told.get("remarks") or ())]))
+
+
+def _explainable_row(comparison: Json, floor: float | None) -> dict[str, Any]:
+    told = comparison["explainable"]
+    errors = {key: told.get(key) for key in ("train", "held_out")}
+    ratio = errors["held_out"] / floor if errors["held_out"] is not None and floor else None
+    return {"name": "explainable", **errors, "ratio": ratio}
 
 
 def _model_row(model: Json, floor: float | None) -> dict[str, Any]:

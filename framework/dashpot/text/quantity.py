@@ -158,8 +158,13 @@ def base_unit(unit_text: str) -> str:
 
 def measure(quantity: str | float) -> float:
     """A quantity of any kind in SI base units: `3 bar` gives 300000. ValueError when it is none."""
+    return si(quantity, base_unit_of(quantity))
+
+
+def base_unit_of(quantity: str | float) -> str:
+    """The SI base unit of a quantity: `20 degC` gives `K^1`, a bare number `1`. ValueError for an unknown unit."""
     written = _NUMBER.sub("", quantity.strip(), count=1).strip() if isinstance(quantity, str) else ""
-    return si(quantity, base_unit("1" + written if written.startswith("/") else written) if written else "1")
+    return base_unit("1" + written if written.startswith("/") else written) if written else "1"
 
 
 @cache
@@ -201,6 +206,9 @@ def pretty(value: float, unit: str, digits: int = 4) -> str:
 
 @cache
 def _rig_units(unit: str) -> tuple[tuple[str, Decimal], ...]:
+    # what something does per setting: N/m per Pa is a length by its dimension only
+    if re.sub(r"\([^)]*\)", "", unit).count("/") > 1:
+        return ()
     dimension = _parse(unit).dimensionality
     for choice in _RIG_UNITS:
         pairs = [pair.split(" from ") for pair in choice.split(", ")]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
+from seeds import seed_of
 from unit.causes.test_promises import DAMPING, NETWORK, REGISTRY, VIEW
 
 from dashpot.kernel.eager import simulate_eagerly
@@ -14,7 +15,7 @@ RELAXING = NETWORK + f"  soft: {{element: maxwell, stiffness: {STIFFNESS:g} N/m,
 
 @pytest.fixture
 def rng():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = seed_of("test_preload")
     print(f"seed {seed}")
     return np.random.default_rng(seed)
 

@@ -5,7 +5,11 @@ import pytest
 
 from dashpot.contract.registry import load_registry
 from dashpot.data.drive import drive_from_samples
+from dashpot.fit.objective import Objective
+from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.network import compile_network
+from dashpot.kernel.settings import with_settings
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
 from dashpot.model.reading import parse_network
 
@@ -27,7 +31,7 @@ SIZES = {
     "s": 1e-4,
     "N*s^2/m^2": 1e3,
     "1": 1.0,
-    "m/N": 1e-9,
+    "m/N": 1e-6,
     "": 20.0,
 }
 
@@ -55,6 +59,9 @@ class SmallView:
     def step(self, run):
         return STEP
 
+    def settings(self, run):
+        return {"small": {"pressure": 2e5, "preload": 0.01}, "large": {"pressure": 3e5, "preload": 0.0}}[run]
+
     def force(self, run):
         return simulate_eagerly(self.network, self.drives[run])
 
@@ -79,6 +86,13 @@ def alone(law, entry):
     return NetworkSpec("alone", Group("", "parallel", (Branch("alone", law, values, curves),)))
 
 
+def observed(network, run):
+    """What the rig shows of a network (n,) N, its measurement chain included."""
+    drive = VIEW.drives[run]
+    objective = Objective(compile_network(network), [ScoredRun(run, "sweep", drive, np.zeros(SAMPLES), 0)])
+    return objective.forces(objective.network.start)[0][0]
+
+
 VIEW = SmallView()
 SUSPECTS = [
     pytest.param(suspect, id=f"{word}-{suspect.form}")
@@ -95,10 +109,11 @@ def test_columns_are_finite_and_one_for_each_place(suspect):
         assert np.isfinite(columns).all()
 
 
-@pytest.mark.parametrize("suspect", [p for p in SUSPECTS if not p.values[0].mends])
+@pytest.mark.parametrize("suspect", SUSPECTS)
 def test_the_cure_adds_what_the_columns_show(suspect):
     """The network with the patch less the one without, what its plain numbers would take up aside: to a fiftieth."""
-    size = SIZES[suspect.unit]
+    # a whole specimen on a spring answers in proportion only to a small compliance
+    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
     middle = len(suspect.grid) // 2
     atoms = [(size, suspect.grid[middle])]
     if suspect.joint:
@@ -109,36 +124,52 @@ def test_the_cure_adds_what_the_columns_show(suspect):
     extended = parse_network(suspect.extend(NETWORK, atoms), REGISTRY.elements)
     places = [suspect.grid.index(place) for _, place in atoms]
     for run in VIEW.runs:
-        added = simulate_eagerly(extended, VIEW.drives[run]) - VIEW.force(run)
-        if "force.least" in extended.measurement:
-            added = np.maximum(VIEW.force(run), 0.0) - VIEW.force(run)
-        elif extended.measurement:
-            added = -extended.measurement["force.delay"].number * np.gradient(VIEW.force(run), STEP, edge_order=2)
+        numbers = np.array([[slot.value.number for slot in extended.slots()]])
+        lanes = with_settings(extended, numbers, VIEW.settings(run))
+        if extended.measurement:
+            added = observed(extended, run) - observed(VIEW.network, run)
+        else:
+            added = simulate_eagerly(extended, VIEW.drives[run], lanes)[0] - VIEW.force(run)
         shown = np.array([strength for strength, _ in atoms]) @ np.atleast_2d(suspect.columns(VIEW, run))[places]
         # what a constant or the plain numbers of the network would take up does not count
         tangents = np.array([np.ones(SAMPLES), VIEW.displacement(run), VIEW.velocity(run)])
-        left = added - shown
+        # at the first sample no branch has a memory yet, and a filter of a fifth of the sample time swings in
+        first = 5 if extended.measurement else 1
+        left, shown, added, tangents = (added - shown)[first:], shown[first:], added[first:], tangents[:, first:]
         left = left - np.linalg.lstsq(tangents.T, left, rcond=None)[0] @ tangents
-        assert np.std(left) <= 0.02 * np.std(shown) + 1e-3 * np.std(added)
-
-
-@pytest.mark.parametrize("suspect", [p for p in SUSPECTS if p.values[0].mends])
-def test_a_mend_leaves_the_network_and_tells_its_strength(suspect):
-    assert suspect.extend(NETWORK, [(1.0, suspect.grid[0])]) == NETWORK
-    strengths = np.zeros(len(suspect.grid))
-    strengths[0] = 0.5
-    told = suspect.tell(strengths.tolist())
-    assert told
-    assert all(np.isfinite(value) for value, _ in told.values())
+        assert np.std(left) <= 0.02 * np.std(shown) + 1e-3 * np.std(added) + 1e-12
 
 
 def test_every_cause_word_of_the_contract_is_there():
     words = """relaxation friction amplitude_softening viscous_damping power_law_damping quadratic_damping
         asymmetric_damping preload_dependent_damping stiffness_curve end_stop lift_off clearance resonance
         load_dependent_friction velocity_dependent_friction softening bedding_in creep moving_mass delay gain offset
-        drift clipping fixture_compliance hum"""
+        drift clipping fixture_compliance hum valve compliant_damper gas_spring setting_dependence heating
+        fading_damping loose_mass"""
     assert set(words.split()) <= set(REGISTRY.causes)
 
 
 def test_whatever_is_confused_with_something_names_a_cause_that_exists():
     assert all(set(cause.confused_with) <= set(REGISTRY.causes) for cause in REGISTRY.causes.values())
+
+
+FAULTS = [
+    pytest.param(fault, id=f"{word}-{fault.form}")
+    for word, cause in sorted(REGISTRY.causes.items())
+    for fault in cause().channel_faults(VIEW)
+]
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_corrected_run_is_the_run_without_its_fault(fault):
+    shapes = np.atleast_2d(fault.shapes(VIEW, "large"))
+    strengths = 0.1 * np.linspace(1.0, 2.0, len(shapes)) * (1.0 if fault.unit == "1" else 30.0)
+    sound = VIEW.force("large")
+    found = fault.correct(strengths.tolist()).apply(sound + strengths @ shapes, STEP)
+    assert found == pytest.approx(sound, abs=1e-9 * np.abs(sound).max())
+
+
+def test_every_fault_of_the_contract_is_there():
+    # a sample time of 5 ms leaves lines of 50 and 60 Hz
+    known = {"gain-gain", "offset-offset", "drift-steady drift", "hum-50 Hz", "hum-60 Hz"}
+    assert {param.id for param in FAULTS} == known

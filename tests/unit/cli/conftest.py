@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from importlib import import_module
 from types import MappingProxyType, SimpleNamespace
 
 import pytest
@@ -67,6 +68,9 @@ class FakeResult:
 
     extended_name = "spring+more.yaml"
     extended_text = "name: extended\n"
+    fitted_name = "spring.yaml"
+    fitted_text = "name: fitted\n"
+    corrected_name = None
     identified_text = "name: identified\n"
     model = final = declared = fitted = NetworkSpec(
         "spring", Group("", "parallel", ()), document=Document.parse("a: 1")
@@ -130,10 +134,13 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
         "dashpot.model.reading": {"read_network": lambda name, elements: SimpleNamespace(name=name)},
         "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
         "dashpot.kernel.trace": {"trace_network": lambda network: ()},
+        "dashpot.triage.examine": {"examined": lambda dataset: dataset},
         "dashpot.fit.api": {"fit_network": work("fit")},
-        "dashpot.assess.compare": {"compare": work("compare"), "comparison_of": lambda fit: fit},
-        "dashpot.assess.diagnose": {"diagnose": work("diagnose")},
+        "dashpot.compare.comparison": {"compare": work("compare"), "comparison_of": lambda fit: fit},
+        "dashpot.diagnose.diagnose": {"diagnose": work("diagnose")},
     }
     for module, names in replaced.items():
         monkeypatch.setitem(sys.modules, module, SimpleNamespace(**names))
+    verb = import_module("dashpot.cli.diagnose")
+    monkeypatch.setattr(verb, "checked", lambda diagnosis, folder, registry: "check: as told")
     return asked

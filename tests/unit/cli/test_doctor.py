@@ -74,7 +74,7 @@ def test_an_extra_that_is_not_there_is_no_fault(registry):
     asked = [Requirement("h5py", ">=3.11", "matlab73"), Requirement("swarming", "", "swarm")]
     found = list(checkup.extras(asked, have({"h5py": "3.12"}), registry))
     assert states(found) == [("good", "extra 'matlab73'"), ("note", "extra 'swarm'")]
-    assert found[0].found == "reads MATLAB 7.3 files"
+    assert found[0].found == "reads MATLAB 7.3 and HDF5 files"
     assert found[1].found == "gives the optimizer 'swarm'; not installed: swarming"
     assert found[1].advice == "pip install 'dashpot[swarm]'"
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-README = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
-FORMATS = dict(re.findall(r"^\| `(\w+)` \| `(dashpot-[\w-]+/1)` \|", README, flags=re.MULTILINE))
+PAGE = (Path(__file__).parents[3] / "docs" / "reference" / "command-line.md").read_text(encoding="utf-8")
+FORMATS = dict(re.findall(r"^\| `(\w+)` \| `(dashpot-[\w-]+/1)` \|", PAGE, flags=re.MULTILINE))
 
 KEYS = {
     "list elements": {"elements"},

@@ -12,6 +12,8 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
+from architecture.source import manual
+from seeds import seed_of
 
 from dashpot.cli.schema import KINDS
 from dashpot.contract.bench import read_bench
@@ -26,7 +28,7 @@ from dashpot.model.shipped import spec_folder
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError, Problem
 
-README = (Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8")
+MANUAL = manual()
 REGISTRY = load_registry()
 VALIDATORS = {kind: jsonschema.Draft7Validator(make(REGISTRY)) for kind, make in KINDS.items()}
 STUDY = spec_folder() / "studies"
@@ -63,7 +65,7 @@ def shipped() -> Iterator[Any]:
 
 
 def documented() -> Iterator[Any]:
-    for block in re.findall(r"```yaml\n(.*?)```", README, re.DOTALL):
+    for block in re.findall(r"```yaml\n(.*?)```", MANUAL, re.DOTALL):
         content = Document.parse(block).root.plain()
         if isinstance(content, dict) and "format" in content and content.get("name") != "wrong":
             kind = re.fullmatch(r"dashpot-(\w+)/1", content["format"])[1]
@@ -93,7 +95,7 @@ def test_every_shipped_and_every_documented_file_is_valid(kind, content):
 
 
 def test_a_file_with_mistakes_is_not():
-    [wrong] = [block for block in re.findall(r"```yaml\n(.*?)```", README, re.DOTALL) if "name: wrong\n" in block]
+    [wrong] = [block for block in re.findall(r"```yaml\n(.*?)```", MANUAL, re.DOTALL) if "name: wrong\n" in block]
     told = [error.message for error in VALIDATORS["network"].iter_errors(Document.parse(wrong).root.plain())]
     assert any("'sprng' is not one of" in message for message in told)
     assert any("'stifness' was unexpected" in message for message in told)
@@ -139,7 +141,7 @@ def mutations(content: dict, rng: np.random.Generator, count: int) -> Iterator[t
 
 @every_file
 def test_reader_and_schema_agree_about_mutated_files(kind, content):
-    seed = int(np.random.SeedSequence().entropy % 2**32)
+    seed = seed_of("test_schema")
     print(f"seed {seed}")
     for what, changed in mutations(content, np.random.default_rng(seed), 12):
         problems = [problem for problem in problems_of(kind, changed) if problem.severity == "error"]

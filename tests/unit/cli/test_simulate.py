@@ -18,6 +18,7 @@ class Stream:
 
     problems = ("run 'four' is set aside",)
     names = NAMES
+    conditions = dict.fromkeys(NAMES, {})
 
     def __iter__(self):
         return iter(SimpleNamespace(name=name, time=np.array([0.0, 0.1]), channels=CHANNELS) for name in NAMES)
@@ -38,6 +39,8 @@ def bench(monkeypatch, layers):
         solve_each=solve_each, forces_by_name=lambda found: {name: each.force[""] for name, each in found.items()}
     )
     monkeypatch.setitem(sys.modules, "dashpot.kernel.api", api)
+    settings = SimpleNamespace(require_settings=lambda spec, runs: None)
+    monkeypatch.setitem(sys.modules, "dashpot.kernel.settings", settings)
 
 
 def test_each_run_becomes_a_csv_file(call, tmp_path):

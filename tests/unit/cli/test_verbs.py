@@ -15,7 +15,7 @@ VERBS = {
     ),
     "diagnose": (
         ["diagnose", "spring", "bench.yaml"],
-        {"diagnosis.json", "spring+more.yaml", "report.html"},
+        {"diagnosis.json", "spring.yaml", "spring+more.yaml", "report.html"},
     ),
 }
 every_verb = pytest.mark.parametrize("arguments, files", VERBS.values(), ids=VERBS)
@@ -80,19 +80,24 @@ def test_a_comparison_keeps_the_order_of_the_networks(call, layers, tmp_path):
     assert [network.name for network in layers[0]["subject"]] == ["b", "c", "a"]
 
 
-def test_a_diagnosis_without_an_extension_writes_no_network(call, layers, fake_result, tmp_path, monkeypatch):
+def test_a_diagnosis_without_an_extension_writes_one_network(call, layers, fake_result, tmp_path, monkeypatch):
     monkeypatch.setattr(fake_result, "extended_text", None)
     assert call("diagnose", "spring", "bench.yaml", "-o", tmp_path)[0] == 0
-    assert {path.name for path in tmp_path.iterdir()} == {"diagnosis.json", "report.html"}
+    assert {path.name for path in tmp_path.iterdir()} == {"diagnosis.json", "spring.yaml", "report.html"}
 
 
 def test_ctrl_c_keeps_what_was_there_and_says_so(call, layers, tmp_path, monkeypatch):
     def interrupt(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["dashpot.assess.compare"], "compare", interrupt)
+    monkeypatch.setattr(sys.modules["dashpot.compare.comparison"], "compare", interrupt)
     (tmp_path / "mine.txt").write_text("kept")
     code, _, error = call("compare", "spring", "--data", "bench.yaml", "-o", tmp_path)
     assert code == 3
     assert error.endswith("interrupted; what was done is kept\n")
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_a_diagnosis_says_that_its_files_were_read_again(call, layers, tmp_path):
+    _, out, error = call("diagnose", "spring", "bench.yaml", "-o", tmp_path)
+    assert "check: as told" in out + error

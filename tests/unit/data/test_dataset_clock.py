@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from seeds import seed_of
 
 from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.text.problem import InputError
@@ -24,7 +25,7 @@ runs:
 
 @pytest.fixture
 def rng(request: pytest.FixtureRequest) -> np.random.Generator:
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = seed_of("test_dataset_clock")
     print(f"seed {seed}")
     return np.random.default_rng(seed)
 

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import CubicHermiteSpline
+from seeds import seed_of
 
 from dashpot.data.drive import drive_from_path, drive_from_samples, find_turns
 
@@ -69,7 +70,7 @@ def test_clean_samples_get_the_rates_of_a_spline():
 
 
 def test_noisy_samples_are_smoothed():
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_drive"))
     x = 2e-3 * np.sin(OMEGA * TIME)
     noisy = x + 1e-6 * rng.standard_normal(TIME.size)
     drive = drive_from_samples(DT, noisy)

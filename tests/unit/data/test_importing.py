@@ -12,6 +12,7 @@ from dashpot.data.importing.files import find_files, run_names
 from dashpot.data.importing.finding import find_all
 from dashpot.data.importing.imported import import_files
 from dashpot.data.importing.motion import find_motion
+from dashpot.data.importing.names import conditions_of
 from dashpot.data.importing.roles import named_roles
 from dashpot.data.importing.signs import find_signs
 from dashpot.data.importing.text import dataset_text, quoted
@@ -332,8 +333,139 @@ def read_dataset_of(folder, text, found):
 def test_the_text_tells_what_to_confirm(tmp_path):
     found = imported(tmp_path, {"a.tab": table(10 + chirp(1, 20), units=False), "b.tab": table(10 + chirp(1, 9))})
     text = dataset_text(found, tmp_path, "my rig")
-    assert text.startswith("# A first dataset, written by `dashpot import`. Confirm before you trust a result:\n# - ")
+    assert text.startswith(
+        "# A first dataset, written by `dashpot import`. Confirm before you trust a result:\n# - CONFIRM "
+    )
     assert "displacement: {column: x, unit: mm}   # CONFIRM: the unit, which is not stated" in text
-    assert "# - the force is taken to be in N: no unit is stated (a)" in text
+    assert "# - CONFIRM the force is taken to be in N: no unit is stated (a)" in text
     assert "time: {column: t, unit: s}   # CONFIRM: as told above" in text
     assert "settings: {amplitude: 1 mm, preload: 10 mm, start: " in text
+
+
+# --- pairs, conditions, rates --------------------------------------------------------------------------------------
+
+
+def friction(motion, limit=20.0, holder=4e4):
+    """Force in N of a slider of 20 N behind a spring, over a motion in mm: the return mapping of an elastic slider."""
+    x, force = motion * 1e-3, np.zeros(motion.size)
+    for number in range(1, x.size):
+        trial = force[number - 1] + holder * (x[number] - x[number - 1])
+        force[number] = min(max(trial, -limit), limit)
+    return force
+
+
+def record(motion, force):
+    """Time in s, motion in mm and force in N."""
+    return Table({"t": TIME, "x": motion, "F": force}, {"t": "s", "x": "mm", "F": "N"})
+
+
+def noisy(signal, seed, share=0.01):
+    return signal + share * np.std(signal) * np.random.default_rng(seed).standard_normal(signal.size)
+
+
+def channels(found, number=0):
+    return {name: (channel.role.column, channel.sign) for name, channel in found.runs[number].finding.channels.items()}
+
+
+def test_the_friction_force_is_told_from_the_normal_force(tmp_path):
+    """Both have a unit of force; only one is explained by the motion."""
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    normal = 50 + np.random.default_rng(3).standard_normal(TIME.size)
+    columns = {"t": TIME, "ch 1": normal, "ch 2": motion, "ch 3": noisy(friction(motion), 4)}
+    found = imported(tmp_path, {"a.tab": Table(columns, {"t": "s", "ch 1": "N", "ch 2": "mm", "ch 3": "N"})})
+    assert channels(found)["force"][0] == "ch 3"
+    assert not any("about as well" in remark for remark in found.confirm)
+
+
+def test_newtons_are_taken_and_not_their_volts(tmp_path):
+    """Two columns of one signal, without names: the larger numbers are the force, and that is to be confirmed."""
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    force = noisy(friction(motion), 5)
+    found = imported(
+        tmp_path, {"a.tab": Table({"1": TIME, "2": motion / 10, "3": force / 50, "4": motion, "5": force})}
+    )
+    assert {name: column for name, (column, _) in channels(found).items()} == {"displacement": "4", "force": "5"}
+    assert "CONFIRM: the column and the unit" in dataset_text(found, tmp_path, "rig")
+
+
+def test_columns_as_good_as_the_force_are_to_be_confirmed(tmp_path):
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    other = noisy(friction(motion, 18.0, 3e4), 7, 0.15)
+    found = imported(
+        tmp_path, {"a.tab": Table({"t": TIME, "x": motion, "1": noisy(friction(motion), 6, 0.1), "2": other})}
+    )
+    assert channels(found)["force"][0] == "1"
+    assert any("the motion explains '2' about as well as the force '1'" in remark for remark in found.confirm)
+    assert "force: {column: 1, unit: N}   # CONFIRM: the column" in dataset_text(found, tmp_path, "rig").replace(
+        '"', ""
+    )
+
+
+def test_a_force_that_goes_with_the_rate_is_no_velocity(tmp_path):
+    """The force of a damper beside three more columns: its numbers are not those of the rate of change."""
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    force, hum = noisy(37.0 * np.gradient(motion, STEP), 8, 0.02), noisy(np.sin(99 * TIME), 9)
+    table_of = {"1": TIME, "2": motion, "3": force, "4": hum}
+    assert channels(imported(tmp_path, {"a.tab": Table(table_of)}))["force"][0] == "3"
+
+
+def test_files_plugged_the_other_way_round_keep_their_own_columns(tmp_path):
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    force = noisy(friction(motion), 10)
+    ways = {"a.tab": (motion, force), "b.tab": (1.5 * motion, force), "c.tab": (force, motion)}
+    ways = {name: Table({"t": TIME, "CH0": first, "CH1": second}) for name, (first, second) in ways.items()}
+    found = imported(tmp_path, ways)
+    assert [channels(found, k)["force"][0] for k in range(3)] == ["CH1", "CH1", "CH0"]
+
+
+def test_a_run_with_the_force_turned_gets_its_own_sign_where_it_stands(tmp_path):
+    motions = {k: k * chirp(1, 9) for k in (1, 2, 3)}
+    forces = {k: (-1 if k == 2 else 1) * kelvin_voigt(motion, damping=3e3) for k, motion in motions.items()}
+    tables = {f"r{k}.tab": record(motions[k], forces[k]) for k in motions}
+    found = imported(tmp_path, tables)
+    assert [channels(found, k)["force"][1] for k in range(3)] == [1, -1, 1]
+    (about,) = [runs for remark, runs in found.confirm.items() if "sign is turned" in remark]
+    assert about == ("r2",)
+    text = dataset_text(found, tmp_path, "rig")
+    assert text.count("sign: -1") == 2 and text.index("name: r2") < text.index("sign: -1}") < text.index("name: r3")
+
+
+@pytest.mark.parametrize(("name", "stated"), [
+    ("25mm0x5Hz0x25A", {"current": "0.25 A"}),
+    ("bush_-20degC_2", {"temperature": "-20 degC"}),
+    ("seal 3bar", {"pressure": "3 bar"}),
+    ("O-ring257_1bar", {"pressure": "1 bar"}),
+    ("valve_2,5V", {"voltage": "2.5 V"}),
+    ("a1_p2_up", {}),
+    ("run12_1Hz_5mm", {}),
+    ("2Apr", {}),
+])  # fmt: skip
+def test_conditions_in_names(name, stated):
+    assert conditions_of(name) == stated
+
+
+def test_runs_under_other_conditions_are_no_repeats(tmp_path):
+    motion = 10 + chirp(1, 20)
+    tables = {f"bush_{t}degC.tab": record(motion, kelvin_voigt(motion, 1.0) + t * 1e-3) for t in (20, 40)}
+    found = imported(tmp_path, tables)
+    assert [run.repeats for run in found.runs] == [None, None]
+    text = dataset_text(found, tmp_path, "rig")
+    assert "temperature: 20 degC" in text and "temperature: 40 degC" in text
+    found = imported(tmp_path, {f"bush_{t}.tab": part for t, part in zip("ab", tables.values(), strict=True)})
+    assert [run.repeats for run in found.runs if run.name == "bush_b"] == ["bush_a"]
+
+
+def test_of_runs_at_other_rates_only_the_slowest_is_quasi_static(tmp_path):
+    """Two triangles each, of 64, 16 and 4 s."""
+    tables = {}
+    for rate in (1, 4, 16):
+        time = np.linspace(0.0, 128.0 / rate, 4000)
+        motion = 10.0 * np.abs((time * rate / 32.0) % 2.0 - 1.0)
+        tables[f"v{rate}.tab"] = Table({"t": time, "x": motion, "F": 200.0 * motion + 5.0 * np.gradient(motion, time)},
+                                       {"t": "s", "x": "mm", "F": "N"})  # fmt: skip
+    found = imported(tmp_path, tables)
+    assert {run.name: run.finding.kind for run in found.runs} == {
+        "v1": "quasi_static",
+        "v4": "transient",
+        "v16": "transient",
+    }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from seeds import seed_of
 from unit.fit.bench import kelvin_voigt, run
 
 from dashpot.fit.alike import moved_alike
@@ -15,7 +16,7 @@ def test_proportional_motions_are_alike_at_any_preload_and_in_either_sense():
 
 
 def test_noise_of_the_displacement_sensor_does_not_part_them():
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_alike"))
     runs = [run("one", 1e-3, 5.0, kelvin_voigt), run("two", 1e-3, 5.0, kelvin_voigt)]
     runs[1].drive.displacement[:] += 1e-5 * rng.standard_normal(runs[1].drive.samples)
     assert moved_alike(runs) == [[0, 1]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from unit.kernel.networks import network
 
 from dashpot.fit.coordinates import search_coordinates
@@ -26,7 +27,7 @@ TIRE = """
 
 @pytest.fixture
 def rng() -> np.random.Generator:
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = seed_of("test_dictionary")
     print(f"seed {seed}")
     return np.random.default_rng(seed)
 

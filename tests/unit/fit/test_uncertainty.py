@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, network, ready, runs
 
 from dashpot.fit.coordinates import search_coordinates
@@ -28,7 +29,7 @@ def assessed(branches, scored):
 
 
 def test_the_intervals_hold_the_truth_in_most_of_many_repeats():
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_uncertainty2"))
     hits = 0
     for _ in range(40):
         _, _, known = assessed(KELVIN_VOIGT, noisy(rng))
@@ -39,7 +40,7 @@ def test_the_intervals_hold_the_truth_in_most_of_many_repeats():
 
 
 def test_the_intervals_of_white_noise_are_those_of_linear_regression():
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_uncertainty3"))
     x = np.concatenate([each.drive.displacement for each in runs()])
     v = np.concatenate([each.drive.velocity for each in runs()])
     normal = np.array([[x @ x, x @ v], [x @ v, v @ v]])
@@ -50,7 +51,7 @@ def test_the_intervals_of_white_noise_are_those_of_linear_regression():
 
 
 def test_twice_the_noise_gives_twice_the_width():
-    seed = int(np.random.SeedSequence().generate_state(1)[0])
+    seed = seed_of("test_uncertainty")
     widths = []
     for spread in (NOISE, 2.0 * NOISE):
         _, _, known = assessed(KELVIN_VOIGT, noisy(np.random.default_rng(seed), spread))
@@ -63,7 +64,8 @@ def test_intervals_stay_inside_the_bounds_and_parameters_at_one_are_named():
         rubber: {element: spring, stiffness: {start: 1.1e5, bounds: [1e5, 1.5e5]}}
         oil: {element: damper, damping: {start: 1000, bounds: [1, 1e5]}}
     """)
-    objective, coordinates = Objective(compile_network(spec), noisy(np.random.default_rng())), search_coordinates(spec)
+    runs = noisy(np.random.default_rng(seed_of("test_uncertainty4")))
+    objective, coordinates = Objective(compile_network(spec), runs), search_coordinates(spec)
     found = refine(objective, coordinates, coordinates.start)
     known = assess_uncertainty(objective, coordinates, found.point)
     assert known.at_bound == ("rubber.stiffness",)
@@ -74,7 +76,7 @@ def test_a_parameter_that_the_data_do_not_feel_is_named_and_may_be_anything_in_i
     branches = KELVIN_VOIGT + (
         "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm, 92 mm], "
         "force: [0, 0, {start: 1, bounds: [0, 9]}]}}")  # fmt: skip
-    coordinates, _, known = assessed(branches, noisy(np.random.default_rng()))
+    coordinates, _, known = assessed(branches, noisy(np.random.default_rng(seed_of("test_uncertainty5"))))
     assert known.idle == ("far.stiffness[2]",)
     assert known.intervals[2] == (0.0, 9.0)
     low, high = known.intervals[0]
@@ -87,7 +89,7 @@ def test_two_parameters_that_make_up_for_each_other_are_not_known():
         oil: {element: damper, damping: {start: 100, bounds: [1, 1000]}}
         more: {element: damper, damping: {start: 300, bounds: [1, 2000]}}
     """
-    coordinates, point, known = assessed(branches, noisy(np.random.default_rng()))
+    coordinates, point, known = assessed(branches, noisy(np.random.default_rng(seed_of("test_uncertainty6"))))
     values = coordinates.to_values(point)[0]
     # the noise leaves the sum of both uncertain by 3 % (one standard deviation)
     assert values[1] + values[2] == pytest.approx(DAMPING, rel=0.2)
@@ -98,7 +100,7 @@ def test_two_parameters_that_make_up_for_each_other_are_not_known():
 
 
 def test_the_variance_of_a_mean_is_that_of_the_block_means():
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_uncertainty7"))
     blocks = [slice(k, k + 30) for k in range(0, 240, 30)]
     residual = rng.standard_normal(240)
     residual -= residual.mean()
@@ -135,7 +137,7 @@ class Unsolved(Objective):
 
 
 def at_a_wall(both: bool):
-    scored = noisy(np.random.default_rng())
+    scored = noisy(np.random.default_rng(seed_of("test_uncertainty8")))
     spec, plain, coordinates = ready(KELVIN_VOIGT, scored)
     walled = Unsolved(compile_network(spec), scored)
     walled.walls, walled.both = (int(coordinates.which[0]),), both
@@ -156,7 +158,7 @@ def test_the_interval_of_a_number_that_cannot_move_is_its_whole_range():
 
 
 def test_a_model_that_errs_has_wider_intervals_and_one_at_the_noise_has_not():
-    _, objective, coordinates = ready(KELVIN_VOIGT, noisy(np.random.default_rng()))
+    _, objective, coordinates = ready(KELVIN_VOIGT, noisy(np.random.default_rng(seed_of("test_uncertainty9"))))
     found = refine(objective, coordinates, coordinates.start)
     plain, right, wrong = (assess_uncertainty(objective, coordinates, found.point, noise=noise).widths
                            for noise in (None, 1.01 * found.loss, 0.5 * found.loss))  # fmt: skip

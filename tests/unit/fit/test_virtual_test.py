@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from unit.fit.bench import network
 
 from dashpot import load_registry
@@ -59,7 +60,7 @@ def test_noise_has_its_size_and_its_memory():
 
 
 def test_noise_without_memory_is_white():
-    noise = coloured_noise(np.random.default_rng(), 40000, 1e-3, 0.0)
+    noise = coloured_noise(np.random.default_rng(seed_of("test_virtual_test")), 40000, 1e-3, 0.0)
     assert abs(np.mean(noise[1:] * noise[:-1])) < 5.0 / np.sqrt(40000)
 
 

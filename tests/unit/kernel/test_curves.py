@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.interpolate import PchipInterpolator
+from seeds import seed_of
 from unit.kernel.networks import network
 
 from dashpot.kernel.curves import TableLaw, cubic_coefficients, segment_of
@@ -21,7 +22,7 @@ CURVE, FACTOR = SPEC.curves().values()
 
 
 def random_table(curve, lanes=6):
-    values = np.random.default_rng().uniform(-10.0, 10.0, (len(curve.at), lanes))
+    values = np.random.default_rng(seed_of("test_curves")).uniform(-10.0, 10.0, (len(curve.at), lanes))
     return values, TableLaw(curve, cubic_coefficients(curve, values))
 
 
@@ -29,7 +30,7 @@ def random_table(curve, lanes=6):
 def test_inside_its_knots_a_table_is_the_monotone_cubic(order):
     values, law = random_table(CURVE)
     cubic = PchipInterpolator(CURVE.at, values, axis=0)
-    for place in np.random.default_rng().uniform(CURVE.at[0], CURVE.at[-1], 50):
+    for place in np.random.default_rng(seed_of("test_curves2")).uniform(CURVE.at[0], CURVE.at[-1], 50):
         assert law(place, order) == pytest.approx(cubic(place, order), rel=1e-11, abs=1e-11)
 
 

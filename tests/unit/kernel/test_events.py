@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from unit.kernel.networks import network
 
 from dashpot.data.drive import Drive
@@ -102,7 +103,7 @@ def test_events_of_several_laws_do_not_mix(kind):
     compiled = compile_network(spec)
     assert sorted(compiled.program.corrections) == ["it|reach", "jolted|first", "jolted|second"]
     assert len(compiled.program.events) == 3
-    drive = random_drive(np.random.default_rng(), kind, 1.0, 1.0, 300)
+    drive = random_drive(np.random.default_rng(seed_of("test_events")), kind, 1.0, 1.0, 300)
     expected = simulate_eagerly(spec, drive)
     assert compiled.simulate(compiled.prepare(drive)) == pytest.approx(expected, abs=1e-12 * np.ptp(expected))
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from scipy.special import wrightomega
+from seeds import seed_of
 
 from dashpot.kernel import functions
 from dashpot.kernel.assembly import LANES, Assembly, Bundle
@@ -38,7 +39,7 @@ def mapped(function: Callable[..., Bundle], *arguments: np.ndarray) -> np.ndarra
     return out[:size]
 
 
-RNG = np.random.default_rng()
+RNG = np.random.default_rng(seed_of("test_functions"))
 WIDE = np.concatenate([RNG.uniform(-700.0, 700.0, 20_000), RNG.uniform(-1.0, 1.0, 20_000),
                        RNG.choice([-1.0, 1.0], 5000) * 10.0 ** RNG.uniform(-300.0, 2.0, 5000)])  # fmt: skip
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
+from seeds import seed_of
 
 from dashpot.kernel.observe import Observation, read_observation
 
@@ -86,7 +87,7 @@ def test_small_changes_of_a_force_that_is_not_shown_are_not_shown():
 
 @pytest.mark.parametrize("samples", [2, 3, 4, 5, 6, 400])
 def test_each_lane_is_shifted_along_its_own_cubic_spline(samples):
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_observe"))
     force, delay = rng.standard_normal((4, samples)).cumsum(axis=1), rng.uniform(-3e-3, 3e-3, 4)
     delay[2] = 0.0
     at = np.arange(samples)
@@ -97,3 +98,40 @@ def test_each_lane_is_shifted_along_its_own_cubic_spline(samples):
     assert seen == pytest.approx(np.array(expected), abs=1e-9 * np.abs(force).max())
     force[1, -1] = np.nan
     assert np.isnan(Observation(np.ones(4), np.zeros(4), delay).see(force, 1e-3)).any(axis=1).tolist() == [0, 1, 0, 0]
+
+
+def test_what_is_behind_a_low_pass_is_smaller_and_later():
+    lag, omega = 4e-3, 2.0 * np.pi * 12.0
+    seen = read_observation(("measurement.force.lag",), np.array([[lag]])).see(np.sin(omega * TIME)[None], DT)[0]
+    settled = TIME > 20 * lag
+    expected = np.sin(omega * TIME - np.arctan(omega * lag)) / np.hypot(1.0, omega * lag)
+    assert seen[settled] == pytest.approx(expected[settled], abs=2e-6)
+
+
+def test_nothing_above_the_range_is_shown_whatever_the_force_is():
+    paths = ("measurement.force.gain", "measurement.force.offset", "measurement.force.largest")
+    found = read_observation(paths, np.array([[2.0, 30.0, 90.0]]))
+    assert found.see(wave(TIME)[None], DT)[0] == pytest.approx(np.minimum(2.0 * wave(TIME) + 30.0, 90.0))
+    assert not found.plain
+
+
+def test_hum_is_added_by_the_time_of_the_run():
+    paths = tuple(f"measurement.force.hum.{key}" for key in ("frequency", "cosine", "sine"))
+    found = read_observation(paths, np.array([[50.0, 3.0, -4.0], [60.0, 0.0, 2.0]]))
+    force = np.stack([wave(TIME), wave(TIME)])
+    first = 3.0 * np.cos(100.0 * np.pi * TIME) - 4.0 * np.sin(100.0 * np.pi * TIME)
+    second = 2.0 * np.sin(120.0 * np.pi * TIME)
+    assert found.see(force, DT) - force == pytest.approx(np.stack([first, second]), abs=1e-11)
+
+
+def test_small_changes_go_through_the_whole_channel():
+    paths = tuple(f"measurement.force.{key}" for key in ("gain", "offset", "lag", "delay", "least", "largest"))
+    found = read_observation(paths, np.array([[1.7, 11.0, 6e-3, 2e-3, -60.0, 120.0]]))
+    change = np.cos(9.0 * TIME)[None]
+    step = 1e-4
+    forward, back = (found.see(wave(TIME)[None] + side * step * change, DT) for side in (0.5, -0.5))
+    linear = found.linear(wave(TIME), change, DT)
+    assert linear[0] == pytest.approx(found.see(wave(TIME)[None], DT)[0])
+    # at the two ends of its range a channel is not smooth
+    near = np.abs(linear[1] - (forward - back) / step)[0] < 1e-5
+    assert near.mean() > 0.97

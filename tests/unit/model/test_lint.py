@@ -187,6 +187,30 @@ def test_a_gain_of_the_load_cell_and_a_free_specimen():
         ["a.stiffness", "measurement.force.gain"]]  # fmt: skip
 
 
+FREE = "{a: {element: spring, stiffness: {start: 80 N/mm}}, b: {element: damper, damping: {start: 300 N*s/m}}}"
+
+
+def in_the_channel(branches: str, entry: str) -> list[Problem]:
+    text = f"format: dashpot-network/1\nname: n\nbranches: {branches}\nmeasurement: {{force: {{{entry}}}}}\n"
+    return list(find_weaknesses(parse_network(text, ELEMENTS)))
+
+
+@pytest.mark.parametrize("entry", [
+    "lag: {start: 3 ms}", "largest: {start: 3 kN}", "least: {start: 0 N}", "offset: {start: 3 N}",
+    "hum: {frequency: {start: 50 Hz}, cosine: {start: 1 N}, sine: {start: 0 N}}",
+])  # fmt: skip
+def test_a_channel_that_the_specimen_does_not_make_up_for(entry):
+    assert told(in_the_channel(FREE, entry)) == []
+
+
+def test_a_fixture_is_told_from_a_damped_specimen_but_not_from_a_spring():
+    entry = "compliance: {start: 1e-6 m/N, bounds: [0 m/N, 1e-5 m/N]}"
+    maxwell = "{a: {element: spring, stiffness: {start: 80 N/mm}}, b: {element: damper, damping: {start: 9 N*s/mm}}}"
+    assert told(in_the_channel(maxwell, entry)) == []
+    spring = "{a: {element: spring, stiffness: {start: 80 N/mm}}}"
+    assert confused(in_the_channel(spring, entry)) == [["a.stiffness", "measurement.force.compliance"]]
+
+
 @pytest.mark.parametrize("branches", [
     "{a: {element: damper, damping: {start: 5}}, b: {element: damper, damping: 9}}",
     "{a: {element: damper, damping: {start: 5}}, b: {element: quadratic_damper, damping: {start: 9}}}",

@@ -12,7 +12,15 @@ from unit.model.specimens import ELEMENTS, HEAD, network, numbers, written
 
 from dashpot import load_registry
 from dashpot.model.network import NetworkSpec, Value
-from dashpot.model.patch import add_branch, add_measurement, add_to_branch, fill_numbers, rename
+from dashpot.model.patch import (
+    add_branch,
+    add_measurement,
+    add_to_branch,
+    fill_numbers,
+    make_dependent,
+    rename,
+    replace_branch,
+)
 from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
 from dashpot.text.problem import InputError
@@ -321,6 +329,26 @@ def test_the_force_channel_gets_an_entry(before):
     assert ("gain: 1.1   # checked" in text) == ("# checked" in before)
 
 
+@pytest.mark.parametrize(
+    "before", ["", "measurement:\n  force:\n    gain: 1.1   # checked\n", "measurement: {force: {}}\n"]
+)
+@pytest.mark.parametrize(("key", "entry", "expected"), [
+    ("lag", "{start: 2 ms}", {"lag": 2e-3}),
+    ("largest", "1.5 kN", {"largest": 1500.0}),
+    ("compliance", "{start: 1e-8 m/N, bounds: [0 m/N, 1e-6 m/N]}", {"compliance": 1e-8}),
+    ("hum", "{frequency: 50 Hz, cosine: {start: 1 N}, sine: {start: -2 N}}",
+     {"hum.frequency": 50.0, "hum.cosine": 1.0, "hum.sine": -2.0}),
+])  # fmt: skip
+def test_the_force_channel_gets_any_entry_and_another_one_in_its_place(before, key, entry, expected):
+    text = add_measurement(BLOCK + before, key, entry)
+    gain = {"gain": 1.1} if "gain" in before else {}
+    paths = {f"measurement.force.{name}": number for name, number in (gain | expected).items()}
+    for again in (text, add_measurement(text, key, entry)):
+        found = {slot.path: slot.value.number for slot in read(again).slots() if slot.path.startswith("measurement")}
+        assert found == paths
+    assert comments(text) == comments(BLOCK + before)
+
+
 def test_a_json_text_gets_its_force_channel_too():
     assert "measurement.force.gain" in numbers(read(add_measurement(JSON, "gain", "{start: 1.0}")))
 
@@ -335,3 +363,35 @@ def test_a_renamed_network_says_so_at_its_head():
 def test_what_can_not_be_read_cannot_be_edited():
     with pytest.raises(InputError, match="expected a mapping, got a list of 0"):
         add_branch("branches: []\n", NEW)
+
+
+OVER = "setting: pressure, at: 2 bar, slope: {start: 1 N/mm/bar}"
+
+
+@pytest.mark.parametrize("text", [BLOCK, FLOW, JSON])
+def test_a_number_is_made_to_depend_on_a_setting(text):
+    spec = read(make_dependent(text, "rubber", "stiffness", OVER))
+    found = {slot.path: slot.value for slot in spec.slots()}
+    assert found["rubber.stiffness"].number == 220e3
+    assert found["rubber.stiffness"].over.word == "pressure"
+    assert found["rubber.stiffness.slope"].number == pytest.approx(0.01)
+    with pytest.raises(ValueError, match="without 'over'"):
+        make_dependent(make_dependent(text, "rubber", "stiffness", OVER), "rubber", "stiffness", OVER)
+
+
+def test_a_plain_number_that_depends_on_a_setting_stays_fixed():
+    spec = read(make_dependent(FLOW, "oil", "damping", "channel: current, at: 0 A, rate: {start: 1 /A}"))
+    found = {slot.path: slot.value for slot in spec.slots()}
+    assert not found["oil.damping"].searched
+    assert found["oil.damping.rate"].searched
+    with pytest.raises(InputError, match="no branch 'air'"):
+        make_dependent(FLOW, "air", "damping", OVER)
+    with pytest.raises(InputError, match="has no 'stiffness'"):
+        make_dependent(FLOW, "oil", "stiffness", OVER)
+
+
+@pytest.mark.parametrize("text", [BLOCK, FLOW])
+def test_a_branch_is_replaced_under_its_name(text):
+    spec = read(replace_branch(text, "oil", "{element: elastic, stiffness: 5 N/mm}"))
+    assert {slot.path: slot.value.number for slot in spec.slots()} == {"rubber.stiffness": 220e3, "oil.stiffness": 5e3}
+    assert ("# a guess" in replace_branch(text, "oil", "{element: elastic, stiffness: 5}")) == (text is BLOCK)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from seeds import seed_of
 
 from dashpot.model.element import Motion
 from dashpot.model.path import SERIES_BELOW, fading_travel
@@ -24,7 +25,7 @@ def remembered(x: Motion, dt: float, time: float) -> float:
 
 @pytest.mark.parametrize("ratio", [1e-9, 1e-3, 0.1, SERIES_BELOW * 0.999, SERIES_BELOW * 1.001, 2.0, 30.0, 1e3])
 def test_it_is_the_integral_of_the_fading_velocity_for_every_ratio_of_step_and_time(ratio):
-    rng = np.random.default_rng()
+    rng = np.random.default_rng(seed_of("test_path"))
     for _ in range(5):
         old, new = rng.uniform(-1e-3, 1e-3, 2)
         x = Motion(old, new, *rng.uniform(-1.0, 1.0, 2), np.nan)

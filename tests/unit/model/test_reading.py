@@ -200,6 +200,28 @@ def test_the_force_channel_has_delay_gain_and_offset():
     assert spec.measurement["force.delay"].searched
 
 
+@pytest.mark.parametrize(("entry", "message"), [
+    ("hum: {cosine: 3 N}", "'force', 'hum' lacks 'frequency'. add 'frequency: 50 Hz'"),
+    ("hum: {}", "lacks 'frequency'"),
+    ("hum: 50 Hz", "'hum' as 'key: value' lines, got the text '50 Hz'"),
+    ("hum: {frequency: 50 Hz, phase: 3}", "has no key 'phase'"),
+    ("hum: {frequency: 0 Hz}", "measurement, force.hum.frequency: expected 0.001 to 100000 Hz, got 0"),
+    ("hum: {frequency: 50 Hz, sine: 3 mm}", "measurement, force.hum.sine: expected a quantity in N, got 'mm'"),
+    ("lag: -1 ms", "measurement, force.lag: expected 0 to 1000 s, got -0.001"),
+    ("lag: {start: 1 ms, bounds: [-1 ms, 2 ms]}", "bounds inside 0 to 1000 s"),
+    ("largest: 3 mm", "measurement, force.largest: expected a quantity in N"),
+    ("compliance: -1e-8 m/N", "measurement, force.compliance: expected 0 to 1 m/N, got -1e-08"),
+    ("compliance: 5 N/mm", "measurement, force.compliance: expected a quantity in m/N"),
+    ("complaince: 0 m/N", "has no key 'complaince'. did you mean 'compliance'?"),
+])  # fmt: skip
+def test_what_is_wrong_with_the_force_channel_is_told(entry, message):
+    text = HEAD + "  it: {element: elastic, stiffness: 1e3}\nmeasurement:\n  force: {" + entry + "}\n"
+    with pytest.raises(InputError) as raised:
+        parse_network(text, ELEMENTS, "n.yaml")
+    assert message in str(raised.value)
+    assert len(raised.value.problems) == 1
+
+
 def test_all_mistakes_of_a_text_are_told_at_once_with_their_places():
     found = problems("""
         a:

@@ -128,6 +128,18 @@ def test_a_comparison_shows_the_table_of_errors(data):
     assert {trace.name for trace in found.plot().data} >= {"training runs"}
 
 
+def test_a_look_shows_its_runs_and_draws_every_picture(data, tmp_path):
+    seen = dp.look(data)
+    assert seen.headline in seen._repr_html_()
+    assert [row["run"] for row in seen.table().rows] == [run.name for run in data.runs]
+    assert list(seen.to_pandas()["run"]) == [run.name for run in data.runs]
+    for title in seen.pictures:
+        assert not [color for color in _colors(seen.plot(title).to_plotly_json()) if color.startswith("@")]
+    assert seen.report(tmp_path / "look.html").is_file()
+    with pytest.raises(ValueError, match="expected a picture out of Force over displacement"):
+        seen.plot("nothing")
+
+
 # --- plots ---------------------------------------------------------------------------------------------------------
 
 
@@ -175,6 +187,13 @@ def test_the_layer_fit_can_be_called_whoever_imported_it_first(first):
     program = f"import {first} as layer, dashpot; from inspect import signature; print(signature(dashpot.fit))"
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
     assert said.startswith("(model: 'AnyModel', data: 'AnyData'")
+
+
+@pytest.mark.parametrize("first", ["dashpot.compare.explainable", "dashpot.compare"])
+def test_the_layer_compare_can_be_called_whoever_imported_it_first(first):
+    program = f"import {first} as layer, dashpot; from inspect import signature; print(signature(dashpot.compare))"
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert said.startswith("(models: 'Sequence[AnyModel]', data: 'AnyData'")
 
 
 def test_without_pandas_the_way_out_is_told(monkeypatch, fit):

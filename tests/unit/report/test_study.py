@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from unit.report.report_samples import comparison, comparison_evidence
 
-from dashpot.assess.masses import identified_masses
 from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, wheels_grid
 from dashpot.report.page import render
 from dashpot.report.parts import Notice
 from dashpot.report.study import convergence, intervals_grid, stages_grid, study_page
+from dashpot.study.masses import identified_masses
 
 STAGE = {
     "name": "dynamics",

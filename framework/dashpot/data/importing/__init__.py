@@ -1,7 +1,8 @@
 """A first dataset file from measured files alone: what their names, units and numbers tell, and what they leave open.
 
-- `roles`: which column is which channel; `units`: in which unit; `timing`: the clock; `signs`: which way round
-- `motion`: the kind of a run and its settings; `rows`: the rows that can be used; `likeness`: runs that repeat others
-- `correlation`: how alike two signals are
+- `roles`: which column is which channel; `pairs`: which two of them are displacement and force
+- `units`: in which unit; `timing`: the clock; `signs`: which way round
+- `motion`: the kind of a run and its settings; `names`: what the names of files say about its conditions
+- `rows`: the rows that can be used; `likeness`: runs that repeat others; `correlation`: how alike two signals are
 - `finding`: all of that about one file; `files`: which files; `text`: the dataset file with its remarks
 """

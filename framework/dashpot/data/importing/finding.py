@@ -11,7 +11,7 @@ from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.importing.motion import Motion, find_motion
 from dashpot.data.importing.roles import GUESSED, Role, motion_roles, named_roles
 from dashpot.data.importing.rows import numeric, of_one_length, usable_rows
-from dashpot.data.importing.signs import find_signs
+from dashpot.data.importing.signs import falls, find_signs
 from dashpot.data.importing.timing import Timing, find_timing
 from dashpot.data.importing.units import GUESSED as GUESSED_UNIT
 from dashpot.data.importing.units import UnitFound, find_unit
@@ -19,6 +19,10 @@ from dashpot.data.table import Table
 from dashpot.text.quantity import factor
 
 NEEDED = ("displacement", "force")
+_FALLS = (
+    "the force falls where the deflection grows: either a mass outweighs the stiffness, or displacement and force are "
+    "taken for each other"
+)
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,8 @@ class Finding:
     """What a file holds.
 
     rows: first row and one past the last (from 0), None for all; columns: all of the file, in order; confirm: what a
-    person has to look at; signals: displacement and force (n,) in SI where both were found.
+    person has to look at; signals: displacement and force (n,) in SI where both were found; conditions: settings as
+    texts that the name of the file states.
     """
 
     timing: Timing
@@ -46,6 +51,7 @@ class Finding:
     columns: tuple[str, ...]
     confirm: tuple[str, ...]
     signals: Mapping[str, np.ndarray] = field(default_factory=dict)
+    conditions: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def unused(self) -> tuple[str, ...]:
@@ -62,11 +68,13 @@ class Finding:
 Agreed = Mapping[str, tuple[str, int]]
 
 
-def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None = None) -> Finding:
+def find_all(
+    table: Table, sampling: float | None = None, agreed: Agreed | None = None, known: Mapping[str, Role] | None = None
+) -> Finding:
     """What the columns of a file are, as far as names, units and numbers tell.
 
-    `sampling` in Hz overrules the file; `agreed` holds the unit and sign of channels that other files have told. The
-    file has to hold numbers.
+    `sampling` in Hz overrules the file; `agreed` holds the unit and sign of channels, `known` the columns of
+    displacement and force, that other files have told. The file has to hold numbers.
     """
     every = of_one_length({name: numeric(values) for name, values in table.columns.items()})
     columns = {name: values for name, values in every.items() if np.isfinite(values).mean() > 0.5}
@@ -74,7 +82,9 @@ def find_all(table: Table, sampling: float | None = None, agreed: Agreed | None 
     time = None if sampling else roles.pop("time", None)
     timing = find_timing(_filled(columns), table.units, sampling or table.sampling, time)
     others = {name: values for name, values in _filled(columns).items() if name != timing.column}
-    roles = motion_roles(_moving(others), {channel: role for channel, role in roles.items() if channel != "time"})
+    roles = {channel: role for channel, role in roles.items() if channel != "time"}
+    sure = known is not None and all(role.column in columns for role in known.values())
+    roles = {**roles, **(known or {})} if sure else motion_roles(_moving(others), roles, timing.step)
     chosen = _chosen(roles, columns)
     needed = [columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name is not None]
     rows = usable_rows(needed) if needed else (0, _length(columns))
@@ -142,9 +152,11 @@ def _finding(
     channels, signals, motion = dict(found), {}, Motion("transient", {})
     if all(name in found for name in NEEDED):
         raw = {name: _filled(columns)[found[name].role.column] for name in NEEDED}
-        first, second, why = find_signs(raw["displacement"], raw["force"])
-        signs = {"displacement": first, "force": second} if agreed is None else {n: found[n].sign for n in NEEDED}
+        common = None if agreed is None else (found["displacement"].sign, found["force"].sign)
+        first, second, why = find_signs(raw["displacement"], raw["force"], common)
+        signs = {"displacement": first, "force": second}
         confirm += [why] if why else []
+        confirm += [_FALLS] if falls(signs["displacement"] * raw["displacement"], signs["force"] * raw["force"]) else []
         channels |= {name: replace(found[name], sign=signs[name]) for name in NEEDED}
         signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
         motion = find_motion(signals["displacement"], timing.step or 1.0)
@@ -159,6 +171,9 @@ def _scale(channel: ChannelFound) -> float:
 def _doubts(channel: ChannelFound) -> list[str]:
     role, unit = channel.role, channel.unit
     doubts = [f"column '{role.column}' is taken for the {role.channel} by {role.by}"] if role.by == GUESSED else []
+    if role.rivals:
+        shown = ", ".join(f"'{name}'" for name in role.rivals[:6])
+        doubts.append(f"the motion explains {shown} about as well as the {role.channel} '{role.column}': which is it?")
     if unit.by == GUESSED_UNIT:
         doubts.append(f"the {role.channel} is taken to be in {unit.unit}: no unit is stated")
     return doubts

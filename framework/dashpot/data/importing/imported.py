@@ -11,9 +11,11 @@ import numpy as np
 
 from dashpot.data.checks import FEWEST_SAMPLES
 from dashpot.data.importing.files import find_files, run_names
-from dashpot.data.importing.finding import Agreed, Finding, find_all
+from dashpot.data.importing.finding import NEEDED, Agreed, Finding, find_all
 from dashpot.data.importing.likeness import find_repeats
-from dashpot.data.importing.roles import named_roles
+from dashpot.data.importing.names import stated_by_all
+from dashpot.data.importing.pairs import explained
+from dashpot.data.importing.roles import Role, named_roles
 from dashpot.data.importing.rows import numeric
 from dashpot.data.importing.timing import pieces
 from dashpot.data.importing.units import GUESSED
@@ -22,6 +24,8 @@ from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Unusable
 from dashpot.text.problem import InputError, Place, Problem
 
+# rates of tests are set apart by no less than this
+_OTHER_RATE = 2.0
 # a clock in more pieces than that is no clock
 _MOST_PIECES = 50
 
@@ -83,7 +87,7 @@ def import_files(
     for file, table in tables.items():
         for part in _parts(file, table, sampling):
             parts[f"{names[file]}_{part.number}" if part.count > 1 else names[file]] = part
-    findings = _agree(parts, sampling)
+    findings = _slow_ones(_with_conditions(_agree(_of_one_mind(parts, sampling), sampling), parts))
     repeats, copies = find_repeats(findings)
     runs = tuple(
         ImportedRun(name, part.file, word, findings[name], part.rows(findings[name]), repeats.get(name))
@@ -140,6 +144,78 @@ def _with_numbers(table: Table) -> Table:
     return table
 
 
+def _of_one_mind(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, _Part]:
+    """Files with the same columns have displacement and force in the columns that explain most of all their forces.
+
+    A file keeps its own if the common ones clearly do not fit it: its channels may have been plugged otherwise.
+    """
+    alike: dict[object, list[str]] = {}
+    for name, part in parts.items():
+        alike.setdefault((*part.table.columns,), []).append(name)
+    settled = dict(parts)
+    for names in alike.values():
+        told = {name: roles for name in names if len(roles := _roles(parts[name].finding)) == len(NEEDED)}
+        if len({_names_of(roles) for roles in told.values()}) <= 1:
+            continue
+        counts = Counter(map(_names_of, told.values()))
+        shares = {
+            _names_of(roles): np.mean([_share(parts[name].table, roles) for name in told]) for roles in told.values()
+        }
+        # to two digits: one signal in volts and in newtons is explained alike
+        usual = max(told.values(), key=lambda roles: (round(shares[_names_of(roles)], 2), counts[_names_of(roles)]))
+        for name, roles in told.items():
+            share = _share(parts[name].table, roles)
+            if _names_of(roles) != _names_of(usual) and _share(parts[name].table, usual) >= 2.0 * share - 1.0:
+                rivals = tuple({*roles[1].rivals, roles[1].column} - {usual[1].column})
+                known = {usual[0].channel: usual[0], usual[1].channel: replace(usual[1], rivals=rivals)}
+                settled[name] = replace(parts[name], finding=find_all(parts[name].table, sampling, None, known))
+    return settled
+
+
+def _names_of(roles: Sequence[Role]) -> tuple[str, ...]:
+    return tuple(role.column for role in roles)
+
+
+def _share(table: Table, roles: Sequence[Role]) -> float:
+    """The share of the force that the motion explains."""
+    motion, force = (numeric(table.columns[role.column]) for role in roles)
+    sound = np.isfinite(motion) & np.isfinite(force)
+    return explained(motion[sound], force[sound])
+
+
+def _roles(finding: Finding) -> list[Role]:
+    return [finding.channels[name].role for name in NEEDED if name in finding.channels]
+
+
+def _with_conditions(findings: Mapping[str, Finding], parts: Mapping[str, _Part]) -> dict[str, Finding]:
+    """With the conditions that the names of all files state."""
+    stated = stated_by_all(part.file.stem for part in parts.values())
+    remark = "settings that the names of the files state"
+    return {
+        name: replace(finding, conditions=told, confirm=(*finding.confirm, remark)) if told else finding
+        for name, finding in findings.items()
+        for told in [stated[parts[name].file.stem]]
+    }
+
+
+def _slow_ones(findings: Mapping[str, Finding]) -> dict[str, Finding]:
+    """Of runs at clearly different rates only the slowest are quasi-static; the rate matters in the others."""
+    rates = {name: _rate(finding) for name, finding in findings.items() if finding.kind == "quasi_static"}
+    slowest = min(rates.values(), default=0.0)
+    fast = {name for name, rate in rates.items() if rate > _OTHER_RATE * slowest}
+    remark = "the run is like slow ones but faster than the slowest: 'quasi_static' if its rate does not matter"
+    return {
+        name: replace(finding, kind="transient", confirm=(*finding.confirm, remark)) if name in fast else finding
+        for name, finding in findings.items()
+    }
+
+
+def _rate(finding: Finding) -> float:
+    """The mean speed over the stroke, in 1/s."""
+    x = finding.signals["displacement"]
+    return float(np.mean(np.abs(np.diff(x)))) / ((finding.timing.step or 1.0) * float(np.ptp(x)))
+
+
 def _agree(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, Finding]:
     """Runs with the same columns get the units and signs that most of them tell."""
     agreed = {name: part.finding for name, part in parts.items()}
@@ -150,7 +226,8 @@ def _agree(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, Find
         common = _most_common([agreed[name] for name in names])
         for name in names:
             if _told(agreed[name]) != common:
-                agreed[name] = find_all(parts[name].table, sampling, common)
+                known = {role.channel: role for role in _roles(agreed[name])}
+                agreed[name] = find_all(parts[name].table, sampling, common, known)
     return agreed
 
 

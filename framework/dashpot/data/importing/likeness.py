@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from dashpot.data.importing.finding import Finding
+from dashpot.data.importing.names import differ
 from dashpot.data.repeats import NotRepeatsError, compare_repeats
 
 # how much of the force two runs may not share: without a hint, and where their names say that one repeats the other
@@ -39,6 +40,8 @@ def _is_again(name: str, earlier: str) -> bool:
 
 
 def _comparable(first: Finding, second: Finding) -> bool:
+    if differ(first.conditions, second.conditions):
+        return False
     if first.kind != second.kind or not (first.signals and second.signals) or not first.timing.step:
         return False
     lengths = [finding.signals["force"].size for finding in (first, second)]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.importing.correlation import correlation
+from dashpot.data.importing.pairs import Pair, best_pair, is_like, is_like_any, likely_displacement
 from dashpot.text.quantity import factor
 
 # whole names, and parts of names, in English and German; letters count as written
@@ -25,7 +27,7 @@ _NAMES = {
 _PARTS = {
     "time": "time zeit elapsed runtime",
     "displacement": "displ deflec travel stroke position way weg hub dist lvdt einfeder auslenk deform laser stellung",
-    "force": "force kraft load last",
+    "force": "force kraft load last friction reib",
     "velocity": "veloc speed geschw",
     "acceleration": "accel beschl",
     "temperature": "temper",
@@ -36,30 +38,34 @@ _WANTED_PARTS = (
 )
 _COUNTER = re.compile(r"(sample|row|point|scan|data|meas\w*)?[ _]?(no|nr|num|number|numb|index|idx|count|#)\.?", re.I)
 
-# from this correlation on two columns are one signal
-_SAME = 0.9995
+# of more columns each pair would take too long
+_MOST_COLUMNS = 16
 
 SURE, LIKELY, GUESSED = "its name and unit", "its name", "how it moves"
 
 
 @dataclass(frozen=True)
 class Role:
-    """A channel, the column it was found in, and what told so."""
+    """A channel, the column it was found in, what told so, and other columns that it may be as well."""
 
     channel: str
     column: str
     by: str
+    rivals: tuple[str, ...] = ()
 
 
 def named_roles(columns: Sequence[str], units: Mapping[str, str]) -> dict[str, Role]:
-    """The best column for every channel, by name and unit; the first of several that are as good."""
+    """The best column for every channel, by name and unit; the first of several that are as good, its rivals."""
     found: dict[str, tuple[float, Role]] = {}
     for column in columns:
         unit = units.get(column) or (column if len(column) > 1 else "")
         for channel in CHANNEL_UNITS:
             score, by = _score(column, unit, channel)
-            if score > 0 and score > found.get(channel, (0.0, None))[0]:
+            best, role = found.get(channel, (0.0, None))
+            if score > best:
                 found[channel] = score, Role(channel, column, by)
+            elif role is not None and score == best:
+                found[channel] = score, replace(role, rivals=(*role.rivals, column))
     return {channel: role for channel, (_, role) in found.items()}
 
 
@@ -102,29 +108,67 @@ def is_counter(column: str) -> bool:
     return _COUNTER.fullmatch(column.strip()) is not None
 
 
-def motion_roles(columns: Mapping[str, np.ndarray], taken: Mapping[str, Role]) -> dict[str, Role]:
-    """Displacement and force among the columns that are left, by their numbers.
+def motion_roles(
+    columns: Mapping[str, np.ndarray], taken: Mapping[str, Role], step: float | None = None
+) -> dict[str, Role]:
+    """Displacement and force by their numbers: among columns with equally good names, else among those that are left.
 
     A column whose rate of change is another one is the displacement, the other its velocity; without such a pair the
-    smoothest one is. The force is what goes with the motion, and is not the motion itself once more.
+    one that tells another one without being told by it, else the smoothest. The force is what the motion explains best.
+    `step` in s is the time between two samples where it is known.
     """
+    found = dict(taken)
+    used = {role.column for channel, role in taken.items() if channel not in ("displacement", "force")}
+    if "displacement" not in found:
+        found |= _guessed_motion(columns, found, step)
+    if "displacement" not in found:
+        return found
+    moved = [columns[found[name].column] for name in ("displacement", "velocity") if name in found]
+    named = [name for name in _of(found, "displacement") if name in columns]
+    if "force" in found:
+        forces = [name for name in _of(found, "force") if name in columns]
+    else:
+        used |= {found[name].column for name in ("displacement", "velocity") if name in found}
+        left = [name for name, values in columns.items() if name not in used and np.ptp(values) > 0]
+        forces = [name for name in left if not is_like_any(columns[name], moved)]
+    pair = best_pair(columns, named, forces)
+    if pair is None:
+        return found
+    first = found["displacement"]
+    found["displacement"] = replace(first, column=pair.displacement, rivals=())
+    by = found["force"].by if "force" in found else GUESSED
+    found["force"] = _force_role(pair, by, {name: columns[name] for name in forces})
+    return found
+
+
+def _of(roles: Mapping[str, Role], channel: str) -> tuple[str, ...]:
+    return (roles[channel].column, *roles[channel].rivals)
+
+
+def _guessed_motion(
+    columns: Mapping[str, np.ndarray], taken: Mapping[str, Role], step: float | None
+) -> dict[str, Role]:
     used = {role.column for role in taken.values()}
     left = {name: values for name, values in columns.items() if name not in used and np.ptp(values) > 0}
-    found = dict(taken)
-    if "displacement" not in found and left:
-        # of two columns alone the second is the force: that of a damper goes with the rate, too
-        wanted = "velocity" not in found and ("force" in found or len(left) > 2)
-        pair = _rate_pair(left) if wanted else None
-        names = pair or (_largest_like(min(left, key=lambda name: _roughness(left[name])), left),)
-        for channel, name in zip(("displacement", "velocity"), names, strict=False):
-            found[channel] = Role(channel, name, GUESSED)
-    if "force" not in found and "displacement" in found:
-        moved = [columns[found[channel].column] for channel in ("displacement", "velocity") if channel in found]
-        used = {role.column for role in found.values()}
-        rest = {name: values for name, values in left.items() if name not in used and not _is_like_any(values, moved)}
-        if rest:
-            found["force"] = Role("force", _largest_like(_moved_along(rest, moved[0]), rest), GUESSED)
-    return found
+    if not left:
+        return {}
+    # of two columns alone the second is the force: that of a damper goes with the rate, too
+    wanted = "velocity" not in taken and ("force" in taken or len(left) > 2)
+    pair = _rate_pair(left, step) if wanted else None
+    if pair is None:
+        smoothest = min(left, key=lambda name: _roughness(left[name]))
+        likely = likely_displacement(left) if 1 < len(left) <= _MOST_COLUMNS and "force" not in taken else None
+        pair = (_largest_like(likely or smoothest, left),)
+    return {
+        channel: Role(channel, name, GUESSED) for channel, name in zip(("displacement", "velocity"), pair, strict=False)
+    }
+
+
+def _force_role(pair: Pair, by: str, forces: Mapping[str, np.ndarray]) -> Role:
+    """The force with its rivals; a column of the same signal in smaller numbers is none."""
+    best = _largest_like(pair.force, forces) if by == GUESSED else pair.force
+    rivals = tuple(name for name in pair.rivals if name != best and not is_like(forces[best], forces[name]))
+    return Role("force", best, by, rivals)
 
 
 def _roughness(values: np.ndarray) -> float:
@@ -132,35 +176,29 @@ def _roughness(values: np.ndarray) -> float:
     return float(np.std(np.diff(values, 2)) / np.std(values))
 
 
-def _moved_along(columns: Mapping[str, np.ndarray], motion: np.ndarray) -> str:
-    """The first column that the motion, its rate and its direction explain nearly as well as any other."""
-    rate = np.gradient(motion)
-    basis = np.stack([np.ones_like(motion), motion, rate, np.sign(rate)], axis=1)
-    explained = {}
-    for name, values in columns.items():
-        rest = values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0]
-        explained[name] = 1.0 - float(np.var(rest) / np.var(values))
-    best = max(explained.values())
-    return next(name for name, share in explained.items() if share >= best - 0.2 * abs(best))
-
-
 def _largest_like(name: str, columns: Mapping[str, np.ndarray]) -> str:
     """The same signal in the largest numbers: volts are mostly recorded beside what they stand for."""
-    like = [other for other, values in columns.items() if other == name or _is_like_any(values, [columns[name]])]
+    like = [other for other, values in columns.items() if other == name or is_like_any(values, [columns[name]])]
     return max(like, key=lambda other: float(np.ptp(columns[other])))
 
 
-def _is_like_any(values: np.ndarray, others: Sequence[np.ndarray]) -> bool:
-    return any(abs(correlation(values, other)) > _SAME for other in others)
+def _rate_pair(columns: Mapping[str, np.ndarray], step: float | None) -> tuple[str, ...] | None:
+    """Two columns of which the second is the rate of change of the first.
 
-
-def _rate_pair(columns: Mapping[str, np.ndarray]) -> tuple[str, str] | None:
-    """Two columns of which the second is the rate of change of the first."""
-    best, pair = 0.9, None
+    The force of a damper or of friction may go with the rate, too: so the sizes have to fit, if the sampling is known.
+    """
+    best: float = 0.9
+    pair: tuple[str, ...] | None = None
     for first, values in columns.items():
         rate = np.gradient(values)
         for second, other in columns.items():
             likeness = correlation(rate, other) if first != second else 0.0
-            if likeness > best:
+            if likeness > best and (step is None or _fits(float(np.std(other) / np.std(rate)) * step, likeness)):
                 best, pair = likeness, (first, second)
     return pair
+
+
+def _fits(ratio: float, likeness: float) -> bool:
+    """Whether a ratio is a power of 1000, as of mm/s to m, as far as the likeness of the signals leaves open."""
+    thousands = math.log(ratio) / math.log(1000.0)
+    return abs(thousands - round(thousands)) * math.log(1000.0) < -2.0 * math.log(min(likeness, 0.999))

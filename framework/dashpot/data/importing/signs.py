@@ -7,20 +7,36 @@ import numpy as np
 from dashpot.data.importing.correlation import correlation
 
 _CLEAR, _PRESSED = 0.1, 0.5
+_PULLS = "the force pulls nearly all the time: compression seems to count negative here"
+_WHY = {
+    (1, 1): "",
+    (1, -1): "the force points against the motion as if work were given back: its sign is turned",
+    (-1, -1): _PULLS,
+    (-1, 1): _PULLS,
+}
 
 
-def find_signs(displacement: np.ndarray, force: np.ndarray) -> tuple[int, int, str]:
+def find_signs(
+    displacement: np.ndarray, force: np.ndarray, common: tuple[int, int] | None = None
+) -> tuple[int, int, str]:
     """Signs of displacement and force, and why, where one of them is to be turned.
 
     Raw numbers of both (n,). The force goes with the velocity, as work is lost, else with the displacement. A force
-    that nearly always pulls is taken for one whose tension counts positive.
+    that nearly always pulls is taken for one whose tension counts positive. `common` are the signs of most runs: a run
+    that clearly loses work only with another one gets a sign of its own.
     """
     loss, slope = correlation(np.gradient(displacement), force), correlation(displacement, force)
     opposed = loss < 0 if abs(loss) > _CLEAR else slope < 0
     sign = -1 if opposed else 1
-    pulled = np.mean(sign * force) < -_PRESSED * np.max(np.abs(force))
-    if pulled:
-        return -1, -sign, "the force pulls nearly all the time: compression seems to count negative here"
-    if opposed:
-        return 1, -1, "the force points against the motion as if work were given back: its sign is turned"
-    return 1, 1, ""
+    if common is not None:
+        if sign != common[0] * common[1] and abs(loss) > _CLEAR:
+            return common[0], -common[1], "work would be given back, other than in most runs: the sign is turned here"
+        return *common, _WHY[common]
+    if np.mean(sign * force) < -_PRESSED * np.max(np.abs(force)):
+        return -1, -sign, _WHY[-1, -sign]
+    return (1, -1, _WHY[1, -1]) if opposed else (1, 1, "")
+
+
+def falls(displacement: np.ndarray, force: np.ndarray) -> bool:
+    """Whether a force (n,) that takes up work clearly falls with the deflection (n,); signs have been set."""
+    return correlation(displacement, force) < -_CLEAR and correlation(np.gradient(displacement), force) > _CLEAR

@@ -13,6 +13,7 @@ from dashpot.data.declaration import SETTING_UNITS
 from dashpot.data.description import FORMAT
 from dashpot.data.importing.finding import ChannelFound, Finding
 from dashpot.data.importing.imported import Imported, ImportedRun
+from dashpot.data.importing.roles import GUESSED as GUESSED_ROLE
 from dashpot.data.importing.units import GUESSED
 from dashpot.text.quantity import pretty
 
@@ -52,7 +53,7 @@ def _head(imported: Imported) -> Iterable[str]:
     yield "# A first dataset, written by `dashpot import`. Confirm before you trust a result:"
     count = len(imported.runs)
     for remark, names in imported.confirm.items():
-        yield f"# - {_one_line(remark)}{about_runs(names, count)}"
+        yield f"# - CONFIRM {_one_line(remark)}{about_runs(names, count)}"
 
 
 def about_runs(names: Iterable[str], count: int) -> str:
@@ -68,7 +69,7 @@ def _run_lines(run: ImportedRun, folder: Path, common: list[str]) -> list[str]:
     lines = [f"name: {quoted(run.name)}", f"file: {quoted(_relative(run.file, folder))}", f"kind: {finding.kind}"]
     lines += [f"reader: {run.reader}"] if run.reader else []
     lines += [f"repeats: {quoted(run.repeats)}"] if run.repeats else []
-    settings = told_settings(finding.settings)
+    settings = told_settings(finding.settings) | dict(finding.conditions)
     lines += [f"settings: {_flow(settings)}"] if settings and not run.repeats else []
     lines += [f"rows: [{run.rows[0]}, {run.rows[1]}]"] if run.rows else []
     channels = _channel_lines(finding)
@@ -112,7 +113,7 @@ def _channel(finding: Finding, found: ChannelFound) -> str:
 
 
 def _remark(found: ChannelFound) -> str:
-    doubts = ["the column"] if found.role.by == "how it moves" else []
+    doubts = ["the column"] if found.role.by == GUESSED_ROLE or found.role.rivals else []
     doubts += ["the unit, which is not stated"] if found.unit.by == GUESSED else []
     doubts += ["the sign"] if found.sign < 0 else []
     return f"   # CONFIRM: {' and '.join(doubts)}" if doubts else ""

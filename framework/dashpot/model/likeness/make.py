@@ -42,6 +42,7 @@ def make_of(branch: Branch, offset: Value | None, turned: bool) -> Make:
     """The make of a branch that lies as the file says, or turned round in a way that matters."""
     curves = branch.characteristics()
     searched = [key for key, value in branch.values.items() if value.searched]
+    searched += [f"{key}.{value.over.way} over {value.over.word}" for key, value in branch.values.items() if value.over]
     searched += [key for key, curve in curves.items() if curve.data or any(value.searched for value in curve.values)]
     return Make(
         branch.element.word,

@@ -68,7 +68,7 @@ class Reduced:
 
 def reduce_network(spec: NetworkSpec) -> Reduced:
     """The network with every massless free node between two parts taken into a series connection."""
-    topology = topology_of(spec)
+    topology = topology_of(spec, fixture=False)
     joints = dict(topology.joints)
     links = [(edge.lower, edge.upper, _edge(edge, spec)) for edge in topology.edges]
     loose = True

@@ -16,6 +16,8 @@ from dashpot.text.problem import Place, Problem
 FEWEST_TRIALS, TRIALS_PER_NUMBER = 48, 2
 STEP = 1e-4  # relative, of a difference quotient
 NONE, DEPENDENT, INVOLVED = 1e-6, 1e-5, 1e-3
+# the ends of a range, and what is there without any motion
+NOT_TRIED = tuple(f"measurement.force.{key}" for key in ("least", "largest", "hum."))
 SPREAD = 0.3  # of the numbers at which structure is judged
 
 
@@ -56,12 +58,14 @@ def find_equal_starts(topology: Topology) -> Iterator[Problem]:
 
 
 def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
-    """The numbers to be found; two for a curve that is to come from data."""
+    """The numbers to be found that show in a small motion; two for a curve that is to come from data."""
     curves = set(spec.data_curves())
     own = [slot for slot in spec.slots() if slot.path.partition("[")[0] not in curves]
     bent = [slot for branch in spec.leaves() if not branch.shares for slot in branch_slots(stand_in(branch))
             if slot.path.partition("[")[0] in curves]  # fmt: skip
-    return tuple(slot for slot in (*own, *bent) if slot.value.searched)
+    # what a number does over settings shows between runs only
+    return tuple(slot for slot in (*own, *bent)
+                 if slot.value.searched and slot.of is None and not slot.path.startswith(NOT_TRIED))  # fmt: skip
 
 
 def _numbers(spec: NetworkSpec) -> dict[str, float]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from dashpot.model.lint.law import Array, Law, Numbers
 from dashpot.model.lint.response import Answer, Trials, answer_of
 from dashpot.model.network import NetworkSpec
-from dashpot.model.topology import Topology
+from dashpot.model.topology import COMPLIANCE, Topology
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 FLOOR = 1e-3  # of the sizes that forces and motions have in a trial: what is less is rounding
@@ -115,7 +115,16 @@ class Outputs:
                                mean[:, driven, None]], axis=2)  # fmt: skip
         force = held + stiffness[:, driven][:, :, unknown] @ moved
         seen = [k for k, name in enumerate(self.topology.unknown) if name in self.spec.joints]
-        return self._through_the_cell(force, numbers, len(driven)), moved[:, seen]
+        felt, moved = self._on_the_fixture(force, moved, numbers)
+        return self._through_the_cell(felt, numbers, len(driven)), moved[:, seen]
+
+    def _on_the_fixture(self, force: Complex, moved: Complex, numbers: Numbers) -> tuple[Complex, Complex]:
+        """Forces and motions where each driven node moves the network by way of a fixture that gives way."""
+        compliance = numbers.get(f"measurement.{COMPLIANCE}", 0.0)
+        driven = force.shape[1]
+        give = np.linalg.inv(np.eye(driven) + compliance * force[:, :, :driven])
+        felt = give @ force
+        return felt, moved - compliance * moved[:, :, :driven] @ felt
 
     def _assembled(self, answers: Sequence[Answer], numbers: Numbers, names: list[str]) -> tuple[Complex, Complex]:
         omega = self.trials.omega
@@ -136,6 +145,8 @@ class Outputs:
     def _through_the_cell(self, force: Complex, numbers: Numbers, driven: int) -> Complex:
         cell = {key.partition(".")[2]: numbers[f"measurement.{key}"] for key in self.spec.measurement}
         seen = cell.get("gain", 1.0) * force
-        seen[:, :, :driven] *= np.exp(-1j * self.trials.omega * cell.get("delay", 0.0))[:, None, None]
+        turn = 1j * self.trials.omega
+        late = np.exp(-turn * cell.get("delay", 0.0)) / (1.0 + turn * cell.get("lag", 0.0))
+        seen[:, :, :driven] *= late[:, None, None]
         seen[:, :, -1] += cell.get("offset", 0.0)
         return seen

@@ -15,7 +15,7 @@ def find_weaknesses(spec: NetworkSpec) -> tuple[Problem, ...]:
 
     A curve that is to come from data is probed as a slightly bent line.
     """
-    topology = topology_of(spec)
+    topology = topology_of(spec, fixture=False)
     problems = [*find_loose_nodes(topology, spec)]
     if any(problem.severity == "error" for problem in problems):
         return in_text_order(problems)

@@ -5,14 +5,17 @@ Simulations come under a *label*: "before", "after", or the name of a model; a l
 
 from __future__ import annotations
 
+from dashpot.report.figures.conditions import over_conditions
 from dashpot.report.figures.contact import contact_response
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
 from dashpot.report.figures.loop import loops
 from dashpot.report.figures.misfit import misfit_map
+from dashpot.report.figures.residual_map import residual_map
 from dashpot.report.figures.residuals import residual_traces
 from dashpot.report.figures.rmse import rmse_bars
+from dashpot.report.figures.shapes import shape_figure
 from dashpot.report.figures.slow import slow_curves
 from dashpot.report.figures.steady import steady_stiffness, stiffness_figures
 from dashpot.report.figures.stiffness import dynamic_stiffness
@@ -26,8 +29,11 @@ __all__ = [
     "harmonic_bars",
     "loops",
     "misfit_map",
+    "over_conditions",
+    "residual_map",
     "residual_traces",
     "rmse_bars",
+    "shape_figure",
     "slow_curves",
     "steady_stiffness",
     "stiffness_figures",

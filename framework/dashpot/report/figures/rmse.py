@@ -1,4 +1,4 @@
-"""The error of each model next to the noise floor."""
+"""The error of each model next to the explainable error and the noise floor."""
 
 from __future__ import annotations
 
@@ -13,10 +13,13 @@ from dashpot.report.theme import axis, layout, plain
 PARTS = (("train", "training runs", "@train"), ("held_out", "held-out runs", "@held-out"))
 
 
-def rmse_bars(models: Sequence[Mapping[str, Any]], floor: float | None = None) -> Figure:
-    """RMSE of each model on training and held-out runs, with a line at the noise floor.
+def rmse_bars(
+    models: Sequence[Mapping[str, Any]], floor: float | None = None, explainable: float | None = None
+) -> Figure:
+    """RMSE of each model on training and held-out runs, with lines at the explainable error and the noise floor.
 
-    Each model: `name`, `train` and `held_out` in N (None where there are no such runs); `floor` in N.
+    Each model: `name`, `train` and `held_out` in N (None where there are no such runs); `floor` and
+    `explainable` in N.
     """
     table = TidyTable("model", *(_heading(title) for _, title, _ in PARTS))
     for model in models:
@@ -24,8 +27,11 @@ def rmse_bars(models: Sequence[Mapping[str, Any]], floor: float | None = None) -
     names = [plain(model["name"]) for model in models]
     traces = [_bars(names, title, color) for key, title, color in PARTS if _has(models, key)]
     if floor is not None:
-        traces.append(_floor(names, floor))
+        traces.append(_line("noise floor", floor, "dash"))
+    if explainable is not None:
+        traces.append(_line("explainable", explainable, "dot"))
     caption = "Root mean square of the force error." + ("" if floor is None else " No model can get below the noise.")
+    caption += "" if explainable is None else " Explainable: what a general model of the past motion leaves."
     return Figure("Error of the models", caption, {"data": traces, "layout": _layout(names)}, table.columns)
 
 
@@ -44,16 +50,16 @@ def _bars(names: Sequence[str], title: str, color: str) -> dict[str, Any]:
 
 
 # drawn from edge to edge on an axis of its own, so that it also crosses a single bar
-def _floor(names: Sequence[str], floor: float) -> dict[str, Any]:
+def _line(name: str, value: float, dash: str) -> dict[str, Any]:
     return {
         "type": "scatter",
         "mode": "lines",
-        "name": f"noise floor {number(floor)} N",
+        "name": f"{name} {number(value)} N",
         "x": [0.0, 1.0],
-        "y": [floor, floor],
+        "y": [value, value],
         "xaxis": "x2",
-        "line": {"color": "@ink", "dash": "dash", "width": 1.6},
-        "hovertemplate": "noise floor %{y:.2f} N<extra></extra>",
+        "line": {"color": "@ink", "dash": dash, "width": 1.6},
+        "hovertemplate": f"{name} %{{y:.2f}} N<extra></extra>",
     }
 
 

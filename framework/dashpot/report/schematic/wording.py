@@ -38,7 +38,8 @@ def joint_lines(joint: Joint) -> tuple[str, ...]:
 
 def measurement_lines(spec: NetworkSpec) -> tuple[str, ...]:
     """What the load cell does to the force."""
-    return tuple(equation(key.rpartition(".")[2], value) for key, value in spec.measurement.items())
+    named = {key.removeprefix("force.").replace(".", " "): value for key, value in spec.measurement.items()}
+    return tuple(equation(name, value) for name, value in named.items())
 
 
 def equation(sign: str, value: Value) -> str:

@@ -82,6 +82,7 @@ def test_an_unknown_study_gets_the_nearest_name():
         find_study("tire_lader")
 
 
-def test_the_study_of_the_readme_can_be_read():
-    [text] = re.findall(r"```yaml\n(format: dashpot-study/1\n.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+def test_the_study_of_the_reference_can_be_read():
+    page = ROOT / "docs" / "reference" / "study-file.md"
+    [text] = re.findall(r"```yaml\n(format: dashpot-study/1\n.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
     assert parse_study(Document.parse(text), ROOT, load_registry()).name == "my_ladder"

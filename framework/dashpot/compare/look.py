@@ -1,0 +1,137 @@
+"""A look at measured runs before any model: what they are, whether they take up work, what repeats differ by."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.compare.explainable import Explainable, explainable_error
+from dashpot.compare.shapes import shapes_of
+from dashpot.compare.strokes import Seen, cycle_values, see, work
+from dashpot.data.dataset import Dataset
+from dashpot.data.repeats import NotRepeatsError, compare_repeats
+from dashpot.fit.api import Setting, prepare
+from dashpot.fit.floor import false_repeats
+from dashpot.fit.result import floor_of
+
+Array = NDArray[np.float64]
+
+LINES = 400  # of a spectrum, evenly spaced over the logarithm of the frequency
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What was seen; ``seen`` are the runs with their motion, ``explainable`` what a general model leaves."""
+
+    setting: Setting
+    seen: tuple[Seen, ...]
+    explainable: Explainable
+    seed: int
+
+    def as_dict(self) -> dict[str, Any]:
+        """The result as in ``look.json``, in SI."""
+        dataset = self.setting.dataset
+        return {
+            "format": "dashpot-look/1",
+            "dataset": {
+                "name": dataset.name,
+                "digest": dataset.digest,
+                "runs": [run.name for run in dataset.runs],
+                "held_out": list(self.setting.split.held_out),
+            },
+            "noise_floor": floor_of(self.setting.floor),
+            "explainable": self.explainable.as_dict(),
+            "runs": [described(each) for each in self.seen],
+            "repeats": [{key: group[key] for key in ("runs", "rms")} for group in self.repeats()],
+            "seed": self.seed,
+        }
+
+    def evidence(self) -> dict[str, Any]:
+        """Arrays and texts for the report."""
+        runs = self.setting.dataset.runs
+        measured = {run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs}
+        return {
+            "loops": {"measured": measured, "simulated": {}},
+            "over_velocity": [{"run": each.name, "label": "measured", "x": each.velocity, "y": each.forces["measured"]}
+                              for each in self.seen],
+            "shapes": shapes_of(runs),
+            "spectra": [spectrum for each in self.seen for spectrum in spectra(each)],
+            "repeats": self.repeats(),
+            "warnings": [*map(str, self.setting.dataset.problems), *false_repeats(self.setting.dataset)],
+        }  # fmt: skip
+
+    def repeats(self) -> list[dict[str, Any]]:
+        """Each group of repeated runs: their names, ``rms`` N, and ``departure`` (k, n) N of each from their mean.
+
+        ``rms`` is what they differ by, small differences of the motion and constant ones taken out.
+        """
+        ordered = sorted(self.setting.dataset.runs, key=lambda run: run.group)
+        groups = [list(runs) for _, runs in groupby(ordered, lambda run: run.group)]
+        told = []
+        for group in (group for group in groups if len(group) > 1):
+            try:
+                compared = compare_repeats([(run.displacement, run.force) for run in group], group[0].sample_time)
+            except NotRepeatsError:
+                continue
+            departure = compared.departure - compared.departure.mean(axis=1, keepdims=True)
+            rms = float(np.sqrt(np.sum(np.mean(departure**2, axis=1)) / (len(group) - 1)))
+            told.append({"runs": [run.name for run in group], "rms": rms, "departure": compared.departure,
+                         "sample_time": group[0].sample_time})  # fmt: skip
+        return told
+
+
+def look(dataset: Dataset, seed: int = 0) -> Look:
+    """Look at the runs of a dataset before any model. The same seed holds out the same runs."""
+    setting = prepare(dataset, seed)
+    return Look(setting, tuple(see(run) for run in setting.dataset.runs), explainable_error(setting, seed), seed)
+
+
+def described(seen: Seen) -> dict[str, Any]:
+    """A run in numbers, SI: what it was moved by, its force, and what its closed cycles take up.
+
+    ``energy_per_cycle`` in J is the median over ``cycles``; without closed cycles ``work`` in J, that of the whole run
+    with its ends joined, stands alone. ``gives_back`` says that most cycles, or the run, give back work.
+    """
+    run, force = seen.run, seen.forces["measured"]
+    values = cycle_values(seen, "measured")
+    whole = work(seen.displacement[seen.first :], force[seen.first :])
+    energy = float(np.median(values.energy)) if values.time.size else None
+    return {
+        "run": run.name,
+        "kind": run.kind,
+        "settings": dict(run.settings),
+        "repeats": run.repeats,
+        "duration": float(run.time[-1]),
+        "sampling": 1.0 / run.sample_time,
+        "amplitude": seen.amplitude,
+        "preload": seen.preload,
+        "peak_speed": seen.peak_speed,
+        "least_force": float(force.min()),
+        "largest_force": float(force.max()),
+        "cycles": int(values.time.size),
+        "energy_per_cycle": energy,
+        "work": whole,
+        "stiffness": float(np.median(values.stiffness)) if values.time.size else None,
+        "loss": float(np.median(values.loss)) if values.time.size else None,
+        "gives_back": (whole if energy is None else energy) < 0.0,
+    }
+
+
+def spectra(seen: Seen) -> list[dict[str, Any]]:
+    """Amplitude spectra of force (N) and displacement (m) over frequency (Hz), the largest line of each stretch."""
+    signals: Mapping[str, Array] = {"force": seen.forces["measured"], "displacement": seen.displacement}
+    count = seen.run.time.size
+    window = np.hanning(count)
+    frequency = np.fft.rfftfreq(count, seen.run.sample_time)[1:]
+    edges = np.unique(np.searchsorted(frequency, np.geomspace(frequency[0], frequency[-1], LINES)))
+    told = []
+    for name, values in signals.items():
+        lines = 2.0 / window.sum() * np.abs(np.fft.rfft((values - values.mean()) * window))[1:]
+        largest = np.maximum.reduceat(lines, edges)
+        told.append({"run": seen.name, "label": "measured", "of": name, "x": frequency[edges], "y": largest})
+    return told

@@ -1,0 +1,122 @@
+"""Ridge regression by Gram matrices; the strength for each family of columns is chosen by cross-validation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Gram = tuple[Array, Array, float]  # (p, p) of the columns, (p,) with the force, and its square
+
+STRENGTHS = (1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, np.inf)  # of the mean square of a column; the last one leaves it out
+FIRST = 1e-6
+SWEEPS = 3
+ROUNDING = 1e-13
+BEYOND = 0.1  # of the range of a column in training, as far as it may go on other runs
+
+
+@dataclass(frozen=True, eq=False)
+class Ridge:
+    """``weights`` (p,) for columns within ``low`` and ``high`` (p,).
+
+    ``error`` is the root mean square in N on samples whose fold was left out, ``unseen`` (n,) what it foretold there.
+    """
+
+    weights: Array
+    low: Array
+    high: Array
+    error: float
+    unseen: Array
+
+    def predict(self, columns: Array) -> Array:
+        """The force (n,) N for columns (n, p); those that go beyond the training runs stop there."""
+        return np.clip(columns, self.low, self.high) @ self.weights
+
+
+def fit_ridge(
+    parts: Sequence[Array], force: Array, weights: Array, folds: NDArray[np.intp], families: Sequence[int]
+) -> Ridge:
+    """The ridge regression of ``force`` (n,) N on the columns, given in ``parts`` (n_k, p).
+
+    ``weights`` (n,) of the samples; ``folds`` (n,) are left out in turn; ``families`` are numbers of columns that share
+    a strength, from the plainest to the richest family. The first family is always there.
+    """
+    columns = np.vstack(parts)
+    low, high = columns.min(axis=0), columns.max(axis=0)
+    size = np.sqrt(weights @ columns**2 / weights.sum())
+    size[size == 0.0] = 1.0
+    columns /= size
+    numbers = np.unique(folds)
+    grams = [_gram(columns[folds == fold], force[folds == fold], weights[folds == fold]) for fold in numbers]
+    penalty = np.repeat(_strengths(grams, families), families) * weights.sum()
+    unseen = np.empty(force.size)
+    for fold, others in zip(numbers, _all_but_one(grams), strict=True):
+        unseen[folds == fold] = columns[folds == fold] @ _solve(others, penalty)
+    slack = BEYOND * (high - low)
+    error = float(np.sqrt(weights @ (force - unseen) ** 2 / weights.sum()))
+    return Ridge(_solve(_sum(grams), penalty) / size, low - slack, high + slack, error, unseen)
+
+
+def _gram(columns: Array, force: Array, weights: Array) -> Gram:
+    weighted = columns * weights[:, None]
+    return weighted.T @ columns, weighted.T @ force, float(weights @ force**2)
+
+
+def _sum(grams: Sequence[Gram]) -> Gram:
+    return sum(gram[0] for gram in grams), sum(gram[1] for gram in grams), sum(gram[2] for gram in grams)  # type: ignore[return-value]
+
+
+def _all_but_one(grams: Sequence[Gram]) -> list[Gram]:
+    whole = _sum(grams)
+    return [(whole[0] - gram[0], whole[1] - gram[1], whole[2] - gram[2]) for gram in grams]
+
+
+def _strengths(grams: Sequence[Gram], families: Sequence[int]) -> Array:
+    """A strength for each family, from the plainest model upwards and from the richest downwards; the better one."""
+    others, total = _all_but_one(grams), sum(gram[0].trace() for gram in grams) / sum(families)
+
+    def error(strengths: Array) -> float:
+        return _error(grams, others, np.repeat(strengths, families) * total)
+
+    plain = np.array([FIRST] + [np.inf] * (len(families) - 1))
+    return min((_descend(error, start) for start in (plain, np.full(len(families), FIRST))), key=error)
+
+
+def _descend(error: Callable[[Array], float], chosen: Array) -> Array:
+    """The strength of one family after the other, until none changes."""
+    lowest = error(chosen)
+    for _ in range(SWEEPS):
+        before = chosen
+        for family in range(len(chosen)):
+            for strength in STRENGTHS[: -1 if family == 0 else None]:
+                tried = np.where(np.arange(len(chosen)) == family, strength, chosen)
+                if (found := error(tried)) < lowest:
+                    lowest, chosen = found, tried
+        if np.array_equal(before, chosen):
+            break
+    return chosen
+
+
+def _error(grams: Sequence[Gram], others: Sequence[Gram], penalty: Array) -> float:
+    """The sum of squares on the folds left out."""
+    total = 0.0
+    for (gram, right, square), other in zip(grams, others, strict=True):
+        solved = _solve(other, penalty)
+        total += float(square - 2.0 * right @ solved + solved @ gram @ solved)
+    return total
+
+
+def _solve(gram: Gram, penalty: Array) -> Array:
+    """Coefficients (p,); 0 where the penalty (p,) is infinite."""
+    from scipy.linalg import cho_factor, cho_solve
+
+    kept = np.flatnonzero(np.isfinite(penalty))
+    least = ROUNDING * kept.size * float(gram[0].diagonal().max())
+    matrix = gram[0][np.ix_(kept, kept)]
+    matrix[np.diag_indices_from(matrix)] += np.maximum(penalty[kept], least)
+    solved = np.zeros(penalty.size)
+    solved[kept] = cho_solve(cho_factor(matrix, check_finite=False), gram[1][kept], check_finite=False)
+    return solved

@@ -1,0 +1,27 @@
+"""The diagnosis: which causes predict what a fitted network misses, how sure that is, and the files that say so.
+
+view         a fitted network as suspected causes see it
+location     where suspects are looked for
+inside       the inside of a network with nodes
+candidate    a form of a cause as columns of a matrix
+whitening    the noise of each run, and signals in units of it
+term         a network with the terms that were added to it
+refit        fitting a structure to whitened misfits
+bends        what a table may do between its knots
+look         residual, terms and candidates as Gram matrices by group of runs
+score        what a structure predicts of runs left out, and its prior odds
+search       beam search over structures
+evidence     what has to show a fault of the measurement in all runs
+pursue       look, search and refit until no structure scores better
+channel      faults of the force channel in single runs
+polish       the numbers of the final files and their intervals
+lines        lines in spectra
+leftover     structure that no cause explains
+limits       the smallest effects that would have been found
+proposals    runs to choose the next measurement from
+next_run     the run that tells two models apart
+gain         what a cause is worth on runs that took no part
+named        the accepted causes as they are told
+diagnosis    everything that was found, and the files
+diagnose     all of it in order
+"""

@@ -1,0 +1,23 @@
+"""A form of a cause as columns of a matrix."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from dashpot.contract.cause import Cause, Suspect
+from dashpot.model.sites import Site
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A form of a cause with the place of its columns among all; ``site`` is where in a network with nodes."""
+
+    cause: type[Cause]
+    suspect: Suspect
+    columns: slice
+    site: Site | None = None
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """The word of the cause, and the words of the site."""
+        return self.cause.word, self.site.words if self.site else ""

@@ -1,0 +1,253 @@
+"""Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
+
+A specimen answers the same motion alike. So a run may be accused where its repeat disagrees, or where other, sound
+runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at a setting is
+not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Cause, ChannelFault
+from dashpot.data.correction import Correction
+from dashpot.data.run import Run
+from dashpot.diagnose.look import Look
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.score import Odds
+from dashpot.diagnose.whitening import Noise
+
+Array = NDArray[np.float64]
+
+SLACK = 0.02  # of the range of a condition
+SAME_MOTION = 0.02  # of the deviation of the displacement
+Key = tuple[str, int]  # run, number of the kind
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of fault that a cause names."""
+
+    cause: type[Cause]
+    fault: ChannelFault
+
+
+@dataclass(frozen=True, eq=False)
+class Accused:
+    """A fault of one run: its ``strengths``, the nats that it explains, and its evidence."""
+
+    run: str
+    kind: Kind
+    strengths: Array
+    nats: float
+    evidence_of: str
+    words: str
+
+    @property
+    def correction(self) -> Correction:
+        """What puts the run right."""
+        return self.kind.fault.correct(self.strengths.tolist())
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Whitened residual, tangents (p, n) and shapes by kind (k, n) of every run."""
+
+    residual: Mapping[str, Array]
+    tangents: Mapping[str, Array]
+    shapes: Mapping[Key, Array]
+
+
+def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
+    """All kinds of faults that the causes name."""
+    return [Kind(cause, fault) for cause in causes for fault in cause().channel_faults(look.view)]
+
+
+def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise) -> _Rows:
+    """What the tests need, whitened."""
+    residual, tangents = refitter.linearise(look.model, noise)
+    shapes = {}
+    for run in refitter.runs:
+        for number, kind in enumerate(kinds):
+            found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
+            shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
+    return _Rows(residual, tangents, shapes)
+
+
+def disagreeing(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[int]:
+    """The kinds of which repeats of one run differ, by number: the difference needs no model."""
+    rows = rows_of(refitter, look, kinds, _alike(look, groups))
+    price = Odds(len(kinds) * max(len(repeats_of(refitter, groups)), 1)).price("specimen")
+    found = [number for number, _ in enumerate(kinds)
+             if any(_contrast(rows, a, b, number) > price for a, b in repeats_of(refitter, groups))]  # fmt: skip
+    return found
+
+
+def _alike(look: Look, groups: Mapping[str, str]) -> Noise:
+    """The noise of the records, repeats whitened alike: so the error of the model cancels in their difference."""
+    known = look.measured_noise.filters
+    first = {groups[run]: run for run in reversed(list(known))}
+    return replace(look.measured_noise, filters={run: known[first[groups[run]]] for run in known})
+
+
+def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Pairs of training runs with the same motion."""
+    found = []
+    runs = list(refitter.runs)
+    for number, one in enumerate(runs):
+        for other in runs[number + 1 :]:
+            if groups[one.name] == groups[other.name] and one.end == other.end and one.samples == other.samples:
+                difference = one.drive.displacement - other.drive.displacement
+                if np.std(difference) < SAME_MOTION * np.std(one.drive.displacement):
+                    found.append((one.name, other.name))
+    return found
+
+
+def _contrast(rows: _Rows, one: str, other: str, kind: int) -> float:
+    """The nats that a kind explains of the difference between two repeats, less those of chance."""
+    shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
+    difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
+    gram = shapes @ shapes.T
+    solved = np.linalg.lstsq(gram, shapes @ difference, rcond=1e-10)[0]
+    explained = float(solved @ shapes @ difference)
+    return 0.5 * difference.size * -np.log1p(-min(explained / float(difference @ difference), 1 - 1e-12)) - len(gram)
+
+
+def accuse(
+    refitter: Refitter,
+    look: Look,
+    kinds: Sequence[Kind],
+    groups: Mapping[str, str],
+    measured: Mapping[str, Run],
+    relevance: float,
+) -> list[Accused]:
+    """The faults of runs that explain most beside the model, one after the other, each with evidence."""
+    rows = rows_of(refitter, look, kinds, look.noise)
+    alone = rows_of(refitter, look, kinds, _alike(look, groups))
+    solver = _Solver(rows)
+    price = Odds(len(rows.shapes)).price("measurement")
+    pairs = repeats_of(refitter, groups)
+    chosen: dict[Key, str] = {}
+    while True:
+        gains = {key: solver.gain(key, chosen) - 0.5 * len(rows.shapes[key]) * np.log(rows.residual[key[0]].size)
+                 for key in rows.shapes if key not in chosen}  # fmt: skip
+        for key in sorted(gains, key=lambda key: -gains[key]):
+            if gains[key] < max(price, relevance * rows.residual[key[0]].size):
+                return _accused(solver, chosen, kinds)
+            evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
+            if evidence:
+                chosen[key] = evidence
+                break
+        else:
+            return _accused(solver, chosen, kinds)
+
+
+def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
+    strengths = solver.strengths(list(chosen))
+    found = []
+    for key, words in chosen.items():
+        rest = {other: "" for other in chosen if other != key}
+        evidence, _, told = words.partition("|")
+        found.append(Accused(key[0], kinds[key[1]], strengths[key], solver.gain(key, rest), evidence, told))
+    return found
+
+
+def _evidence(
+    key: Key,
+    chosen: Mapping[Key, str],
+    rows: _Rows,
+    kinds: Sequence[Kind],
+    pairs: Sequence[tuple[str, str]],
+    groups: Mapping[str, str],
+    measured: Mapping[str, Run],
+    price: float,
+) -> str:
+    """Its kind and its words, parted by a bar; empty where a law of the specimen could do the same."""
+    run, kind = key
+    if kinds[kind].fault.evidence_of != "repeats":
+        return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
+    demonstrated = [pair for pair in pairs if _contrast(rows, *pair, kind) > price]
+    if any(run in pair for pair in demonstrated):
+        other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
+        return f"repeats|'{other}' is the same motion, and its force differs"
+    if any(run in pair for pair in pairs):
+        return ""  # its repeat agrees
+    accused = {groups[name] for name, _ in chosen} | {groups[run]}
+    sound = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
+    if demonstrated or covers(sound, measured[run]):
+        return "repeats|other runs under the same conditions do not have it"
+    return ""
+
+
+def covers(others: Sequence[Run], run: Run) -> bool:
+    """Whether a run lies within what others cover: its deflection, stroke, speed and every number that was set."""
+    if len(others) < 2:
+        return False
+    known = [conditions(other) for other in others]
+    for word, value in conditions(run).items():
+        values = [one[word] for one in known if word in one]
+        if not values:
+            return False
+        slack = SLACK * max(max(values) - min(values), abs(value) * SLACK)
+        if not min(values) - slack <= value <= max(values) + slack:
+            return False
+    return True
+
+
+def conditions(run: Run) -> dict[str, float]:
+    """Mean deflection, stroke, mean speed and settings of a run, SI."""
+    x = run.displacement
+    speed = np.sqrt(np.mean(np.square(np.gradient(x, run.sample_time))))
+    return {**run.settings, "mean deflection": float(np.mean(x)), "stroke": float(np.ptp(x)), "speed": float(speed)}
+
+
+class _Solver:
+    """Least squares of residuals by tangents of all runs and shapes of single runs."""
+
+    def __init__(self, rows: _Rows) -> None:
+        self.rows = rows
+        self.gram = sum(tangents @ tangents.T for tangents in rows.tangents.values())
+        self.right = sum(rows.tangents[run] @ rows.residual[run] for run in rows.residual)
+        self.square = float(sum(residual @ residual for residual in rows.residual.values()))
+        self.samples = sum(residual.size for residual in rows.residual.values())
+
+    def _normal(self, keys: Sequence[Key]) -> tuple[Array, Array]:
+        fixed = len(self.right)
+        sizes = [len(self.rows.shapes[key]) for key in keys]
+        ends = fixed + np.cumsum([0, *sizes])
+        gram, right = np.zeros((ends[-1], ends[-1])), np.zeros(ends[-1])
+        gram[:fixed, :fixed], right[:fixed] = self.gram, self.right
+        for number, key in enumerate(keys):
+            mine, shapes = slice(ends[number], ends[number + 1]), self.rows.shapes[key]
+            right[mine] = shapes @ self.rows.residual[key[0]]
+            gram[mine, :fixed] = shapes @ self.rows.tangents[key[0]].T
+            gram[:fixed, mine] = gram[mine, :fixed].T
+            for other_number, other in enumerate(keys):
+                if other[0] == key[0]:
+                    gram[mine, ends[other_number] : ends[other_number + 1]] = shapes @ self.rows.shapes[other].T
+        return gram, right
+
+    def _solved(self, keys: Sequence[Key]) -> tuple[Array, float]:
+        gram, right = self._normal(keys)
+        scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+        inverse = np.linalg.pinv(gram / np.outer(scale, scale), rcond=1e-11, hermitian=True)
+        solution = inverse @ (right / scale) / scale
+        return solution, self.square - float(solution @ right)
+
+    def gain(self, key: Key, chosen: Mapping[Key, str]) -> float:
+        """The nats that a fault explains beside others that are chosen."""
+        before, after = self._solved(list(chosen))[1], self._solved([*chosen, key])[1]
+        return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
+
+    def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:
+        """The strengths of faults found together."""
+        solution, first, found = self._solved(keys)[0], len(self.right), dict[Key, Array]()
+        for key in keys:
+            count = len(self.rows.shapes[key])
+            found[key] = solution[first : first + count]
+            first += count
+        return found

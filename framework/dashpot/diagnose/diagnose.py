@@ -1,0 +1,214 @@
+"""The diagnosis of a network on a dataset, its steps called in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from dashpot.contract.cause import Cause
+from dashpot.contract.chain import make_optimizer
+from dashpot.contract.registry import Registry
+from dashpot.data.correction import Correction
+from dashpot.data.dataset import Dataset
+from dashpot.data.ends import one_force_each
+from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
+from dashpot.diagnose.diagnosis import Diagnosis, Removal
+from dashpot.diagnose.leftover import look_for_leftover
+from dashpot.diagnose.look import look_at
+from dashpot.diagnose.next_run import NextRun, next_run
+from dashpot.diagnose.polish import known, polished
+from dashpot.diagnose.pursue import Pursuer, Pursuit
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.term import first_model
+from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.refine import Outcome
+from dashpot.fit.result import FitResult
+from dashpot.fit.scored import ScoredRun
+from dashpot.model.network import Group, NetworkSpec
+from dashpot.text.problem import InputError, Place
+from dashpot.triage.examine import examine
+
+ATTEMPTS = 3
+SAME = 1e-3  # of an error
+RELEVANCE = 0.0015  # share of the error by which a cause must matter
+
+
+@single_threaded_algebra
+def diagnose(
+    spec: NetworkSpec,
+    dataset: Dataset,
+    *,
+    optimizer: str | None = None,
+    options: Mapping[str, Any] | None = None,
+    seed: int = 0,
+    jobs: int = 1,
+    registry: Registry,
+    progress: Progress | None = None,
+    relevance: float = RELEVANCE,
+) -> Diagnosis:
+    """Triage the data, fit, search for the causes of what is left, and say how sure that is.
+
+    A cause without which the training error grows by less than the share ``relevance`` is not named. Held-out runs take
+    no part before the end. Raises InputError for a network that does not compile on these data, and where no plugin
+    provides a cause.
+    """
+    if not registry.causes:
+        raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
+    progress = progress or silent
+    triage = examine(one_force_each(dataset))
+    setting = prepare(triage.dataset, seed)
+    method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
+    fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
+                                setting.swing)  # fmt: skip
+    causes = [registry.causes[word] for word in sorted(registry.causes)]
+    groups = {run.name: run.cluster for run in triage.dataset.runs}
+    sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
+    refitter = Refitter(setting.train, registry.elements, sensors, jobs)
+    watch = partial(_watch, progress, spec.name)
+    pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
+    corrected = {one.name: _corrected(one, accused) for one in setting.train}
+    runs = list(corrected.values())
+    model = pursuit.best.model
+    final = known(polished(model, runs, jobs), model, runs, groups, jobs, setting.floor.value)
+    removals = [Removal(one.term.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
+    last = replace(refitter, runs=runs)
+    leftover = look_for_leftover(last, pursuit.look, repeats_of(last, groups))
+    return Diagnosis(
+        setting=setting,
+        triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec), *remarks_on(pursuit))),
+        fit=fit,
+        pursuit=pursuit,
+        accused=tuple(accused),
+        corrected=corrected,
+        final=final,
+        removals=tuple(removals),
+        leftover=leftover,
+        next_runs=next_runs(last, pursuit) if not spec.joints else {},
+        causes={cause.word: cause for cause in causes},
+        relevance=relevance,
+        seed=seed,
+        jobs=jobs,
+    )
+
+
+def find_causes(
+    refitter: Refitter,
+    fit: FitResult,
+    causes: Sequence[type[Cause]],
+    groups: Mapping[str, str],
+    setting: Setting,
+    relevance: float,
+    seed: int,
+    watch: Callable[[int, int], None],
+) -> tuple[Pursuit, list[Accused]]:
+    """The best structure, and the faults of single training runs beside it.
+
+    Where repeats of a run disagree, all runs may have that fault while causes are searched; where runs are found at
+    fault in the end, causes are searched again on what is left.
+    """
+    model = first_model(fit.declared, fit.fitted)
+    first = look_at(refitter, model, causes, groups)
+    kinds = kinds_of(causes, first)
+    doubted = [kinds[number].fault for number in disagreeing(refitter, first, kinds, groups)]
+    pursuit = Pursuer(refitter, causes, groups, relevance, seed, watch, doubted).run(model, None if doubted else first)
+    measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
+    accused = accuse(refitter, pursuit.look, kinds, groups, measured, relevance)
+    if accused:
+        runs = [_corrected(run, accused) for run in refitter.runs]
+        again = replace(refitter, runs=runs, reduced={})
+        pursuit = Pursuer(again, causes, groups, relevance, seed, watch).run(pursuit.best.model)
+    return pursuit, accused
+
+
+def _corrected(run: ScoredRun, accused: Sequence[Accused]) -> ScoredRun:
+    correction = correction_of(run.name, accused)
+    return replace(run, force=correction.apply(run.force, run.drive.dt)) if correction else run
+
+
+def correction_of(run: str, accused: Sequence[Accused]) -> Correction | None:
+    """What puts a run right; None for a sound one."""
+    found = None
+    for one in (one for one in accused if one.run == run):
+        found = found.then(one.correction) if found else one.correction
+    return found
+
+
+def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:
+    """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it.
+
+    A fit that errs by more than the ``swing`` (N) of the forces has converged to something absurd, and does not count.
+    Where another start comes to the same error, more starts are not needed.
+    """
+    faults = []
+    attempts: list[FitResult] = []
+    while len(attempts) < ATTEMPTS and not _agree(attempts, swing):
+        attempts.append(fit(len(attempts)))
+        fault = _fault_of(attempts[-1], swing)
+        if not fault:
+            break
+        faults.append(fault)
+    best = min(attempts, key=lambda found: found.errors.train)
+    if not faults:
+        return best, []
+    failed = "came to the same error" if _agree(attempts, swing) else "also failed"
+    ending = failed if len(faults) == len(attempts) else "converged"
+    return best, [
+        f"The fit of {best.declared.name} did not converge ({faults[0]}); of {len(attempts)} starts the best "
+        f"counts, the last one {ending}."
+    ]
+
+
+def _agree(attempts: Sequence[FitResult], swing: float) -> bool:
+    """Whether the last two of several fits come to the same error, and to none that is absurd."""
+    errors = [found.errors.train for found in attempts[-2:]]
+    return len(errors) == 2 and max(errors) < min(swing, (1.0 + SAME) * min(errors))
+
+
+def _fault_of(fit: FitResult, swing: float) -> str:
+    if fit.ending != Outcome.CONVERGED.value:
+        return fit.ending
+    if fit.errors.train > swing:
+        return (
+            f"it errs by {fit.errors.train:.3g} N where the forces vary by {swing:.3g} N: check units and start values"
+        )
+    return ""
+
+
+def limits_of(spec: NetworkSpec) -> list[str]:
+    """What is not looked for in a network of this kind."""
+    chains = [member.name for member in spec.root.members if isinstance(member, Group) and member.kind == "series"]
+    found = [f"Between the parts of the series connection '{name}' no cause is looked for, only between its ends; "
+             "give the node between them a name under 'nodes:'." for name in chains]  # fmt: skip
+    if spec.joints:
+        found.append("No further run is simulated to tell causes apart: that is done for networks with two ends only.")
+    return found
+
+
+def remarks_on(pursuit: Pursuit) -> list[str]:
+    """What to say of the search."""
+    found = [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
+    refused = dict.fromkeys(f"'{term.cause.word}' could not be written into the network: {reason}"
+                            for term, reason in pursuit.refused)  # fmt: skip
+    return [*found, *refused]
+
+
+def next_runs(refitter: Refitter, pursuit: Pursuit) -> dict[tuple[str, str], NextRun]:
+    """The run to make next for every cause that another one may replace."""
+    found = {}
+    for term, rival in pursuit.rivals:
+        (word,) = {name[0] for name in rival.model.names if name not in pursuit.best.model.names} or {""}
+        close = float(np.mean(rival.drawn(pursuit.weights) < pursuit.best.drawn(pursuit.weights))) > 0.0
+        if word and close:
+            run = next_run(refitter, pursuit.best.model, rival.model, pursuit.look.measured_noise)
+            if run is not None:
+                found[term.cause.word, word] = run
+    return found
+
+
+def _watch(progress: Progress, name: str, looks: int, terms: int) -> None:
+    progress(f"{name}: search for causes, round {looks}, {terms} found", None, None, None)

@@ -1,0 +1,477 @@
+"""What a diagnosis found, and how it is written down.
+
+The files come first: every error, gain and plot that is told is that of the extended network and the corrected dataset
+as they are written, read again and simulated.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import dashpot
+from dashpot.compare.explainable import Explainable, explainable_error
+from dashpot.compare.misfit import Misfit, describe_misfit
+from dashpot.compare.provenance import history_of, provenance_of, warnings_of
+from dashpot.compare.signals import signal_evidence
+from dashpot.contract.cause import Cause
+from dashpot.data.correction import Correction, corrected_text
+from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.evidence import told
+from dashpot.diagnose.gain import measure_gain
+from dashpot.diagnose.leftover import Leftover
+from dashpot.diagnose.limits import Limit, find_limits
+from dashpot.diagnose.named import NamedCause, slots_of
+from dashpot.diagnose.next_run import NextRun, measurement_between
+from dashpot.diagnose.pursue import NAMED, Pursuit
+from dashpot.fit.api import Setting, measure_errors
+from dashpot.fit.objective import Objective
+from dashpot.fit.result import Errors, FitResult, floor_of
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import fill_numbers, rename
+from dashpot.model.reading import parse_network
+from dashpot.triage.examine import Triage
+from dashpot.triage.fault import Fault
+
+Array = NDArray[np.float64]
+
+NEAR_FLOOR = 2.0  # times the noise floor: detection limits are about noise only as far as that
+FAR_ABOVE = 1.1  # times the explainable error: a model is not explained
+
+
+@dataclass(frozen=True, eq=False)
+class Removal:
+    """The network without one cause, all else fitted again."""
+
+    name: tuple[str, str]
+    network: NetworkSpec
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """Everything that was found; ``as_dict`` is the result file, ``evidence`` what the report shows besides.
+
+    ``corrected`` are the training runs with the faults of single runs put right.
+    """
+
+    setting: Setting
+    triage: Triage
+    fit: FitResult
+    pursuit: Pursuit
+    accused: tuple[Accused, ...]
+    corrected: Mapping[str, ScoredRun]
+    final: NetworkSpec
+    removals: tuple[Removal, ...]
+    leftover: Leftover
+    next_runs: Mapping[tuple[str, str], NextRun]
+    causes: Mapping[str, type[Cause]]
+    relevance: float
+    seed: int
+    jobs: int = 1
+
+    @property
+    def model(self) -> NetworkSpec:
+        """The network that was diagnosed."""
+        return self.fit.declared
+
+    @property
+    def elements(self) -> dict[str, type[Element]]:
+        """The laws that the networks use, by their word."""
+        return {leaf.element.word: leaf.element for leaf in [*self.model.leaves(), *self.final.leaves()]}
+
+    # the files
+
+    @property
+    def extended_name(self) -> str | None:
+        """File name of the network that goes with the result, None where that is the diagnosed one as it was fitted.
+
+        Where single runs were corrected and nothing was added, it is the network fitted to the corrected runs.
+        """
+        words = list(dict.fromkeys(term.cause.word for term in self.pursuit.best.model.terms))
+        words = words or ["corrected"] * bool(self.accused)
+        return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
+
+    @property
+    def fitted_name(self) -> str:
+        """File name of the diagnosed network with its fitted numbers."""
+        return f"{self.model.name}.yaml"
+
+    @property
+    def fitted_text(self) -> str:
+        """The diagnosed network with its fitted numbers."""
+        return self.fit.identified_text
+
+    @cached_property
+    def extended_text(self) -> str | None:
+        """The extended network with its numbers, comments of the original intact."""
+        if self.extended_name is None:
+            return None
+        record = {
+            "data": self.setting.dataset.digest[:16],
+            "seed": str(self.seed),
+            "version": dashpot.__version__,
+            "predecessor": self.model.name,
+        }
+        terms = dict.fromkeys(term.title for term in self.pursuit.best.model.terms)
+        what = "extended by a diagnosis" if terms else "fitted to corrected runs"
+        head = [f"{self.model.name}, {what}.", *(f"cause: {title}" for title in terms)]
+        text = fill_numbers(self.pursuit.best.model.declared, self.final, record)
+        return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
+
+    @property
+    def corrections(self) -> dict[str, Correction]:
+        """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
+        found = {fault.run: Correction(gain=fault.factor) for fault in self.triage.faults
+                 if fault.factor is not None and fault.channel == "force"}  # fmt: skip
+        for one in self.accused:
+            known = found.get(one.run)
+            found[one.run] = known.then(one.correction) if known else one.correction
+        return found
+
+    @property
+    def set_aside(self) -> dict[str, str]:
+        """The runs that triage set aside, with the reason."""
+        kept = {run.record for run in self.setting.dataset.runs}
+        return {fault.run: fault.evidence for fault in self.triage.faults
+                if fault.factor is None and fault.run not in kept}  # fmt: skip
+
+    @property
+    def corrected_name(self) -> str | None:
+        """File name of the corrected dataset; None where no run was corrected or set aside, or there is no file."""
+        return "dataset.yaml" if (self.corrections or self.set_aside) and self.setting.dataset.document else None
+
+    def corrected_dataset(self, folder: Path) -> str:
+        """The text of the corrected dataset, to be written into a folder."""
+        return corrected_text(self.setting.dataset, self.corrections, self.set_aside, folder)
+
+    # what the files say
+
+    @cached_property
+    def written(self) -> NetworkSpec:
+        """The final network as it is written, read again."""
+        text = self.extended_text
+        return parse_network(text, self.elements) if text else self.written_before
+
+    @cached_property
+    def written_before(self) -> NetworkSpec:
+        """The diagnosed network as it is written, read again."""
+        return parse_network(self.fitted_text, self.elements)
+
+    @cached_property
+    def after_setting(self) -> Setting:
+        """The runs as the corrected dataset has them: held-out runs as they were measured."""
+        return replace(self.setting, scored={**self.setting.scored, **self.corrected})
+
+    @cached_property
+    def before(self) -> Errors:
+        """The errors of the diagnosed network."""
+        return measure_errors(self.written_before, self.setting, self.jobs)
+
+    @cached_property
+    def after(self) -> Errors:
+        """The errors of the final files."""
+        return measure_errors(self.written, self.after_setting, self.jobs)
+
+    @cached_property
+    def explainable(self) -> Explainable:
+        """What a general model of the past motion leaves; trees are grown only where the model is far from noise."""
+        floor = self.setting.floor.value
+        return explainable_error(self.setting, self.seed, not floor or self.after.train > NEAR_FLOOR * floor)
+
+    def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
+        """Measured minus simulated force (n,) of every run, warm-up included."""
+        runs = list(setting.scored.values())
+        objective = Objective(compile_network(network), runs, self.jobs)
+        forces = objective.forces(objective.network.start)
+        return {run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)}
+
+    @cached_property
+    def misfit(self) -> tuple[Misfit, ...]:
+        """What the diagnosed network gets wrong on the training runs."""
+        runs = [run for run in self.setting.dataset.runs if run.name in self.setting.split.train]
+        return tuple(describe_misfit(runs, self.residuals(self.written_before, self.setting)))
+
+    @cached_property
+    def named(self) -> tuple[NamedCause, ...]:
+        """The accepted causes, one entry a word and place, that which predicts most first."""
+        names = dict.fromkeys(term.name for term in self.pursuit.best.model.terms)
+        found = [self._named(name) for name in names] + self._faults_of_runs()
+        return tuple(sorted(found, key=lambda one: -one.nats))
+
+    def _named(self, name: tuple[str, str]) -> NamedCause:
+        pursuit, model = self.pursuit, self.pursuit.best.model
+        mine = [number for number, term in enumerate(model.terms) if term.name == name]
+        without = [one for one in pursuit.without if one.term.name == name]
+        cost = sum((one.scored.nats - pursuit.best.nats for one in without), np.zeros(pursuit.best.nats.size))
+        cause, probability = model.terms[mine[0]].cause, pursuit.probability(name)
+        evidence_of = cause.evidence_of if cause.kind == "measurement" else None
+        removals = [one.network for one in self.removals if one.name == name]
+        gain, removal = self._worth(removals)
+        rivals = self._rivals(name, probability)
+        return NamedCause(
+            cause, tuple(model.terms[number] for number in mine),
+            slots_of(self.written, [path for number in mine for path in model.owned[number]]), (),
+            probability, float(cost.sum()), (int(np.sum(cost > 0.0)), cost.size), gain, removal, rivals, evidence_of,
+            told(model.terms[mine[0]]) if evidence_of else "",
+        )  # fmt: skip
+
+    def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
+        """What the final network gains by a cause, and by how much the error grows without it."""
+        held_out = self.setting.split.held_out or tuple(self.setting.split.train)
+        words = "held-out runs" if self.setting.split.held_out else "training runs"
+        best = min(removals, key=lambda one: measure_errors(one, self.after_setting, self.jobs).train, default=None)
+        if best is None:
+            return None, None
+        cut = {run.name: run.first for run in self.after_setting.scored.values()}
+        before, after = (
+            {run: values[cut[run] :] for run, values in self.residuals(network, self.after_setting).items()
+             if run in held_out} for network in (best, self.written)
+        )  # fmt: skip
+        paths = {run: self.setting.scored[run].drive.displacement[cut[run] :] for run in held_out}
+        groups = {run.name: run.cluster for run in self.setting.dataset.runs}
+        gain = measure_gain(before, after, groups, paths, words, self.seed)
+        if gain is None:
+            return None, None
+        return gain, (1.0 / (1.0 - gain.value) - 1.0 if self.setting.split.held_out else None)
+
+    def _rivals(self, name: tuple[str, str], probability: float) -> tuple[str, ...]:
+        """What may stand in the place of a cause that is not sure."""
+        if probability >= NAMED:
+            return ()
+        known = set(self.pursuit.best.model.names)
+        found = {rival for term, other in self.pursuit.rivals if term.name == name
+                 for rival in other.model.names if rival not in known}  # fmt: skip
+        return tuple(sorted({word for word, _ in found}))
+
+    def _faults_of_runs(self) -> list[NamedCause]:
+        words = dict.fromkeys(one.kind.cause.word for one in self.accused)
+        found = []
+        for word in words:
+            mine = tuple(one for one in self.accused if one.kind.cause.word == word)
+            proof = "; ".join(dict.fromkeys(one.words for one in mine))
+            found.append(NamedCause(
+                mine[0].kind.cause, (), {}, mine, 1.0, sum(one.nats for one in mine), (0, 0), None, None, (),
+                mine[0].evidence_of, proof,
+            ))  # fmt: skip
+        return found
+
+    @cached_property
+    def verdict(self) -> str:
+        """One of the verdict words of the result file."""
+        if self.triage.faults:
+            return "bad_data"
+        if any(named.rivals for named in self.named):
+            return "ambiguous"
+        open_ends = self.leftover.notable() and not self._at_floor
+        if self.named:
+            return "partly_explained" if open_ends or self._far_above_explainable else "explained"
+        return "unexplained" if open_ends or self._far_above_explainable else "nothing_missing"
+
+    @property
+    def _at_floor(self) -> bool:
+        floor = self.setting.floor.value
+        return False if not floor else self.after.train <= (1.0 + self.relevance) * floor
+
+    @property
+    def _far_above_explainable(self) -> bool:
+        known, after = self.explainable.cross_validated, self.after.train
+        return known is not None and after > FAR_ABOVE * max(known, self.setting.floor.value or 0.0)
+
+    # the result
+
+    def as_dict(self) -> dict[str, Any]:
+        """The result as in ``diagnosis.json``."""
+        dataset = self.setting.dataset
+        return {
+            "format": "dashpot-diagnosis/1",
+            "model": {"name": self.model.name, "digest": digest_of(self.model)},
+            "dataset": {"name": dataset.name, "digest": dataset.digest},
+            "verdict": self.verdict,
+            "noise_floor": floor_of(self.setting.floor),
+            "explainable": self.explainable.as_dict(),
+            "rmse": {"before": _pair(self.before), "after": _pair(self.after)},
+            "misfit": [{"what": m.what, "share": m.share, "where": dict(m.where)} for m in self.misfit],
+            "causes": self._all_causes(),
+            "faults": [vars(fault) for fault in self.triage.faults],
+            "fitted_model": self.fitted_name,
+            "extended_model": self.extended_name,
+            "corrected_dataset": self.corrected_name,
+            "held_out": list(self.setting.split.held_out),
+            "tried": len(self.pursuit.look.candidates),
+            "structures": self._structures(),
+            "rejected": self._rejected(),
+            "limits": self.limits(),
+            "leftover": vars(self.leftover),
+            "seed": self.seed,
+        }
+
+    def _all_causes(self) -> list[dict[str, Any]]:
+        """Faults found by triage first, then what was searched."""
+        groups = [
+            (cause, faults)
+            for cause in self.causes.values()
+            if (faults := [fault for fault in self.triage.faults if fault.kind in cause.faults])
+        ]
+        found = [_cause_of_faults(rank, cause, faults) for rank, (cause, faults) in enumerate(groups, 1)]
+        return found + [self._cause(rank, named) for rank, named in enumerate(self.named, len(found) + 1)]
+
+    def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
+        measurements = self._next_for(named)
+        return {
+            "cause": named.cause.word,
+            "class": named.cause.kind,
+            "title": named.cause.about,
+            "place": named.site.words if named.site else None,
+            "rank": rank,
+            "accepted": True,
+            "branch": named.branch,
+            "evidence": named.evidence,
+            "evidence_of": named.evidence_of,
+            "probability": named.probability,
+            "expected_gain": None,
+            "gain": named.gain.value if named.gain else None,
+            "gain_interval": list(named.gain.interval) if named.gain else None,
+            "removal": {"held_out": named.removal},
+            "parameters": named.parameters(),
+            "indistinguishable_from": list(named.rivals),
+            "alternatives": [],
+            "next_measurement": measurements[0] if measurements else None,
+        }
+
+    def _next_for(self, named: NamedCause) -> list[str]:
+        """What to measure next about a cause: a run that was simulated, else what its plugin knows, else its cure."""
+        found = []
+        for rival in named.rivals:
+            advice = measurement_between(named.cause, rival, self.causes)
+            run = self.next_runs.get((named.cause.word, rival))
+            found.append("; or ".join(text for text in (run.words if run else "", advice) if text))
+        return [text for text in found if text] or ([named.cause.cure] if named.cause.cure else [])
+
+    def _structures(self) -> list[dict[str, Any]]:
+        """The structures that were compared at the end, by score in nats below the best."""
+        pursuit = self.pursuit
+        pool = [pursuit.best, *(one.scored for one in pursuit.without), *(rival for _, rival in pursuit.rivals)]
+        found = [{"causes": sorted(word for word, _ in one.model.names), "score": one.score - pursuit.best.score}
+                 for one in pool]  # fmt: skip
+        return sorted(found, key=lambda one: one["score"])
+
+    def _rejected(self) -> list[dict[str, Any]]:
+        """The causes that were refitted in the place of accepted ones."""
+        found = []
+        for term, rival in self.pursuit.rivals:
+            new = [other for other in rival.model.terms if other.name not in self.pursuit.best.model.names]
+            share = float(np.mean(rival.drawn(self.pursuit.weights) < self.pursuit.best.drawn(self.pursuit.weights)))
+            found += [{
+                "cause": other.cause.word, "title": other.title, "place": other.site.words if other.site else None,
+                "reason": f"in place of {term.title} it is better in {share:.0%} of the draws of runs",
+                "expected_gain": None, "gain": None,
+            } for other in new]  # fmt: skip
+        return found
+
+    def limits(self) -> list[dict[str, Any]]:
+        """The smallest effects that would have been found; nothing where the model errs by more than the noise."""
+        floor = self.setting.floor.value
+        if not floor or self.after.train > NEAR_FLOOR * floor:
+            return []
+        return [_limit(candidate.cause.word, candidate.cause.about, candidate.site.words if candidate.site else None,
+                       limit) for candidate, limit in find_limits(self.pursuit.look, self.relevance)]  # fmt: skip
+
+    # the report
+
+    def evidence(self) -> dict[str, Any]:
+        """Arrays and texts for the report; see ``report.evidence.Evidence``."""
+        residuals = {"before": self.residuals(self.written_before, self.setting)}
+        if self.named:
+            residuals["after"] = self.residuals(self.written, self.after_setting)
+        triage = [*(fault.sentence for fault in self.triage.faults), *self.triage.remarks]
+        untried = [f"The cause '{word}' could not be tried: {reason}" for word, reason in self.pursuit.look.unavailable]
+        return {
+            **signal_evidence(self.setting.dataset.runs, residuals),
+            "patch": self.patch(),
+            "rejected": self._rejected(),
+            "tried": len(self.pursuit.look.candidates),
+            "limits": self.limits(),
+            "warnings": [*triage, *warnings_of(self.setting, [self.fit]), *untried],
+            "history": {self.fit.declared.name: history_of(self.fit)},
+            "provenance": provenance_of(self.setting, self.fit.seed),
+            "next_measurement": self._next_measurements(),
+        }
+
+    def patch(self) -> dict[str, str]:
+        """Texts and names of the network before and after; empty without an extended network."""
+        if self.extended_text is None or self.extended_name is None:
+            return {}
+        return {
+            "before": self.model.text,
+            "after": self.extended_text,
+            "before_name": self.fitted_name,
+            "after_name": self.extended_name,
+        }
+
+    def _next_measurements(self) -> list[str]:
+        found = []
+        for named in self.named:
+            words = [self.causes[word].about if word in self.causes else word.replace("_", " ")
+                     for word in named.rivals]  # fmt: skip
+            about = f"{named.title} or {' or '.join(words)}" if words else named.title
+            found += [f"{about}: {text}" for text in self._next_for(named)]
+        return found
+
+
+def _limit(word: str, about: str, place: str | None, limit: Limit | None) -> dict[str, Any]:
+    found: dict[str, Any] = {"cause": word, "title": about, "place": place}
+    if limit is None:
+        return {**found, "quantity": "would not show beside the numbers of the model", "value": None, "unit": None,
+                "force": None, "left": None}  # fmt: skip
+    suspect = limit.candidate.suspect
+    return {
+        **found,
+        "quantity": " as ".join(dict.fromkeys([suspect.quantity, suspect.form])),
+        "value": limit.strength if suspect.unit else limit.force,
+        "unit": suspect.unit or "N",
+        "force": limit.force,
+        "left": limit.left,
+    }
+
+
+def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> dict[str, Any]:
+    return {
+        "cause": cause.word,
+        "class": "measurement",
+        "title": cause.about,
+        "place": None,
+        "rank": rank,
+        "accepted": True,
+        "branch": None,
+        "evidence": "; ".join(f"run '{fault.run}': {fault.evidence}" for fault in faults),
+        "evidence_of": "range" if faults[0].kind == "clipping" else "repeats",
+        "probability": 1.0,
+        "expected_gain": None,
+        "gain": None,
+        "gain_interval": None,
+        "removal": {"held_out": None},
+        "parameters": {fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
+                       for fault in faults if fault.factor is not None},
+        "indistinguishable_from": [],
+        "alternatives": [],
+        "next_measurement": faults[0].cure,
+    }  # fmt: skip
+
+
+def digest_of(spec: NetworkSpec) -> str:
+    """sha256 of a network's text."""
+    return hashlib.sha256(spec.text.encode()).hexdigest()
+
+
+def _pair(errors: Errors) -> dict[str, float | None]:
+    return {"train": errors.train, "held_out": errors.held_out}

@@ -1,0 +1,114 @@
+"""Evidence against the rig: what a fault of the measurement in all runs does that no law of a specimen would."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.score import Scores, Structure
+from dashpot.diagnose.term import Model, Term
+
+Array = NDArray[np.float64]
+
+AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter about the one that all share
+FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
+FEWEST_PEAKS = 3  # excursions that end at the same value
+
+
+def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether a term of a refitted model is a law of the specimen, or a fault of the measurement that shows as one."""
+    term = scores.look.model.terms[number]
+    if term.cause.kind != "measurement":
+        return True
+    return TESTS[term.cause.evidence_of](refitter, scores, number)
+
+
+def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether every number of the term is the same in each group of runs: at every amplitude, preload and speed.
+
+    One step of each group from what all share, in parts of the number itself, less what noise makes of it.
+    """
+    look = scores.look
+    paths = look.model.coordinates.paths
+    at, solution = scores.columns(Structure()), scores.strengths(Structure())
+    gram = scores.gram
+    target = np.zeros(look.layout.size)
+    target[0] = 1.0
+    rest = target.copy()
+    rest[at] -= solution * scores.scale[at] / scores.scale[0]
+    for column in at:
+        path = paths[look.own[column - 1]]
+        if path not in look.model.owned[number]:
+            continue
+        others = at[at != column]
+        along = np.zeros(look.layout.size)
+        along[column] = 1.0
+        along[others] -= np.linalg.lstsq(gram[np.ix_(others, others)], gram[others, column], rcond=1e-9)[0]
+        weights = np.einsum("i,gij,j->g", along, scores.grams, along)
+        pulls = np.einsum("i,gij,j->g", along, scores.grams, rest)
+        squares = np.einsum("i,gij,j->g", rest, scores.grams, rest) / look.samples
+        excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
+        scatter = np.sqrt(max(excess, 0.0)) * scores.scale[0] / scores.scale[column]
+        if scatter > AGREE * _size_in_steps(look.model, path):
+            return False
+    return True
+
+
+def _size_in_steps(model: Model, path: str) -> float:
+    """A number of a model in natural steps of its coordinate."""
+    k = model.coordinates.paths.index(path)
+    size = 1.0 if model.coordinates.log[k] else abs(model.point[k])
+    return float(size / model.coordinates.unit[k])
+
+
+def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on."""
+    model = scores.look.model
+    limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}
+    term = model.terms[number]
+    rest = [other for other in model.terms if other is not term]
+    free = refitter.forces(refitter.without(model, rest))
+    found = []
+    for word, level in limits.items():
+        side = 1.0 if word == "largest" else -1.0
+        for run in refitter.runs:
+            beyond = side * (free[run.name] - level) > 0.0
+            beyond[: run.first] = False
+            starts = np.flatnonzero(beyond[1:] & ~beyond[:-1])
+            found += [(free[run.name][beyond], run.force[beyond], starts.size)] if beyond.any() else []
+    if sum(count for _, _, count in found) < FEWEST_PEAKS:
+        return False
+    free_all, shown = np.concatenate([one for one, _, _ in found]), np.concatenate([one for _, one, _ in found])
+    rise = np.polyfit(free_all, shown, 1)[0] if np.ptp(free_all) > 0.0 else 1.0
+    return bool(rise < FLAT)
+
+
+def _numbers(model: Model) -> Mapping[str, float]:
+    return {slot.path: slot.value.number for slot in model.fitted.slots()}
+
+
+def stands_in_the_data_sheet(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether the data sheet of the force channel names what the term is about."""
+    words = {path.rpartition(".")[2] for path in scores.look.model.owned[number]}
+    return any(words & set(sheet) for sheet in refitter.sensors.values())
+
+
+def told(term: Term) -> str:
+    """The evidence of an accepted fault in words."""
+    return WORDS.get(term.cause.evidence_of, "")
+
+
+Test = Callable[[Refitter, Scores, int], bool]
+TESTS: Mapping[str, Test] = {
+    "phase": same_in_all_runs,
+    "range": ends_at_one_value,
+    "data_sheet": stands_in_the_data_sheet,
+}
+WORDS = {
+    "phase": "it is the same in every run, at every amplitude, preload and speed",
+    "range": "the force ends at one value, excursion after excursion",
+    "data_sheet": "the data sheet of the channel names it",
+}

@@ -1,0 +1,164 @@
+"""Is there structure left that no cause explains? Tests that name nothing.
+
+Questions to the whitened residual of the final model: does it correlate with a general set of functions of the
+motion and of single runs, do repeated runs agree about it, and is there a line in its spectrum?
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.lines import strongest_line
+from dashpot.diagnose.look import Look
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.view import ModelView
+
+Array = NDArray[np.float64]
+
+SIGNIFICANT = 6.0
+SMALLEST_SIZE = 0.1
+LAGS = (0.003, 0.02, 0.15, 1.0)
+KEPT = 1e-8  # of the largest eigenvalue
+
+
+@dataclass(frozen=True)
+class Leftover:
+    """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
+
+    ``what`` says how it shows.
+    """
+
+    score: float
+    size: float
+    what: str
+
+    def notable(self) -> bool:
+        """Whether something is left that is both certain and not negligible beside the noise."""
+        return self.score > SIGNIFICANT and self.size > SMALLEST_SIZE
+
+
+def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str, str]]) -> Leftover:
+    """The most telling one of the tests; ``pairs`` are repeats of each other."""
+    noise = look.measured_noise
+    residual, tangents = refitter.linearise(look.model, noise)
+    tests = [
+        _correlation(refitter, look, residual, tangents),
+        _single_runs(refitter, look, residual),
+        _agreement(residual, pairs),
+        _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in refitter.runs}),
+    ]
+    return max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
+
+
+def _correlation(
+    refitter: Refitter, look: Look, residual: Mapping[str, Array], tangents: Mapping[str, Array]
+) -> Leftover:
+    gram: Array | float = 0.0
+    right: Array | float = 0.0
+    names: list[str] = []
+    for run in refitter.runs:
+        functions = general_functions(look.view, run.name)
+        names = list(functions)
+        rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
+        rows = np.concatenate([tangents[run.name], rows])
+        gram, right = gram + rows @ rows.T, right + rows @ residual[run.name]
+    gram, right = np.asarray(gram), np.asarray(right)
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    gram, right, first = gram / np.outer(scale, scale), right / scale, len(gram) - len(names)
+    inverse = np.linalg.pinv(gram[:first, :first], rcond=1e-11, hermitian=True)
+    spread = gram[first:, first:] - gram[first:, :first] @ inverse @ gram[:first, first:]
+    scores = right[first:] - gram[first:, :first] @ inverse @ right[:first]
+    sizes, vectors = np.linalg.eigh(spread)
+    kept = sizes > KEPT * sizes[-1]
+    excess = float(np.sum((vectors[:, kept].T @ scores) ** 2 / sizes[kept])) - float(kept.sum())
+    score = excess / float(np.sqrt(2.0 * kept.sum()))
+    alone = scores**2 / np.maximum(np.diag(spread), 1e-5)
+    samples = sum(values.size for values in residual.values())
+    return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {names[int(np.argmax(alone))]}")
+
+
+def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
+    """Whether single runs have a gain, an offset or a drift of their own."""
+    found, count, samples = {}, 0, 0
+    for run in refitter.runs:
+        functions = single_functions(look.view, run.name)
+        rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
+        for name, row in zip(functions, rows, strict=True):
+            found[name] = float((row @ residual[run.name]) ** 2 / max(float(row @ row), 1e-300))
+        directions = np.linalg.svd(rows, full_matrices=False)[2]
+        found[f"run '{run.name}' alone"] = float(np.sum((directions @ residual[run.name]) ** 2))
+        count, samples = count + len(rows), samples + residual[run.name].size
+    excess = sum(value for name, value in found.items() if name.startswith("run '")) - count
+    alone = {name: value for name, value in found.items() if not name.startswith("run '")}
+    score = excess / float(np.sqrt(2.0 * count))
+    return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {max(alone, key=lambda k: alone[k])}")
+
+
+def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> Leftover:
+    products = [white[one] * white[other] for one, other in pairs]
+    if not products:
+        return Leftover(0.0, 0.0, "is not known to come again")
+    total, samples = sum(float(product.sum()) for product in products), sum(product.size for product in products)
+    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), "comes again in repeated runs")
+
+
+def _line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Leftover:
+    found = strongest_line(white, steps)
+    return Leftover(found.score, found.size, f"is a line at {found.frequency:.4g} Hz")
+
+
+def general_functions(view: ModelView, run: str) -> dict[str, Array]:
+    """Products of deflection and velocity, powers, signs, and the same remembered for a while: (n,) by name."""
+    x = (view.displacement(run) - np.mean(view.reach)) / (0.5 * np.ptp(view.reach))
+    local = view.displacement(run) - np.mean(view.displacement(run))
+    local = local / max(float(np.std(local)), 1e-300)
+    v = view.velocity(run) / view.speed
+    a = np.gradient(v)
+    plain = {
+        "the deflection": x,
+        "the square of the deflection": x**2,
+        "the cube of the deflection": x**3,
+        "the fourth power of the deflection": x**4,
+        "the velocity": v,
+        "the velocity times its size": v * np.abs(v),
+        "the size of the velocity": np.abs(v),
+        "the cube of the velocity": v**3,
+        "velocity times deflection": v * x,
+        "velocity times the square of the deflection": v * x**2,
+        "velocity times the deflection from the middle of the run": v * local,
+        "velocity times the square of the deflection from the middle of the run": v * local**2,
+        "the direction of motion": np.tanh(20.0 * v),
+        "the direction of motion times deflection": np.tanh(20.0 * v) * x,
+        "the direction of motion times the deflection from the middle of the run": np.tanh(20.0 * v) * local,
+        "the square of the deflection from the middle of the run": local**2,
+        "the cube of the deflection from the middle of the run": local**3,
+        "a step of the deflection": np.tanh(4.0 * x),
+        "the acceleration": a,
+        "acceleration times deflection": a * local,
+        "force times velocity": view.force(run) * v,
+    }
+    past = {"deflection": local, "square of the deflection": local**2, "size of the velocity": np.abs(v)}
+    remembered = {f"the {name} of the last {lag:g} s": _low_pass(signal, view.step(run) / lag)
+                  for lag in LAGS for name, signal in past.items()}  # fmt: skip
+    return plain | remembered
+
+
+def single_functions(view: ModelView, run: str) -> dict[str, Array]:
+    """What a run may have by itself, its force, a constant and the time: (n,) by name."""
+    force = view.force(run)
+    return {
+        f"the force of run '{run}' alone": force,
+        f"a constant in run '{run}'": np.ones_like(force),
+        f"the time in run '{run}'": np.linspace(0.0, 1.0, force.size),
+    }
+
+
+def _low_pass(signal: Array, share: float) -> Array:
+    from scipy.signal import lfilter
+
+    keep = np.exp(-share)
+    return lfilter([1.0 - keep], [1.0, -keep], signal)

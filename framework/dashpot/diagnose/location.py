@@ -1,0 +1,82 @@
+"""Where suspects are looked for: at the rig, and in a network with nodes at each of its sites."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from dashpot.contract.cause import Cause, Suspect
+from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.inside import Inside
+from dashpot.diagnose.view import ModelView
+from dashpot.model.network import NetworkSpec
+from dashpot.model.sites import At, Site, rig_site
+from dashpot.text.problem import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Location:
+    """``view`` and ``network`` are what causes see from here; ``site`` is None at the rig.
+
+    ``ends`` says that the network has two ends only: whatever is added lies between them, and is measured.
+    """
+
+    view: ModelView
+    network: NetworkSpec
+    site: Site | None = None
+    ends: bool = False
+
+    def suspects(self, cause: type[Cause]) -> list[Suspect]:
+        """The forms of a cause to try here. Raises InputError for a form that cannot be tried."""
+        if self.site and cause.kind == "measurement":
+            return []
+        found = [suspect for suspect in cause().suspects(self.view, self.network) if self._admits(cause, suspect)]
+        for suspect in found:
+            suspect.columns(self.view, self.view.runs[0])
+        if self.ends:
+            return found
+        # columns inside a network are those of small forces: what several make up for may be the size of a single one
+        where, most = self.site or rig_site(self.network), 1 if self.site else None
+        return [replace(each, extend=At(where, each.extend), most=most or each.most) for each in found]
+
+    def _admits(self, cause: type[Cause], suspect: Suspect) -> bool:
+        measured = cause.kind == "measurement" or suspect.measured
+        return self.ends or measured == (self.site is None)
+
+
+def locations_of(view: ModelView, network: NetworkSpec, inside: Inside | None) -> Sequence[Location]:
+    """The only location of a network with two ends; the rig and all sites of one with nodes."""
+    if inside is None:
+        return [Location(view, network, ends=True)]
+    return [
+        Location(view, network),
+        *(Location(inside.view(site), inside.members(site), site) for site in inside.sites),
+    ]
+
+
+def gather_candidates(
+    causes: Sequence[type[Cause]], locations: Sequence[Location]
+) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
+    """All forms of all causes that act in every run alike, and the causes that cannot be tried with the reason."""
+    found: list[Candidate] = []
+    unavailable, first = [], 0
+    for cause in causes:
+        for location in locations:
+            try:
+                suspects = location.suspects(cause)
+            except InputError as error:
+                unavailable.append((cause.word, str(error)))
+                continue
+            for suspect in suspects:
+                found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid)), location.site))
+                first += len(suspect.grid)
+    return found, tuple(dict.fromkeys(unavailable))
+
+
+def renumbered(candidates: Sequence[Candidate], causes: Sequence[type[Cause]]) -> list[Candidate]:
+    """The candidates of some of the causes, their columns one behind the other."""
+    found, first = [], 0
+    for candidate in (candidate for candidate in candidates if candidate.cause in causes):
+        found.append(replace(candidate, columns=slice(first, first + len(candidate.suspect.grid))))
+        first = found[-1].columns.stop
+    return found

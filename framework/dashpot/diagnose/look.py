@@ -1,0 +1,272 @@
+"""A fitted model linearised on every run: one Gram matrix of residual, terms and candidates for each group of runs.
+
+All that the search asks is answered by these matrices: what a candidate explains beside everything else, what a term
+is worth, and what a structure predicts of runs that took no part in its fit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Cause, ChannelFault
+from dashpot.diagnose.bends import bends_of_tables
+from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.inside import Inside
+from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.term import Model
+from dashpot.diagnose.view import ModelView, view_of
+from dashpot.diagnose.whitening import Noise, learn_filter, reduction
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.workers import spread
+
+Array = NDArray[np.float64]
+
+RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
+RIDGE = 1e-9
+LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
+FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where columns stand: the residual first, then the tangents of the terms' numbers, what each term adds to the
+    force, and the candidates.
+    """
+
+    tangents: int
+    terms: int
+    bank: int
+
+    def term(self, number: int) -> int:
+        """The column of what a term adds to the force."""
+        return 1 + self.tangents + number
+
+    @property
+    def first_candidate(self) -> int:
+        """The first column of the candidates."""
+        return 1 + self.tangents + self.terms
+
+    @property
+    def size(self) -> int:
+        """How many columns there are."""
+        return self.first_candidate + self.bank
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """``grams`` (groups, c, c) of whitened columns, beside which the base is refitted, ``samples`` (groups,) of them.
+
+    ``base_moves`` (p, c) are the natural steps of the base's numbers that take up one of each column, ``own`` (t,) the
+    coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all columns together leave, N.
+    ``measured_noise`` is that of the records alone, without the error of the model, ``sizes`` (c,) the RMS of columns
+    in N. ``prior`` (c, c) is how unlikely the errors of forms are that take part in the refit, ``occam`` what they cost
+    in nats.
+    """
+
+    model: Model
+    noise: Noise
+    view: ModelView
+    candidates: tuple[Candidate, ...]
+    layout: Layout
+    grams: Array
+    prior: Array
+    occam: float
+    samples: Array
+    groups: tuple[str, ...]
+    sizes: Array
+    unavailable: tuple[tuple[str, str], ...]
+    measured_noise: Noise
+    rich: float
+    own: NDArray[np.intp]
+    base: NDArray[np.intp]
+    base_moves: Array
+
+    @cached_property
+    def total(self) -> Array:
+        """The Gram matrix (c, c) of all runs."""
+        return self.grams.sum(axis=0)
+
+
+def look_at(
+    refitter: Refitter,
+    model: Model,
+    causes: Sequence[type[Cause]],
+    groups: Mapping[str, str],
+    noise: Noise | None = None,
+    faults: Sequence[ChannelFault] = (),
+    known: Sequence[Candidate] | None = None,
+) -> Look:
+    """Linearise a model on the training runs; without a ``noise`` that of each run is learnt.
+
+    ``groups`` names for every run the group in which it is left out. Without ``causes`` only the model itself is seen.
+    Each run may have each of the ``faults`` at any strength. The candidates may be ``known`` from an earlier look.
+    """
+    runs, view = refitter.runs, view_of(model.fitted, refitter.runs, refitter.elements, refitter.jobs)
+    steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
+    plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
+    residual, tangents = refitter.linearise(model, plain)
+    inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
+    if known is None:
+        candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside))
+    else:
+        candidates, unavailable = renumbered(known, causes), ()
+    bends = bends_of_tables(runs, view, model.fitted)
+    bent = len(next(iter(bends.values())))
+    own, base = _own_and_base(model)
+    forces = refitter.term_forces(model) if causes else []
+    layout = Layout(own.size, len(forces), candidates[-1].columns.stop if candidates else 0)
+    inner = inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None
+    each = len(_shapes(faults, view, runs[0], plain))
+    first = base.size + bent + each * len(runs)  # columns in front, which are projected out
+    numbers = {run.name: number for number, run in enumerate(runs)}
+
+    def rows_of(run: ScoredRun) -> Array:
+        name = run.name
+        rows = np.zeros((first + layout.size, plain.kept(name, run.samples)))
+        rows[: base.size] = tangents[name][base]
+        rows[base.size : base.size + bent] = plain.reduce(name, bends[name])
+        at = base.size + bent + each * numbers[name]
+        rows[at : at + each] = _shapes(faults, view, run, plain)
+        rows[first] = residual[name]
+        rows[first + 1 : first + 1 + own.size] = tangents[name][own]
+        for number, force in enumerate(forces):
+            rows[first + layout.term(number)] = plain.reduce(name, force[name][run.first :])
+        bank = rows[first + layout.first_candidate :]
+        for candidate in (candidate for candidate in candidates if candidate.site is None):
+            bank[candidate.columns] = refitter.columns(candidate, view, run, plain)
+        if inner is not None:
+            places, values = inner[name]
+            bank[places] = plain.reduce(name, values)
+        return rows
+
+    rows = dict(zip((run.name for run in runs), spread(rows_of, runs, jobs=refitter.jobs), strict=True))
+    alone, rich = noise, 0.0
+    if noise is None:
+        still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
+        lines = {run.name: _shapes(still, view, run, plain) for run in runs}
+        noise, alone, rich = learn_noise(rows, first, plain, refitter, lines)
+    sizes = np.sqrt(np.mean([np.mean(found[first:] ** 2, axis=1) for found in rows.values()], axis=0))
+    names = tuple(dict.fromkeys(groups[run.name] for run in runs))
+    grams, samples = _grams(rows, noise, groups, names)
+    grams, precision = with_form_errors(grams, first, layout, model, candidates)
+    projected, moves, prior, occam = beside_base(grams, precision, first)
+    return Look(model, noise, view, tuple(candidates), layout, projected, prior, occam, samples, names, sizes,
+                unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
+
+
+def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The coordinates of the terms' numbers, and those of the base."""
+    mine = {path for owned in model.owned for path in owned}
+    own = np.array([path in mine for path in model.coordinates.paths], dtype=bool)
+    return np.flatnonzero(own), np.flatnonzero(~own)
+
+
+def _shapes(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noise: Noise) -> Array:
+    """What faults of the channel add to a run (k, kept) at unit strength, reduced."""
+    shapes = [np.atleast_2d(fault.shapes(view, run.name))[:, run.first :] for fault in faults]
+    return noise.reduce_shapes(run.name, np.concatenate([np.zeros((0, run.samples)), *shapes]))
+
+
+def _grams(rows: dict[str, Array], noise: Noise, groups: Mapping[str, str], names: Sequence[str]
+           ) -> tuple[Array, Array]:  # fmt: skip
+    """Gram matrices (groups, c, c) of whitened rows and the number (groups,) of their samples; takes the rows."""
+    size = len(next(iter(rows.values())))
+    grams, samples = np.zeros((len(names), size, size)), np.zeros(len(names))
+    for run in list(rows):
+        white = noise.filter(run, rows.pop(run))
+        grams[names.index(groups[run])] += white @ white.T
+        samples[names.index(groups[run])] += white.shape[1]
+    return grams, samples
+
+
+def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
+                     ) -> tuple[Array, Array]:  # fmt: skip
+    """Gram matrices with the error of the forms of the terms in front, and the precision (f,) of all in front.
+
+    The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
+    cause, normal, together ``FORM_ERROR`` of the force of the term.
+    """
+    total = np.einsum("gii->i", grams)
+    places, precision = [], []
+    for number, term in enumerate(model.terms[: layout.terms]):
+        size = total[first + layout.term(number)]
+        if size < RIDGE * total[first]:
+            continue  # a term without a force has no form that could err
+        alike = [at for one in candidates if one.name == term.name
+                 for at in range(one.columns.start, one.columns.stop)]  # fmt: skip
+        columns = first + layout.first_candidate + np.array(alike, dtype=np.intp)
+        columns = columns[total[columns] > 0.0]
+        places += columns.tolist()
+        precision += (columns.size * total[columns] / (FORM_ERROR**2 * size)).tolist()
+    order = [*range(first), *places, *range(first, grams.shape[1])]
+    return grams[:, order][:, :, order] if places else grams, np.concatenate([np.zeros(first), precision])
+
+
+def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array, Array, float]:
+    """Gram matrices (groups, c, c) of all columns behind the first ones, with these fitted to each on all runs.
+
+    ``precision`` (f,) is what is known of the strengths of the first columns beforehand, nothing of the ``free`` ones.
+    Also the strengths (f, c) of that fit, their prior (c, c), and the nats by which the marginal likelihood is below
+    that of the best strengths. The base itself is not left out with a group: where a run alone reaches a deflection,
+    its curve there is not to be foretold by others, and says nothing of the terms.
+    """
+    first = precision.size
+    total = grams.sum(axis=0)
+    inner = total[:first, :first] + np.diag(precision)
+    scale = np.sqrt(np.maximum(np.diag(inner), 1e-300))
+    unit = inner / np.outer(scale, scale)
+    moves = np.linalg.pinv(unit, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None])
+    moves /= scale[:, None]
+    cross = grams[:, first:, :first] @ moves
+    left = grams[:, first:, first:] - cross - cross.transpose(0, 2, 1)
+    left += moves.T @ grams[:, :first, :first] @ moves
+    prior = moves[free:].T @ (precision[free:, None] * moves[free:])
+    outside = np.linalg.pinv(unit[:free, :free], rcond=1e-11, hermitian=True)
+    beside = unit[free:, free:] - unit[free:, :free] @ outside @ unit[:free, free:]
+    sizes = np.linalg.eigvalsh(
+        beside * np.outer(scale[free:], scale[free:]) / np.sqrt(np.outer(precision[free:], precision[free:]))
+    )
+    return left, moves, prior, 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
+
+
+def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
+                ) -> tuple[Noise, Noise, float]:  # fmt: skip
+    """The noise of each run from what all columns together leave, with the error of the model and without; its RMS, N.
+
+    The residual is row ``first``. Errors of a sensor within its data sheet count as noise, ``lines`` (k, kept) that a
+    run may show at rest do not. What the columns take up of
+    the noise itself is made up for by the degrees of freedom, where more than half of them are left.
+    """
+    from scipy.linalg import cho_factor, cho_solve
+
+    weights = {run: 1.0 / max(float(np.mean(found[first] ** 2)), 1e-300) for run, found in rows.items()}
+    gram = sum(weights[run] * (found @ found.T) for run, found in rows.items())
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    matrix, others = gram / np.outer(scale, scale), np.arange(len(scale)) != first
+    steadied = matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1)
+    factor = cho_factor(steadied)
+    strengths = np.zeros(len(scale))
+    strengths[others] = cho_solve(factor, matrix[others, first])
+    strengths *= scale[first] / scale
+    used = len(steadied) - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(steadied)))))
+    left = 1.0 - used / sum(found.shape[1] for found in rows.values())
+    filters, alone, squares = {}, {}, []
+    for run in refitter.runs:
+        found = rows[run.name]
+        rest, shapes = found[first] - strengths @ found, lines[run.name]
+        line = np.linalg.lstsq(shapes.T, rest, rcond=1e-9)[0] @ shapes
+        residual, rest = found[first] - line, rest - line
+        square = float(np.mean(rest**2))
+        error = np.sqrt(max(float(np.mean(residual**2)) - square, 0.0))
+        smallest = RESOLUTION * max(float(np.std(run.force)), 1e-12)
+        filters[run.name] = learn_filter(rest, error, smallest)
+        freed = rest / np.sqrt(left) if left > LEFT else residual
+        alone[run.name] = learn_filter(freed, 0.0, smallest)
+        squares.append(float(np.mean(freed**2)))
+    return replace(plain, filters=filters), replace(plain, filters=alone), float(np.sqrt(np.mean(squares)))

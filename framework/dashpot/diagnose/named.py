@@ -1,0 +1,88 @@
+"""The accepted causes as they are told: one entry a cause and place, with everything it added to the files."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dashpot.contract.cause import Cause
+from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.gain import Gain
+from dashpot.diagnose.term import Term
+from dashpot.model.network import NetworkSpec, Value
+from dashpot.model.sites import Site
+
+
+@dataclass(frozen=True, eq=False)
+class NamedCause:
+    """A cause with the numbers that it brought, by path, or with the faults of single runs that it stands for.
+
+    ``gain`` is what the final files gain by it, ``removal`` the share by which the error grows where it is taken out
+    and the rest refitted, both on runs that took no part; ``nats`` is what it predicts of training runs left out,
+    ``rivals`` the words of what may stand in its place.
+    """
+
+    cause: type[Cause]
+    terms: tuple[Term, ...]
+    slots: Mapping[str, Value]
+    accused: tuple[Accused, ...]
+    probability: float
+    nats: float
+    groups: tuple[int, int]
+    gain: Gain | None
+    removal: float | None
+    rivals: tuple[str, ...]
+    evidence_of: str | None
+    proof: str
+
+    @property
+    def site(self) -> Site | None:
+        """Where it is in a network with nodes; None at the rig and in a network with two ends."""
+        return self.terms[0].site if self.terms else None
+
+    @property
+    def title(self) -> str:
+        """What it is, and where."""
+        return self.terms[0].title if self.terms else self.cause.about
+
+    @property
+    def branch(self) -> str | None:
+        """The first branch it added; None for a fault of single runs."""
+        return next(iter(self.slots)).partition(".")[0] if self.slots else None
+
+    @property
+    def evidence(self) -> str:
+        """How it shows, and how sure that is."""
+        forms = list(dict.fromkeys([*(term.suspect.form for term in self.terms),
+                                    *(one.kind.fault.form for one in self.accused)]))  # fmt: skip
+        shown = f"{self.cause.shows}. As {', then '.join(forms)} it has a probability of {self.probability:.2g}"
+        better, all_groups = self.groups
+        where = f" and predicts {better} of {all_groups} groups of runs better that were left out" if all_groups else ""
+        return f"{shown}{where}{f'; {self.proof}' if self.proof else ''}"
+
+    def parameters(self) -> dict[str, Any]:
+        """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
+        found: dict[str, Any] = {}
+        for one in self.accused:
+            hum = one.correction.hum
+            size = float(np.hypot(hum[1], hum[2])) if hum else float(one.strengths[0])
+            found[f"{one.kind.fault.quantity} of {one.run}"] = {
+                "value": size, "unit": one.kind.fault.unit, "interval": None,
+            }  # fmt: skip
+        for path, value in self.slots.items():
+            branch, _, name = path.partition(".")
+            found[name if branch == self.branch else path] = {
+                "value": value.number,
+                "unit": value.unit,
+                "interval": list(value.interval) if value.interval else None,
+            }
+        return found
+
+
+def slots_of(network: NetworkSpec, paths: Sequence[str]) -> dict[str, Value]:
+    """The numbers of a network at some paths, in the order of the text."""
+    found = [slot for slot in network.slots() if slot.path in set(paths)]
+    return {slot.path: slot.value for slot in sorted(found, key=lambda slot: slot.value.place)}

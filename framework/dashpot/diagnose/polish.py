@@ -1,0 +1,72 @@
+"""The numbers of the final files: fitted to the plain error, with intervals, and read back as they are written."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.term import Model
+from dashpot.fit.coordinates import with_point
+from dashpot.fit.objective import Objective
+from dashpot.fit.refine import linearise, refine
+from dashpot.fit.result import with_intervals
+from dashpot.fit.scored import ScoredRun
+from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.kernel.network import compile_network
+from dashpot.model.network import NetworkSpec
+
+Array = NDArray[np.float64]
+
+STEPS = 60
+LEVEL = 0.975
+
+
+def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = STEPS) -> NetworkSpec:
+    """The network of a model with the numbers at which the plain error of the runs is smallest, all weighing alike."""
+    objective = Objective(compile_network(model.fitted), runs, jobs)
+    found = refine(objective, model.coordinates, model.coordinates.start, steps)
+    return with_point(model.fitted, model.coordinates, found.point)
+
+
+def known(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int,
+          floor: float | None) -> NetworkSpec:  # fmt: skip
+    """The network with the intervals of its numbers: by the scatter between pieces of runs, or between whole runs.
+
+    The wider one counts: what differs from run to run does not show within them.
+    """
+    objective = Objective(compile_network(network), runs, jobs)
+    coordinates = model.coordinates
+    point = coordinates.of_values(objective.network.start)
+    found = assess_uncertainty(objective, coordinates, point, (), floor)
+    between = _between_groups(objective, model, point, groups)
+    intervals = {}
+    for k, path in enumerate(coordinates.paths):
+        low, high = found.intervals[k]
+        if np.isfinite(found.widths[k]) and between[k] > found.widths[k]:
+            ends = np.clip(point[k] + np.array([-1.0, 1.0]) * between[k] * coordinates.unit[k],
+                           coordinates.low[k], coordinates.high[k])  # fmt: skip
+            low, high = (coordinates.number(k, end) for end in ends)
+        intervals[path] = low, high
+    return with_intervals(network, intervals)
+
+
+def _between_groups(objective: Objective, model: Model, point: Array, groups: Mapping[str, str]) -> Array:
+    """Half widths (p,) in natural steps from the scores of whole groups of runs (sandwich; Liang and Zeger 1986)."""
+    from scipy.special import stdtrit
+
+    residual, jacobian = linearise(objective, model.coordinates, point)
+    jacobian = np.where(np.isfinite(jacobian), jacobian, 0.0)
+    names = list(dict.fromkeys(groups[run.name] for run in objective.runs))
+    if len(names) < 3:
+        return np.zeros(point.size)
+    scores = np.zeros((len(names), point.size))
+    for run, piece in zip(objective.runs, objective.pieces, strict=True):
+        scores[names.index(groups[run.name])] += jacobian[:, piece] @ residual[piece]
+    normal = jacobian @ jacobian.T
+    scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
+    inverse = np.linalg.pinv(normal / np.outer(scale, scale), rcond=1e-9, hermitian=True)
+    moved = (scores / scale) @ inverse / scale
+    count = len(names)
+    return stdtrit(count - 1, LEVEL) * np.sqrt(count / (count - 1) * np.sum(moved**2, axis=0))

@@ -1,0 +1,147 @@
+"""Fitting a structure to whitened misfits, and what its terms do to the force."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.term import Model, Term, extended, inherited
+from dashpot.diagnose.view import ModelView
+from dashpot.diagnose.whitening import Noise
+from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.objective import Objective
+from dashpot.fit.ranges import Sizes, natural_sizes
+from dashpot.fit.refine import linearise, refine
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
+from dashpot.model.network import NetworkSpec
+from dashpot.text.problem import InputError
+
+Array = NDArray[np.float64]
+
+STEPS, TOLERANCE = 60, 1e-5
+KEPT_BYTES = 200e6  # of columns
+TRIAL_STEPS, TRIAL_TOLERANCE = 12, 1e-3  # a trial is only compared
+SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
+
+
+@dataclass(frozen=True, eq=False)
+class Refitter:
+    """What every refit needs: the training runs, the elements, and the data sheets of the force channel by run.
+
+    ``written`` keeps the texts of structures, ``reduced`` columns that depend on the motion alone.
+    """
+
+    runs: Sequence[ScoredRun]
+    elements: Mapping[str, type[Element]]
+    sensors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    jobs: int = 1
+    watch: Callable[[float], None] = lambda done: None
+    written: dict[tuple[Term, ...], tuple[NetworkSpec, tuple[tuple[str, ...], ...]]] = field(default_factory=dict)
+    reduced: dict[tuple[object, ...], Array] = field(default_factory=dict)
+
+    @cached_property
+    def sizes(self) -> Sizes:
+        """Natural sizes in the runs, from which numbers without bounds get theirs."""
+        return natural_sizes(self.runs)
+
+    def refit(self, model: Model, terms: Sequence[Term], noise: Noise, change: Array | None = None) -> Model:
+        """A model with other terms, all numbers fitted.
+
+        It starts from the present numbers, those of new terms, and, with the natural steps ``change`` (p,) that the
+        linear step foresees, from places on the way there, whichever misses least. Raises InputError for a term that
+        cannot be written into the network.
+        """
+        starts = [self._start(model, terms, model.fitted)]
+        fresh = [term for term in terms if term not in model.terms]
+        if change is not None and fresh:
+            for share in SHARES:
+                part = [term if term in model.terms else term.scaled(share) for term in terms]
+                with suppress(InputError):  # a small share may be less than an element admits
+                    starts.append(self._start(model, part, model.moved(share * change)))
+        declared, owned, start = starts[0]
+        objective = self._objective(start, noise)
+        points = [search_coordinates(one) for _, _, one in starts]
+        places = np.array([each.to_values(each.start)[0] for each in points])
+        best = int(np.argmin(objective.losses(places)))
+        declared, owned, start = starts[best]
+        return self._fitted(model.base, tuple(terms), declared, owned, start, noise, TRIAL_STEPS, TRIAL_TOLERANCE)
+
+    def fit(self, model: Model, noise: Noise) -> Model:
+        """The same structure, its numbers fitted under another noise."""
+        return self._fitted(model.base, model.terms, model.declared, model.owned, model.fitted, noise)
+
+    def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
+        """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
+        objective = self._objective(model.fitted, noise)
+        misfit, jacobian = linearise(objective, model.coordinates, model.point)
+        jacobian = np.where(model.at_bound[:, None] | ~np.isfinite(jacobian), 0.0, jacobian)
+        pieces = dict(zip((run.name for run in self.runs), objective.pieces, strict=True))
+        return ({name: -misfit[piece] for name, piece in pieces.items()},
+                {name: jacobian[:, piece] for name, piece in pieces.items()})  # fmt: skip
+
+    def forces(self, network: NetworkSpec) -> dict[str, Array]:
+        """The force (n,) in N that a network with its numbers shows, by run."""
+        objective = Objective(compile_network(network), self.runs, self.jobs)
+        found = objective.forces(objective.network.start)
+        return {run.name: force[0] for run, force in zip(self.runs, found, strict=True)}
+
+    def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> Array:
+        """The columns (places, kept) of a candidate on a run, reduced; those of the motion alone are kept in memory."""
+        suspect = candidate.suspect
+        key = candidate.cause, suspect.form, suspect.grid, run.name
+        if key in self.reduced:
+            return self.reduced[key]
+        found = noise.reduce(run.name, np.atleast_2d(suspect.columns(view, run.name))[:, run.first :])
+        if suspect.of_motion and sum(rows.nbytes for rows in list(self.reduced.values())) < KEPT_BYTES:
+            self.reduced[key] = found.astype(np.float32)
+        return found
+
+    def term_forces(self, model: Model) -> list[dict[str, Array]]:
+        """For each term what it adds to the force (n,) by run, all other numbers as they are."""
+        if not model.terms:
+            return []
+        whole = self.forces(model.fitted)
+        found = []
+        for term in model.terms:
+            rest = [other for other in model.terms if other is not term]
+            other = self.forces(self.without(model, rest))
+            found.append({run: whole[run] - other[run] for run in whole})
+        return found
+
+    def without(self, model: Model, terms: Sequence[Term]) -> NetworkSpec:
+        """The network of a model with some of its terms only, all numbers as they are."""
+        return self._start(model, terms, model.fitted)[2]
+
+    def _start(
+        self, model: Model, terms: Sequence[Term], numbers: NetworkSpec
+    ) -> tuple[NetworkSpec, tuple[tuple[str, ...], ...], NetworkSpec]:
+        declared, owned = self._written(model.base, tuple(terms))
+        return declared, owned, inherited(declared, owned, terms, replace(model, fitted=numbers), self.sizes)
+
+    def _written(self, base: NetworkSpec, terms: tuple[Term, ...]) -> tuple[NetworkSpec, tuple[tuple[str, ...], ...]]:
+        if not terms:
+            return base, ()
+        if terms not in self.written:
+            before, owned = self._written(base, terms[:-1])
+            declared, mine = extended(before, terms[-1], self.elements)
+            self.written[terms] = declared, (*owned, mine)
+        return self.written[terms]
+
+    def _objective(self, network: NetworkSpec, noise: Noise) -> Objective:
+        return Objective(compile_network(network), self.runs, self.jobs, noise)
+
+    def _fitted(self, base: NetworkSpec, terms: tuple[Term, ...], declared: NetworkSpec,
+                owned: tuple[tuple[str, ...], ...], start: NetworkSpec, noise: Noise,
+                steps: int = STEPS, tolerance: float = TOLERANCE) -> Model:  # fmt: skip
+        coordinates = search_coordinates(start)
+        found = refine(self._objective(start, noise), coordinates, coordinates.start, steps, tolerance)
+        fitted = with_point(start, coordinates, found.point)
+        return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)

@@ -1,0 +1,166 @@
+"""The score of a structure: what it predicts of runs that took no part in its fit, and its prior odds.
+
+For each group of runs (a run with its repeats) the structure is fitted to all others, to first order, and predicts it;
+minus the predictive log likelihood, each group with a variance of its own, is
+
+    sum over groups of n / 2 log(mean square of what is not predicted),
+
+in nats. A term that only follows the noise, or the error of another term's form, does not predict. The prior odds of
+each term are stated in ``Odds``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.look import Look
+
+Array = NDArray[np.float64]
+
+FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
+RIG_ODDS = 0.01  # of a fault of the measurement against a law of the specimen
+STEADY = 1e-6  # of the square of a column: keeps numbers that nothing tells from running away
+
+
+class Added(NamedTuple):
+    """Columns of a candidate that join a structure, by their number among its own."""
+
+    candidate: int
+    places: tuple[int, ...]
+
+
+class Structure(NamedTuple):
+    """What changes at a model: own terms that go, by number, and columns that join."""
+
+    dropped: frozenset[int] = frozenset()
+    added: frozenset[Added] = frozenset()
+
+    @property
+    def size(self) -> int:
+        """How many changes these are."""
+        return len(self.dropped) + len(self.added)
+
+
+@dataclass(frozen=True)
+class Odds:
+    """Prior odds of a term, in nats: with ``columns`` to choose from, none is named by chance but in 1 % of cases."""
+
+    columns: int
+
+    def price(self, kind: str) -> float:
+        """What a term has to predict before it is more likely than not."""
+        return float(np.log(max(self.columns, 1) / FALSE_ALARMS)) - (np.log(RIG_ODDS) if kind == "measurement" else 0.0)
+
+
+@dataclass(eq=False)
+class Scores:
+    """The scores of structures at one look; what was computed once is kept."""
+
+    look: Look
+    odds: Odds = field(init=False)
+    known: dict[Structure, tuple[Array, float] | None] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.odds = Odds(self.look.layout.bank)
+        total = self.look.total
+        self.scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
+        unit = np.outer(self.scale, self.scale)
+        self.grams, self.prior = self.look.grams / unit, self.look.prior / unit
+        self.gram = total / unit + self.prior
+        self.kinds = [term.cause.kind for term in self.look.model.terms]
+
+    def columns(self, structure: Structure) -> NDArray[np.intp]:
+        """The columns that a structure fits: the tangents of the terms that stay, then what joins."""
+        paths = self.look.model.coordinates.paths
+        gone = {path for number in structure.dropped for path in self.look.model.owned[number]}
+        kept = [1 + k for k, at in enumerate(self.look.own) if paths[at] not in gone]
+        alive = [at for at in kept if self.look.total[at, at] > 0.0]
+        return np.array([*alive, *self.atoms(structure)], dtype=np.intp)
+
+    def atoms(self, structure: Structure) -> list[int]:
+        """The columns that join."""
+        first = self.look.layout.first_candidate
+        return [first + self.look.candidates[k].columns.start + place
+                for k, places in sorted(structure.added) for place in places]  # fmt: skip
+
+    def target(self, structure: Structure) -> Array:
+        """The residual as a combination (c,) of the scaled columns: what dropped terms explained comes back."""
+        target = np.zeros(self.look.layout.size)
+        target[0] = 1.0
+        for number in structure.dropped:
+            at = self.look.layout.term(number)
+            target[at] = self.scale[at] / self.scale[0]
+        return target
+
+    def strengths(self, structure: Structure) -> Array:
+        """The solution on all runs, one for each of ``columns``, in their own units."""
+        at, target = self.columns(structure), self.target(structure)
+        solution = np.linalg.solve(self._steadied(self.gram, at), self.gram[at] @ target)
+        return solution * self.scale[0] / self.scale[at]
+
+    def moves(self, structure: Structure) -> Array:
+        """The natural steps (p,) of all numbers of the model that a structure foresees."""
+        at, strengths, look = self.columns(structure), self.strengths(structure), self.look
+        found = np.zeros(look.model.point.size)
+        tangents = at <= look.layout.tangents
+        found[look.own[at[tangents] - 1]] = strengths[tangents]
+        target = self.target(structure) * self.scale[0] / self.scale
+        found[look.base] = look.base_moves @ target - look.base_moves[:, at] @ strengths
+        return found
+
+    def admitted(self, structure: Structure) -> bool:
+        """Whether no strength has the wrong sign."""
+        found = self.strengths(structure)
+        first = found.size - len(self.atoms(structure))
+        for k, places in sorted(structure.added):
+            mine = found[first : first + len(places)]
+            first += len(places)
+            if self.look.candidates[k].suspect.sign and (mine < 0.0).any():
+                return False
+        return True
+
+    def predicted(self, structure: Structure) -> tuple[Array, float] | None:
+        """Mean square (groups,) of each group, predicted from all others, and the prior of form errors in nats.
+
+        None where a strength has the wrong sign.
+        """
+        if structure not in self.known:
+            self.known[structure] = self._predicted(structure) if self.admitted(structure) else None
+        return self.known[structure]
+
+    def _predicted(self, structure: Structure) -> tuple[Array, float]:
+        at, target = self.columns(structure), self.target(structure)
+        inner = self.grams[:, at[:, None], at]
+        cross = self.grams[:, at] @ target
+        square = np.einsum("i,gij,j->g", target, self.grams, target)
+        whole, right = self._steadied(self.gram, at), self.gram[at] @ target
+        # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
+        tied = 1.0 / len(inner)
+        solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])[..., 0]
+        left = square - 2.0 * np.einsum("gi,gi->g", solved, cross) + np.einsum("gi,gij,gj->g", solved, inner, solved)
+        rest = target.copy()
+        rest[at] -= np.linalg.solve(whole, right)
+        unlikely = 0.5 * float(rest @ self.prior @ rest) * self.scale[0] ** 2
+        return np.maximum(left * self.scale[0] ** 2 / self.look.samples, 1e-12), unlikely
+
+    def _steadied(self, gram: Array, at: NDArray[np.intp]) -> Array:
+        return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)
+
+    def nats(self, structure: Structure) -> Array | None:
+        """Minus the predictive log likelihood (groups,) of each group."""
+        found = self.predicted(structure)
+        return None if found is None else 0.5 * self.look.samples * np.log(found[0])
+
+    def price(self, structure: Structure) -> float:
+        """The prior of a structure in nats: what joins less what goes."""
+        joins = sum(self.odds.price(self.look.candidates[k].cause.kind) for k, _ in structure.added)
+        return joins - sum(self.odds.price(self.kinds[number]) for number in structure.dropped)
+
+    def score(self, structure: Structure) -> float:
+        """Minus the log of likelihood and prior; the smaller, the better; infinite for one of the wrong sign."""
+        found, nats = self.predicted(structure), self.nats(structure)
+        return np.inf if found is None or nats is None else float(nats.sum()) + found[1] + self.price(structure)

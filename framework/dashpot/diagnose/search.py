@@ -1,0 +1,145 @@
+"""A beam search over structures, on the Gram matrices of one look: add, drop and swap."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.look import Candidate
+from dashpot.diagnose.score import Added, Scores, Structure
+
+Array = NDArray[np.float64]
+
+BEAM = 3
+MOST_ADDED = 2  # at one look; a refit and another look follow
+PROPOSED = 8
+LEFT = 1e-5  # of the square of a column must be left beside the others
+STALE = 2  # steps of the beam without a better structure
+
+
+def search(scores: Scores) -> list[Structure]:
+    """The structures that were scored, best first: from the present one by adding, dropping and swapping terms."""
+    start = Structure()
+    front, seen, best, stale = [start], {start}, scores.score(start), 0
+    while front and stale < STALE:
+        moves = {move for structure in front for move in moves_from(scores, structure)} - seen
+        seen |= moves
+        ranked = sorted(moves, key=scores.score)
+        front = [one for one in ranked if np.isfinite(scores.score(one))][:BEAM]
+        now = min((scores.score(one) for one in front), default=np.inf)
+        stale = 0 if now < best - 1e-9 else stale + 1
+        best = min(best, now)
+    return sorted(
+        (one for one in seen if np.isfinite(scores.score(one))), key=lambda one: (scores.score(one), one.size)
+    )
+
+
+def moves_from(scores: Scores, structure: Structure) -> set[Structure]:
+    """All structures one step away that the score test proposes."""
+    found = {Structure(structure.dropped | {number}, structure.added)
+             for number in range(len(scores.kinds)) if number not in structure.dropped}  # fmt: skip
+    found |= {Structure(structure.dropped - {number}, structure.added) for number in structure.dropped}
+    if len(structure.added) < MOST_ADDED:
+        found |= {Structure(structure.dropped, structure.added | {one}) for one in additions(scores, structure)}
+    for term in structure.added:
+        less = Structure(structure.dropped, structure.added - {term})
+        found |= {less} | {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
+    for number in set(range(len(scores.kinds))) - structure.dropped:
+        less = Structure(structure.dropped | {number}, structure.added)
+        if len(structure.added) < MOST_ADDED:
+            found |= {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Projected:
+    """Scores (m,) and their Gram matrix (m, m) of the candidates' columns, everything in a structure projected out."""
+
+    right: Array
+    gram: Array
+    nats: float
+
+
+def additions(scores: Scores, structure: Structure) -> list[Added]:
+    """The candidates that explain most beside a structure (score test), the best places of each; best first."""
+    left = _project(scores, structure)
+    used = {k for k, _ in structure.added}
+    found = []
+    for k, candidate in enumerate(scores.look.candidates):
+        if k not in used and (best := _places(candidate, left)):
+            gain, places = best
+            merit = gain - scores.odds.price(candidate.cause.kind)
+            if merit > 0.0:
+                found.append((merit, Added(k, places)))
+    found.sort(key=lambda pair: -pair[0])
+    return _varied(scores, [added for _, added in found])
+
+
+def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:
+    """The first few, at most two forms of a cause."""
+    kept: list[Added] = []
+    for added in ordered:
+        name = scores.look.candidates[added.candidate].name
+        if sum(scores.look.candidates[other.candidate].name == name for other in kept) < 2:
+            kept.append(added)
+    return kept[:PROPOSED]
+
+
+def _project(scores: Scores, structure: Structure) -> _Projected:
+    at, target = scores.columns(structure), scores.target(structure)
+    first = scores.look.layout.first_candidate
+    gram, bank = scores.gram, slice(first, None)
+    solve = np.linalg.solve(gram[np.ix_(at, at)] + 1e-9 * np.eye(at.size), gram[at])
+    left = gram[bank, bank] - gram[bank][:, at] @ solve[:, bank]
+    right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)
+    square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))
+    samples = float(scores.look.samples.sum())
+    # per unit of what is left, so that a gain in squares is one in nats
+    return _Projected(right, left, 0.5 * samples / max(square, 1e-300))
+
+
+def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, ...]] | None:
+    """The places of a candidate that explain most together, and the gain in nats less that of chance."""
+    suspect, own = candidate.suspect, np.arange(candidate.columns.start, candidate.columns.stop)
+    alive = np.flatnonzero(np.diag(left.gram)[own] > LEFT)
+    if not alive.size:
+        return None
+    if suspect.joint:
+        return _jointly(own, alive, left, bool(suspect.sign))
+    chosen: list[int] = []
+    best: tuple[float, tuple[int, ...]] | None = None
+    while len(chosen) < min(suspect.most, alive.size):
+        tried = [(_gain(left, own[[*chosen, j]], bool(suspect.sign)), int(j)) for j in alive if j not in chosen]
+        gain, j = max(tried)
+        nats = gain * left.nats - (len(chosen) + 1) * (1 + suspect.unknowns)
+        if nats <= (best[0] if best else 0.0):
+            break
+        chosen.append(j)
+        best = nats, tuple(chosen)
+    return best
+
+
+def _jointly(own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected,
+             positive: bool) -> tuple[float, tuple[int, ...]] | None:  # fmt: skip
+    from scipy.optimize import nnls
+
+    at = own[alive]
+    matrix, right = left.gram[np.ix_(at, at)] + 1e-7 * np.eye(at.size), left.right[at]
+    if positive:
+        root = np.linalg.cholesky(matrix + 1e-9 * np.trace(matrix) * np.eye(at.size))
+        strengths = nnls(root.T, np.linalg.solve(root, right))[0]
+    else:
+        strengths = np.linalg.solve(matrix, right)
+    kept = alive[strengths != 0.0]
+    gain = 2.0 * right @ strengths - strengths @ matrix @ strengths
+    return (gain * left.nats - kept.size, tuple(int(j) for j in kept)) if kept.size else None
+
+
+def _gain(left: _Projected, at: NDArray[np.intp], positive: bool) -> float:
+    matrix, right = left.gram[np.ix_(at, at)], left.right[at]
+    strengths = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
+    if positive and (strengths < 0.0).any():
+        return -np.inf
+    return float(2.0 * right @ strengths - strengths @ matrix @ strengths)

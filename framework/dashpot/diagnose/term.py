@@ -1,0 +1,146 @@
+"""A structure: a network and the terms that a diagnosis has added to it, refitted together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Atom, Cause, Suspect
+from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.ranges import Sizes, with_ranges
+from dashpot.fit.refine import Outcome
+from dashpot.model.element import Element
+from dashpot.model.network import NetworkSpec
+from dashpot.model.reading import parse_network
+from dashpot.model.sites import Site
+
+Array = NDArray[np.float64]
+
+AT_BOUND = 1e-3  # of a range
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """A cause in one of its forms, started at places of its grid; ``site`` is where in a network with nodes."""
+
+    cause: type[Cause]
+    suspect: Suspect
+    atoms: tuple[Atom, ...]
+    site: Site | None = None
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """The word of the cause, and the words of the site."""
+        return self.cause.word, self.site.words if self.site else ""
+
+    @property
+    def title(self) -> str:
+        """What the cause is, and where."""
+        return " ".join([self.cause.about, self.site.words] if self.site else [self.cause.about])
+
+    def scaled(self, share: float) -> Term:
+        """The term with all strengths times ``share``."""
+        return replace(self, atoms=tuple((share * strength, place) for strength, place in self.atoms))
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A fitted structure.
+
+    ``base`` is the network that is diagnosed, ``declared`` its text extended by the ``terms``, ``fitted`` the same with
+    fitted numbers; ``owned`` holds for each term the paths of the numbers that it brought.
+    """
+
+    base: NetworkSpec
+    terms: tuple[Term, ...]
+    declared: NetworkSpec
+    owned: tuple[tuple[str, ...], ...]
+    fitted: NetworkSpec
+    coordinates: Coordinates
+    point: Array
+    outcome: Outcome = Outcome.CONVERGED
+
+    @property
+    def values(self) -> Array:
+        """All slots (slots,) in SI."""
+        return self.coordinates.to_values(self.point)[0]
+
+    @property
+    def at_bound(self) -> NDArray[np.bool_]:
+        """Which coordinates (p,) are at an end of their range."""
+        margin = AT_BOUND * (self.coordinates.high - self.coordinates.low)
+        return (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
+
+    @property
+    def names(self) -> tuple[tuple[str, str], ...]:
+        """The names of all terms."""
+        return tuple(term.name for term in self.terms)
+
+    def numbers_of(self, number: int) -> dict[str, float]:
+        """The fitted numbers in SI that a term brought, by the last word of their path; a second one ends in ``_2``."""
+        return numbers_by_word(self.fitted, self.owned[number])
+
+    def moved(self, change: Array) -> NetworkSpec:
+        """The fitted network after natural steps ``change`` (p,) of its coordinates, within their ranges."""
+        from dashpot.fit.coordinates import with_point
+
+        point = self.coordinates.allowed(self.point + self.coordinates.unit * change)[0]
+        return with_point(self.fitted, self.coordinates, point)
+
+
+def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
+    """A fitted network as the start of a search."""
+    coordinates = search_coordinates(fitted)
+    return Model(declared, (), declared, (), fitted, coordinates, coordinates.start)
+
+
+def extended(
+    network: NetworkSpec, term: Term, elements: Mapping[str, type[Element]]
+) -> tuple[NetworkSpec, tuple[str, ...]]:
+    """A network extended by a term, and the paths of the numbers that it brought.
+
+    Raises InputError for a term that cannot be written into the network.
+    """
+    known = {slot.path for slot in network.slots()}
+    declared = parse_network(term.suspect.extend(network.text, term.atoms), elements, network.file)
+    return declared, tuple(slot.path for slot in declared.slots() if slot.path not in known)
+
+
+def inherited(declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Term], model: Model,
+              sizes: Sizes) -> NetworkSpec:  # fmt: skip
+    """A declared structure with the fitted numbers of a model wherever the two share a term or the base."""
+    homes = {path: path for path in (slot.path for slot in model.base.slots())}
+    for term, paths in zip(terms, owned, strict=True):
+        if term in model.terms:
+            old = model.owned[model.terms.index(term)]
+            homes.update(zip(paths, old, strict=False) if len(old) == len(paths) else ())
+    curves = {f"{branch.name}.{key}": curve
+              for branch in model.fitted.leaves() for key, curve in branch.characteristics().items()}  # fmt: skip
+    for path in declared.data_curves():
+        declared = declared.with_curve(path, curves[path])
+    known = {slot.path: slot.value for slot in model.fitted.slots()}
+    # knots of curves from data have paths that the declared base has not
+    values = {
+        slot.path: replace(known[homes.get(slot.path, slot.path)], node=slot.value.node)
+        for slot in declared.slots()
+        if homes.get(slot.path, slot.path) in known and (slot.path in homes or not _owned(slot.path, owned))
+    }
+    return with_ranges(declared.with_values(values), sizes)
+
+
+def _owned(path: str, owned: Sequence[Sequence[str]]) -> bool:
+    return any(path in paths for paths in owned)
+
+
+def numbers_by_word(network: NetworkSpec, paths: Sequence[str]) -> dict[str, float]:
+    """Numbers in SI by the last word of their path; those of a second branch end in ``_2``, and so on."""
+    values = {slot.path: slot.value.number for slot in network.slots()}
+    found: dict[str, float] = {}
+    for path in paths:
+        word = path.rpartition(".")[2]
+        times = sum(name == word or name.startswith(f"{word}_") for name in found)
+        found[word if not times else f"{word}_{times + 1}"] = values[path]
+    return found

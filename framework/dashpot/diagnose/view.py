@@ -1,0 +1,148 @@
+"""The present model on all runs, as suspected causes may look at it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.compare.band import end_of_band
+from dashpot.data.drive import moved_drive
+from dashpot.fit.objective import Objective
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.kernel.system import CompiledSystem
+from dashpot.model.element import Element
+from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.text.problem import InputError, Place, nearest
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ModelView:
+    """A fitted network on scored runs; see ``contract.cause.View`` for what the members mean."""
+
+    scored: Mapping[str, ScoredRun]
+    forces: Mapping[str, Array]
+    elements: Mapping[str, type[Element]]
+    network: NetworkSpec | None = None
+
+    @property
+    def runs(self) -> tuple[str, ...]:
+        """Names of the runs."""
+        return tuple(self.scored)
+
+    @cached_property
+    def reach(self) -> tuple[float, float]:
+        """Smallest and largest deflection in m."""
+        paths = [run.drive.displacement for run in self.scored.values()]
+        return float(min(x.min() for x in paths)), float(max(x.max() for x in paths))
+
+    @cached_property
+    def speed(self) -> float:
+        """Largest speed in m/s."""
+        return float(max(np.abs(run.drive.velocity).max() for run in self.scored.values()))
+
+    @cached_property
+    def stroke(self) -> float:
+        """The largest stroke of a single dynamic run in m, of any run if there is no dynamic one."""
+        dynamic = [run for run in self.scored.values() if run.kind not in ("quasi_static", "hold")]
+        return float(max(np.ptp(run.drive.displacement) for run in dynamic or self.scored.values()))
+
+    @cached_property
+    def highest_frequency(self) -> float:
+        """The highest frequency in Hz that was driven, in any run."""
+        return end_of_band([run.drive for run in self.scored.values()], self.stroke)
+
+    @cached_property
+    def duration(self) -> float:
+        """Median length of a run in s."""
+        return float(np.median([run.drive.dt * run.drive.samples for run in self.scored.values()]))
+
+    @cached_property
+    def dt(self) -> float:
+        """Smallest sample time in s."""
+        return min(run.drive.dt for run in self.scored.values())
+
+    def displacement(self, run: str) -> Array:
+        """The deflection (n,) in m."""
+        return self.scored[run].drive.displacement
+
+    def velocity(self, run: str) -> Array:
+        """The velocity (n,) in m/s."""
+        return self.scored[run].drive.velocity
+
+    def force(self, run: str) -> Array:
+        """The force of the present model (n,) in N."""
+        return self.forces[run]
+
+    def step(self, run: str) -> float:
+        """The sample time in s."""
+        return self.scored[run].drive.dt
+
+    def settings(self, run: str) -> Mapping[str, float]:
+        """What was set at a run, and the means of its further channels, SI."""
+        return self.scored[run].excitation.settings
+
+    def moved(self, run: str, change: Array) -> Array:
+        """The force (n,) of the model along a changed deflection. ValueError for a view without its network."""
+        scored = self.scored[run]
+        moved = replace(scored, drive=moved_drive(scored.drive, change))
+        return Objective(self._compiled, [moved]).forces(self._compiled.start)[0][0]
+
+    @cached_property
+    def _compiled(self) -> CompiledNetwork | CompiledSystem:
+        if self.network is None:
+            raise ValueError("expected a view that knows its network, got one made of forces alone")
+        return compile_network(self.network)
+
+    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
+        """The forces (m, n) of an element with each of m sets of values; what a set leaves out has its default.
+
+        Raises InputError for an element that no plugin provides and for a value that is missing and has no default.
+        """
+        if element not in self.elements:
+            raise InputError.at(Place(), f"there is no element '{element}'", nearest(element, self.elements))
+        law = self.elements[element]
+        keys = tuple(dict.fromkeys(key for entry in values for key in entry))
+        complete = [_with_defaults(law, keys, entry) for entry in values]
+        probe = _probe(law, keys)
+        lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in complete])
+        return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
+
+
+def view_of(
+    network: NetworkSpec, runs: Sequence[ScoredRun], elements: Mapping[str, type[Element]], jobs: int = 1
+) -> ModelView:
+    """A fitted network on runs as causes see it."""
+    objective = Objective(compile_network(network), runs, jobs)
+    forces = objective.forces(objective.network.start)
+    seen = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
+    return ModelView({run.name: run for run in runs}, seen, elements, network)
+
+
+def _with_defaults(law: type[Element], keys: Sequence[str], entry: Mapping[str, float]) -> dict[str, float]:
+    parameters = law.declares.parameters
+    given = {key: entry.get(key, parameters[key].default if key in parameters else None) for key in keys}
+    if missing := [key for key, value in given.items() if value is None]:
+        raise InputError.at(Place(), f"'{missing[0]}' is missing in a set of values, and it has no default")
+    return {key: float(value) for key, value in given.items() if value is not None}
+
+
+@lru_cache(maxsize=64)
+def _probe(element: type[Element], keys: tuple[str, ...]) -> CompiledNetwork:
+    declared = element.declares
+    values = {key: Value(1.0, declared.parameters[key].unit) for key in keys if key in declared.parameters}
+    curves = {
+        key: Characteristic(declared.curves[key], "constant", (Value(1.0, declared.curves[key].slope_unit),))
+        for key in keys
+        if key in declared.curves
+    }
+    branch = Branch("probe", element, values, curves)
+    probe = compile_network(NetworkSpec("probe", Group("", "parallel", (branch,))))
+    assert isinstance(probe, CompiledNetwork)
+    return probe

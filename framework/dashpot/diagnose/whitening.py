@@ -1,0 +1,93 @@
+"""The noise of each run: signals reduced to the band that was driven, and whitened.
+
+Columns, tangents and residuals are averaged over as many samples as the driven band and its harmonics allow; an
+autoregressive filter then makes what is left of the noise white. The error that the model itself still makes counts as
+white noise beside it: far above the noise all frequencies weigh alike, near to it the noise decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+ORDER = 8
+NYQUIST = 4.0 / np.pi**2  # of the square of a line at the end of the band is left by averages over blocks
+HARMONICS = 5  # of the end of the driven band that the reduced records still hold
+
+
+@dataclass(frozen=True, eq=False)
+class Noise:
+    """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of what is left.
+
+    Filtered noise has variance one. ``filters`` in 1/N.
+    """
+
+    steps: Mapping[str, int]
+    filters: Mapping[str, Array] = field(default_factory=dict)
+
+    def kept(self, run: str, samples: int) -> int:
+        """How many values are kept of so many samples."""
+        return samples // self.steps[run]
+
+    def reduce(self, run: str, signals: Array) -> Array:
+        """Signals (..., n) of a run averaged over blocks (..., kept); white noise keeps its deviation."""
+        step = self.steps[run]
+        kept = signals.shape[-1] // step
+        if step == 1:
+            return signals
+        blocks = signals[..., : kept * step].reshape(*signals.shape[:-1], kept, step)
+        return blocks.sum(axis=-1) / np.sqrt(step)
+
+    def reduce_shapes(self, run: str, shapes: Array) -> Array:
+        """Shapes (k, n) of a run averaged over blocks (k, kept); zero for one beyond the band that they show."""
+        reduced = self.reduce(run, shapes)
+        gone = np.sum(reduced**2, axis=-1) < NYQUIST * np.sum(shapes**2, axis=-1)
+        return np.where(gone[..., None], 0.0, reduced)
+
+    def filter(self, run: str, reduced: Array) -> Array:
+        """Reduced signals (..., kept) in units of the noise; the first values miss their past and are set to zero."""
+        if reduced.size == 0:
+            return reduced.copy()
+        coefficients = self.filters[run]
+        if not coefficients[1:].any():
+            return coefficients[0] * reduced  # asks for no past
+        # all rows in one: what runs over from one into the next is what is set to zero
+        white = np.convolve(reduced.ravel(), coefficients)[: reduced.size].reshape(reduced.shape)
+        white[..., :ORDER] = 0.0
+        return white
+
+    def whiten(self, run: str, signals: Array) -> Array:
+        """Signals (..., n) of a run, reduced and in units of their noise."""
+        return self.filter(run, self.reduce(run, signals))
+
+    def with_white(self, deviations: Mapping[str, float]) -> Noise:
+        """The same blocks under white noise of the given standard deviations in N."""
+        return Noise(self.steps, {run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
+
+
+def reduction(dt: float, highest_frequency: float) -> int:
+    """Over how many samples a run is averaged so that the harmonics of the driven band stay."""
+    return max(1, int(1.0 / (2.0 * HARMONICS * highest_frequency * dt)))
+
+
+def learn_filter(rest: Array, error: float, smallest: float) -> Array:
+    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N beside a white ``error`` (N, RMS).
+
+    ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
+    Source: the Yule-Walker equations with the autocovariance of both.
+    """
+    from scipy.linalg import solve_toeplitz
+
+    lags = range(min(ORDER + 1, max(rest.size, 1)))
+    covariance = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
+    covariance[0] = max(covariance[0] * (1.0 + 1e-9) + error**2, smallest**2)
+    if rest.size <= 4 * ORDER:
+        return np.concatenate([[1.0 / np.sqrt(covariance[0])], np.zeros(ORDER)])
+    prediction = np.concatenate([[1.0], -solve_toeplitz(covariance[:-1], covariance[1:])])
+    variance = max(float(prediction @ covariance), smallest**2)
+    return prediction / np.sqrt(variance)

@@ -1,0 +1,59 @@
+"""The mean residual over the two variables that explain it best."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from dashpot.report.figures import toggles
+from dashpot.report.parts import Figure
+from dashpot.report.readable import number, percent
+from dashpot.report.theme import axis, layout
+
+SIGNED = [[0.0, "@after"], [0.5, "@paper"], [1.0, "@before"]]
+IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
+
+
+def residual_map(told: Mapping[str, Any]) -> Figure:
+    """Mean residual (N) over two variables: `label`, `x` and `y` (`name`, `unit`, `edges`), `mean` (ny, nx) N.
+
+    `explained` is the share of the mean square of the residual that the map foretells on other stretches of the runs,
+    `singles` that of each variable alone.
+    """
+    (x_name, x), (y_name, y) = (_axis_of(told[which]) for which in ("x", "y"))
+    mean = np.asarray(told["mean"], dtype=float)
+    top = float(np.nanmax(np.abs(mean)))
+    trace = {
+        "type": "heatmap", "x": np.arange(x.size), "y": np.arange(y.size), "z": mean,
+        "zmin": -top, "zmax": top, "colorscale": SIGNED,
+        "colorbar": {"title": {"text": "N", "side": "top"}, "thickness": 12, "outlinewidth": 0},
+        "text": [[f"{x_name} {wide}<br>{y_name} {high}" for wide in _ranges(x)] for high in _ranges(y)],
+        "hovertemplate": "%{text}<br>%{z:.3g} N<extra></extra>",
+        "hoverongaps": False,
+    }  # fmt: skip
+    best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]
+    alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
+    caption = (
+        "Measured less simulated force, mean of each field: the model presses too little where it is positive. These "
+        f"two variables foretell {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
+        f"stretches that the map was not made of; alone: {alone}. Every row and column has as many samples."
+    )
+    axes = {which: axis(name, zeroline=False, showgrid=False, tickvals=np.arange(edges.size),
+                        ticktext=[number(edge, 2) for edge in edges])
+            for which, name, edges in (("xaxis", x_name, x), ("yaxis", y_name, y))}  # fmt: skip
+    wide, high = (0.5 * (edges[1:] + edges[:-1]) for edges in (x, y))
+    columns = {x_name: np.tile(wide, high.size), y_name: np.repeat(high, wide.size), "mean residual (N)": mean.ravel()}
+    plot = {"data": [trace], "layout": layout(440, **axes)}
+    return Figure(f"Residual of {toggles.series_name(told['label'])}", caption, plot, columns)
+
+
+def _ranges(edges: np.ndarray) -> list[str]:
+    return [f"{number(low)} to {number(high)}" for low, high in zip(edges, edges[1:], strict=False)]
+
+
+def _axis_of(variable: Mapping[str, Any]) -> tuple[str, np.ndarray]:
+    factor, unit = IN_RIG_UNITS.get(variable["unit"], (1.0, variable["unit"]))
+    name = variable["name"].replace("_", " ")
+    return (f"{name} ({unit})" if unit else name), factor * np.asarray(variable["edges"], dtype=float)

@@ -1,0 +1,138 @@
+"""The report of a look at measured runs, before any model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from dashpot.report import figures
+from dashpot.report.colophon import colophon
+from dashpot.report.evidence import Evidence
+from dashpot.report.figures import excerpt
+from dashpot.report.grids import explainable_origin, explainable_value, floor_origin, floor_value
+from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
+from dashpot.report.readable import join, quantity, shown_with_unit
+from dashpot.report.shapes import shape_figures
+
+Json = Mapping[str, Any]
+
+POINTS = 1200
+FEW = ("run", "amplitude", "peak_speed", "largest_force", "energy", "stiffness", "loss", "remark")  # for a terminal
+NUMBERS = 120_000
+
+COLUMNS = (
+    Column("run", "run"),
+    Column("amplitude", "amplitude", "mm", 3),
+    Column("preload", "middle", "mm", 3),
+    Column("peak_speed", "largest speed", "mm/s", 3),
+    Column("least_force", "least force", "N", 3),
+    Column("largest_force", "largest force", "N", 3),
+    Column("cycles", "closed cycles", "", 3),
+    Column("energy", "energy per cycle", "J", 3),
+    Column("stiffness", "stiffness", "N/mm", 3),
+    Column("loss", "loss stiffness", "N/mm", 3),
+    Column("remark", "remark"),
+)
+
+
+def look_page(look: Json, evidence: Evidence) -> Page:
+    """The report of a `dashpot-look/1`: `loops`, `over_velocity`, `shapes`, `spectra`, `repeats`, `dynamic_stiffness`.
+
+    See `compare.look.Look.evidence` for shapes and units.
+    """
+    sections = (
+        Section("The runs", parts=list(_result(look, evidence))),
+        Section("Over displacement and velocity", parts=list(_loops(evidence))),
+        Section("The shape of the force", parts=list(shape_figures(evidence["shapes"]))),
+        Section("Over frequency", parts=list(_over_frequency(evidence))),
+        Section("Repeats", parts=list(_repeats(evidence))),
+    )
+    return Page(
+        title=f"A look at {look['dataset']['name']}",
+        headline=look_headline(look),
+        lead=" ".join(filter(None, [f"{len(look['runs'])} runs.", floor_origin(look), explainable_origin(look)])),
+        sections=[section for section in sections if section.parts],
+        colophon=colophon(look, evidence),
+    )
+
+
+def look_figures(evidence: Evidence) -> list[Figure]:
+    """All figures of the report."""
+    return [*_loops(evidence), *shape_figures(evidence["shapes"]), *_over_frequency(evidence), *_repeats(evidence)]
+
+
+def look_headline(look: Json) -> str:
+    """What is wrong with the work of the runs, or what is to be explained."""
+    wrong = [run["run"] for run in look["runs"] if run["gives_back"]]
+    if wrong:
+        gives = "gives" if len(wrong) == 1 else "give"
+        return f"{join(wrong)} {gives} back work over closed cycles: look at signs, swapped channels and delays."
+    forces = [abs(run[key]) for run in look["runs"] for key in ("least_force", "largest_force")]
+    floor, explainable = floor_value(look), explainable_value(look)
+    told = [f"Forces up to {quantity(max(forces), 'N')}"]
+    told += [f"noise floor {quantity(floor, 'N')}"] if floor else []
+    told += [f"a general model of the past motion leaves {quantity(explainable, 'N')}"] if explainable else []
+    return f"{'; '.join(told)}."
+
+
+def look_grid(look: Json, keys: Sequence[str] = ()) -> Grid:
+    """The runs in numbers, with what their closed cycles take up; of the columns those in `keys`, or all."""
+    rows = [_row(run) for run in look["runs"]]
+    chosen = [column for column in COLUMNS if not keys or column.key in keys]
+    used = [column for column in chosen if any(row.get(column.key) is not None for row in rows)]
+    caption = "Energy per cycle is the median over closed cycles; positive: the specimen takes up work."
+    return Grid("The runs", used, rows, caption, "runs.csv")
+
+
+def _row(run: Json) -> dict[str, Any]:
+    remarks = [f"repeats {run['repeats']}" if run["repeats"] else "", "gives back work" if run["gives_back"] else ""]
+    thousandth = {key: None if run[key] is None else 1e-3 * run[key] for key in ("stiffness", "loss")}
+    in_mm = {key: 1e3 * run[key] for key in ("amplitude", "preload", "peak_speed")}
+    return {**run, **in_mm, **thousandth, "energy": run["energy_per_cycle"],
+            "remark": ", ".join(filter(None, remarks)) or None}  # fmt: skip
+
+
+def _result(look: Json, evidence: Evidence) -> Iterator[Part]:
+    shown = [("runs", str(len(look["runs"])), "", "")]
+    for name, value in (("explainable", explainable_value(look)), ("noise floor", floor_value(look))):
+        if value is not None:
+            shown.append((name, *shown_with_unit(value, "N"), ""))
+    yield KeyFigures(shown)
+    yield look_grid(look)
+    yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
+
+
+def _loops(evidence: Evidence) -> Iterator[Figure]:
+    yield figures.loops(**evidence["loops"])
+    measured = evidence["loops"]["measured"]
+    points = excerpt.affordable(len(measured), 2, POINTS, NUMBERS)
+    curves = [_cut(curve, measured[curve["run"]], points) for curve in evidence["over_velocity"]]
+    yield figures.shape_figure("over_velocity", curves, evidence["shapes"])
+
+
+def _cut(curve: Json, signals: Json, points: int) -> dict[str, Any]:
+    """Cycles spread over the run, with a gap between."""
+    pieces = excerpt.cycle_excerpts(np.asarray(signals["time"]), np.asarray(signals["displacement"]), points)
+    x, y = (np.concatenate([part for piece in pieces for part in (np.asarray(curve[key])[piece], [np.nan])])
+            for key in ("x", "y"))  # fmt: skip
+    return {**curve, "x": x, "y": y}
+
+
+def _over_frequency(evidence: Evidence) -> Iterator[Figure]:
+    if evidence.get("dynamic_stiffness"):
+        yield from figures.stiffness_figures(evidence["dynamic_stiffness"], ())
+    for of in ("force", "displacement"):
+        curves = [curve for curve in evidence["spectra"] if curve["of"] == of]
+        yield figures.shape_figure(f"{of}_spectrum", curves, evidence["shapes"])
+
+
+def _repeats(evidence: Evidence) -> Iterator[Figure]:
+    curves = []
+    for group in evidence["repeats"]:
+        for name, departure in zip(group["runs"], group["departure"], strict=True):
+            kept = excerpt.envelope([departure], POINTS)
+            curves.append({"run": name, "label": "measured", "x": group["sample_time"] * kept, "y": departure[kept]})
+    if curves:
+        yield figures.shape_figure("repeats", curves, evidence["shapes"])

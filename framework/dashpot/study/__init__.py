@@ -1,0 +1,7 @@
+"""What a fitted study tells: masses, the errors of its models, and the curves of an axle.
+
+masses      the masses that a study answers for
+axle        what the runs of an axle tell beside a fit
+axle_study  the same for all models of a study
+study       the content of a study's result files
+"""

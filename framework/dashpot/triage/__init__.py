@@ -1,0 +1,13 @@
+"""Triage: faults of the measurement, looked for before anything is fitted and before the model is blamed.
+
+fault       what is said of a run, and the run as it goes on
+duplicates  one record under two names
+dropouts    samples that were lost
+work        the work that a specimen takes up over closed cycles
+passivity   runs that give work back, and what they most likely are
+forecast    what the other runs foretell for the force of a run, without a model
+agreement   the runs of a dataset that agree, and those that do not
+scale       wrong polarity, wrong unit
+actuator    harmonics of the motion itself
+examine     all of it in order
+"""

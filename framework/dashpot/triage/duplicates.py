@@ -1,0 +1,52 @@
+"""The same record under two names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.run import Run
+from dashpot.data.white_noise import white_noise
+from dashpot.triage.fault import Fault
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-9
+NOISELESS = 1e-7  # of the deviation: a computed force, which repeats itself exactly
+
+
+def duplicate_runs(runs: Sequence[Run]) -> list[Fault]:
+    """Runs whose motion and force are those of an earlier one to the last digit; computed ones without noise may be.
+
+    A force alone may come back to the last digit where a test prescribes it, and so may the forces of one record on a
+    symmetric specimen.
+    """
+    found: dict[str, Fault] = {}
+    for first, second in combinations(runs, 2):
+        if first.record == second.record or first.name in found or second.name in found:
+            continue
+        if _is_measured(first) and _same(first, second):
+            found[second.name] = Fault(
+                second.name, "duplicate", f"it is run '{first.name}' to the last digit",
+                "A copy is no repeat: measure again, or remove it",
+            )  # fmt: skip
+    return list(found.values())
+
+
+def _same(first: Run, second: Run) -> bool:
+    return _equal(first.force, second.force) and _equal(first.displacement, second.displacement)
+
+
+def _equal(one: Array, other: Array) -> bool:
+    if one.size != other.size or not np.allclose(one[:64], other[:64], rtol=ROUNDING, atol=0.0):
+        return False
+    deviation = float(np.std(one))
+    return bool(np.max(np.abs(one - other)) <= ROUNDING * deviation)
+
+
+def _is_measured(run: Run) -> bool:
+    """Whether there is noise on the force, which no second measurement repeats."""
+    return white_noise(run.force) >= NOISELESS * float(np.std(run.force)) > 0.0

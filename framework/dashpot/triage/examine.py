@@ -1,0 +1,78 @@
+"""All checks of triage in order, each on what the ones before it left."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from dashpot.data.dataset import Dataset
+from dashpot.data.ends import one_force_each
+from dashpot.data.groups import group_repeats
+from dashpot.data.run import Run
+from dashpot.text.problem import Place, Problem
+from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.dropouts import lost_samples
+from dashpot.triage.duplicates import duplicate_runs
+from dashpot.triage.fault import Fault, mended
+from dashpot.triage.passivity import work_faults
+from dashpot.triage.scale import wrong_scales
+
+
+@dataclass(frozen=True, eq=False)
+class Triage:
+    """``dataset`` without the runs at fault, or with a channel mended; ``faults`` and ``remarks`` say why.
+
+    Its runs measure one force each. The first ``read`` faults were told by reading.
+    """
+
+    dataset: Dataset
+    faults: tuple[Fault, ...]
+    remarks: tuple[str, ...]
+
+    read: int = 0
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """What was found here, beyond what reading has told: faults as errors, remarks as warnings."""
+        found = [
+            Problem(Place(), f"run '{fault.run}': {fault.evidence}; {fault.done}", fault.cure)
+            for fault in self.faults[self.read :]
+        ]
+        return (*found, *(Problem(Place(), remark, severity="warning") for remark in self.remarks))
+
+
+def examined(dataset: Dataset) -> Dataset:
+    """The dataset as triage leaves it, which also tells what was found among its ``problems``."""
+    triage = examine(dataset)
+    return replace(triage.dataset, problems=(*dataset.problems, *triage.problems))
+
+
+def examine(dataset: Dataset) -> Triage:
+    """Look for faults of the measurement. A dataset never loses its last run."""
+    read = [Fault(run, found.fault, found.message, found.hint) for run, found in dataset.faults]
+    whole = one_force_each(dataset).runs
+    measured = [run for run in whole if "force" in run.channels and "displacement" in run.channels]
+    copied = duplicate_runs(measured) + [fault for run in measured if (fault := lost_samples(run))]
+    runs = _without(measured, copied)
+    turned = work_faults(runs)
+    runs = _without(runs, turned)
+    scaled = wrong_scales(runs)
+    runs = _without(runs, scaled)
+    faults = [*copied, *turned, *scaled]
+    kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
+    left = group_repeats([kept[run.name] for run in whole if run.name in kept])
+    remarks = [remark for run in runs if (remark := actuator_harmonics(run))]
+    if not left:
+        left = list(whole)
+        remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")
+    return Triage(replace(dataset, runs=tuple(left)), (*read, *faults), tuple(remarks), len(read))
+
+
+def _without(runs: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:
+    """The runs without those that are left out, the others mended."""
+    of = {fault.run: fault for fault in faults}
+    return [
+        mended(run, of[run.name]) if run.name in of else run
+        for run in runs
+        if run.name not in of or of[run.name].factor is not None
+    ]

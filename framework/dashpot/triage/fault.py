@@ -1,0 +1,41 @@
+"""What triage says of a measurement: a fault comes before any blame of the model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from dashpot.data.run import Run
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A fault of one run: ``kind`` in a word, ``evidence`` in a sentence, ``cure`` says what to do.
+
+    ``factor`` by which ``channel`` was multiplied here so that the run may stay; None for a run that is set aside.
+    """
+
+    run: str
+    kind: str
+    evidence: str
+    cure: str
+    factor: float | None = None
+    channel: str = "force"
+
+    @property
+    def sentence(self) -> str:
+        """The fault for a list of warnings."""
+        return f"Run '{self.run}': {self.evidence}; {self.done}. {self.cure}."
+
+    @property
+    def done(self) -> str:
+        """What was done here."""
+        if self.factor is None:
+            return "left out here"
+        return f"its {self.channel} was multiplied by {self.factor:.6g} here"
+
+
+def mended(run: Run, fault: Fault) -> Run:
+    """The run with the channel of a fault, also where it stands at a node, multiplied by its factor."""
+    names = {fault.channel, f"{fault.channel}@{run.end}"} if run.end else {fault.channel}
+    changed = {name: fault.factor * values for name, values in run.channels.items() if name in names}
+    return replace(run, channels={**run.channels, **changed})

@@ -1,0 +1,154 @@
+"""Runs that give work back over closed cycles, which no passive specimen does, and what they most likely are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.resample import advance
+from dashpot.data.run import Run
+from dashpot.text.quantity import pretty
+from dashpot.triage.fault import Fault
+from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run
+from dashpot.triage.work import CycleWork, work_of_cycles
+
+Array = NDArray[np.float64]
+
+# of datasets without a fault, one in so many may have a run accused by chance
+ONE_IN = 1000
+FEWEST_CYCLES = 3
+FEWEST_OTHERS = 2
+# what the numbers of a force may be times those of a displacement: N against m, mm and um, kN against mm
+_SWAPS = (1.0, 1e-3, 1e-6, 1e-9)
+
+
+@dataclass(frozen=True, eq=False)
+class _Try:
+    """A run as it would be without a fault, and how much of its force the others do not explain then."""
+
+    kind: str
+    unlike: float
+    words: str
+    cure: str
+    factor: float | None = None
+    channel: str = "force"
+
+
+def gives_back(work: CycleWork, delay: float, runs: int = 1) -> bool:
+    """Whether the mean work of the cycles is below what an elastic specimen may seem to give back.
+
+    ``delay`` in s by which channels may be apart. Judged by the scatter from cycle to cycle (Student's t), so that of
+    1000 datasets with so many ``runs`` one has a passive run accused.
+    """
+    from scipy.special import stdtr
+
+    count = work.taken.size
+    if count < FEWEST_CYCLES:
+        return False
+    below = float(np.mean(work.taken)) + work.explicable(delay)
+    scatter = float(np.std(work.taken, ddof=1)) / np.sqrt(count)
+    if not below < 0.0:
+        return False
+    return scatter == 0.0 or bool(stdtr(count - 1, below / scatter) < 1.0 / (ONE_IN * runs))
+
+
+def work_faults(runs: Sequence[Run]) -> list[Fault]:
+    """The runs that give back work, each with what would mend it."""
+    works = {run.name: work for run in runs if (work := work_of_cycles(run)) is not None}
+    bad = [run for run in runs if run.name in works and gives_back(works[run.name], delay_of(run), len(works))]
+    accused = {run.name for run in bad}
+    sound = [run for run in runs if run.name in works and run.name not in accused]
+    return [_fault_of(run, works[run.name], sound) for run in bad]
+
+
+def delay_of(run: Run) -> float:
+    """By how much the channels of a run may be apart in s: a sample, and what the data sheets of the sensors admit."""
+    stated = (run.sensors.get(channel, {}).get("delay", 0.0) for channel in ("force", "displacement"))
+    return run.sample_time + sum(stated)
+
+
+def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
+    back, share = pretty(-float(np.mean(work.taken)), "J", 3), -work.power_factor
+    seen = f"it gives back {back} in each cycle, {share:.1%} of the work that goes to and fro"
+    best = _most_likely(run, work, sound)
+    if best is None:
+        return Fault(run.name, "energy",
+                     f"{seen}, which no passive specimen does; neither another sign nor a delay nor swapped channels "
+                     "makes it agree with the other runs",
+                     "Check its channels, or leave it out")  # fmt: skip
+    return Fault(run.name, best.kind, f"{seen}: {best.words}", best.cure, best.factor, best.channel)
+
+
+def _most_likely(run: Run, work: CycleWork, sound: Sequence[Run]) -> _Try | None:
+    if len(sound) < FEWEST_OTHERS:
+        return _by_itself(run, work)
+    sizes = Sizes.of(sound)
+    moments = [moments_of_run(other, sizes) for other in sound]
+    coefficients = fitted(moments)
+    usual = [_unlike(each, fitted(_but(number, moments))) for number, each in enumerate(moments)]
+    tries = list(_tries(run, work, sizes, coefficients))
+    least = min(each.unlike for each in tries)
+    if least > max(usual):
+        return None
+    # what differs by no more than the other runs do among themselves is told alike: then the usual mistake comes first
+    return next(each for each in tries if each.unlike - least <= max(usual) - min(usual))
+
+
+def _but(number: int, moments: Sequence[Moments]) -> list[Moments]:
+    return [each for k, each in enumerate(moments) if k != number]
+
+
+def _unlike(moments: Moments, coefficients: Array) -> float:
+    """The share of the square of a force that no multiple of the forecast explains; all of it for a negative one."""
+    gain, likeness = compared(moments, coefficients)
+    return 1.0 - likeness if gain > 0.0 else 1.0
+
+
+def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iterator[_Try]:
+    """What may have gone wrong, the more usual mistakes first."""
+    x, force = run.displacement, run.force
+    rate = np.gradient(x, run.sample_time)
+
+    def unlike(x: Array, rate: Array, force: Array) -> float:
+        return _unlike(moments_of(x, rate, force, sizes), coefficients)
+
+    yield _turned_force(unlike(x, rate, -force))
+    yield _Try("polarity", unlike(-x, -rate, force), "with its displacement turned round it agrees with the others",
+               "Write 'sign: -1' under its displacement channel", -1.0, "displacement")  # fmt: skip
+    slope = np.gradient(force, run.sample_time)
+    swapped = min(unlike(factor * force, factor * slope, x / factor) for factor in _SWAPS)
+    yield _Try("swapped_channels", swapped,
+               "with its force and displacement taken for each other it agrees with the others",
+               "Swap the columns of its force and displacement channels")  # fmt: skip
+    late = [(unlike(x, rate, advance(force, count)), count) for count in _delays(run, work)]
+    if late:
+        apart, count = min(late)
+        delay = pretty(count * run.sample_time, "s", 3)
+        yield _Try("delay", apart, f"with its force {delay} earlier it agrees with the others",
+                   f"Write 'delay: {delay}' under its force channel")  # fmt: skip
+
+
+def _turned_force(unlike: float) -> _Try:
+    return _Try("polarity", unlike, "with its force turned round it takes up work and agrees with the others",
+                "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+
+
+def _delays(run: Run, work: CycleWork) -> list[int]:
+    """Delays in samples, at most a quarter of the mean cycle, each a tenth longer than the one before."""
+    most = run.time.size // (4 * max(work.taken.size, 1))
+    counts = np.unique(np.round(np.geomspace(1.0, max(most, 1), 60)).astype(int))
+    return [int(count) for count in counts if count <= most]
+
+
+def _by_itself(run: Run, work: CycleWork) -> _Try:
+    """What a run is where no other one tells: late where it resists deflection as it stands, else turned round."""
+    x, force = run.displacement - np.mean(run.displacement), run.force - np.mean(run.force)
+    if float(x @ force) <= 0.0 or not work.per_delay > 0.0:
+        return _Try("polarity", 0.0, "with its force turned round it takes up work",
+                    "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+    least = pretty(-float(np.mean(work.taken)) / work.per_delay, "s", 2)
+    return _Try("delay", 0.0, f"it resists deflection, but its force comes late, by {least} or more",
+                "Write its 'delay' under its force channel, or let the network identify it")  # fmt: skip

@@ -1,0 +1,145 @@
+"""Runs whose force has the wrong sign, or whose force or displacement has the wrong unit, told by the other runs.
+
+A well-known factor is a wrong unit where it lies as near as the spread of the others allows, and where their spread
+does not allow what was measured. So a sound run is never rescaled: what differs by another factor is left to the
+diagnosis.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from dashpot.data.declaration import SETTING_UNITS
+from dashpot.data.run import Run
+from dashpot.text.quantity import pretty
+from dashpot.triage.agreement import FEWEST, MOSTLY, Agreement, find_agreement
+from dashpot.triage.fault import Fault
+from dashpot.triage.forecast import Sizes, moments_of, moments_of_run
+
+# what was measured over what it is -> how that comes about
+FORCES = {
+    1000.0: "kN written as N", 0.001: "N written as kN", 1e6: "MN written as N",
+    9.80665: "N written as kgf", 1.0 / 9.80665: "kgf written as N",
+    9806.65: "N written as tonf", 1.0 / 9806.65: "tonf written as N",
+    4.4482216: "N written as lbf", 1.0 / 4.4482216: "lbf written as N",
+    4448.2216: "N written as kip", 1.0 / 4448.2216: "kip written as N",
+    10.0: "a decimal point", 0.1: "a decimal point",
+}  # fmt: skip
+DISPLACEMENTS = {
+    1000.0: "mm written as m", 0.001: "m written as mm", 1e6: "um written as m", 1e-6: "m written as um",
+    25.4: "mm written as in", 1.0 / 25.4: "in written as mm",
+    10.0: "mm written as cm, or a decimal point", 0.1: "cm written as mm, or a decimal point",
+    100.0: "cm written as m", 0.01: "m written as cm",
+}  # fmt: skip
+PREFIXES = (1000.0, 0.001, 1e6, 1e-6)
+# what other settings do to a force is no matter of triage, but no setting makes it this many times as large
+SETTLED = 999.0
+
+
+def wrong_scales(runs: Sequence[Run]) -> list[Fault]:
+    """Wrong polarities and units: among runs of the same settings, and the plainest ones among all."""
+    found: dict[str, Fault] = {}
+    alike = [group for group in _alike(runs) if len(group) >= FEWEST]
+    for group in alike:
+        found.update((fault.run, fault) for fault in _of_group(group, 1.0))
+    if len(alike) != 1 or len(alike[0]) != len(runs):
+        found = {**{fault.run: fault for fault in _of_group(runs, SETTLED)}, **found}
+    return list(found.values())
+
+
+def _alike(runs: Sequence[Run]) -> list[list[Run]]:
+    """The runs by those of their settings that say more than how the rig moved."""
+    groups: dict[object, list[Run]] = {}
+    for run in runs:
+        free = {key: value for key, value in run.settings.items() if key not in SETTING_UNITS}
+        groups.setdefault((tuple(sorted(free.items())), tuple(sorted(run.notes.items()))), []).append(run)
+    return list(groups.values())
+
+
+def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
+    """Faults of runs that are compared with each other; factors below ``least`` (or above its inverse) are let pass."""
+    moved = [run for run in runs if np.ptp(run.displacement) > 0.0 and np.any(run.force)]
+    if len(moved) < FEWEST:
+        return
+    sizes = Sizes.of(moved)
+    known = find_agreement([moments_of_run(run, sizes) for run in moved])
+    if known is None:
+        return
+    inside = [moved[k] for k in known.inside]
+    for number, run in enumerate(moved):
+        if number not in known.inside and (fault := _fault_of(run, known, inside, sizes, least)):
+            yield fault
+
+
+def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, least: float) -> Fault | None:
+    gain, likeness = known.compare(moments_of_run(run, sizes))
+    if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach and least == 1.0:
+        return Fault(run.name, "polarity",
+                     f"its force is {gain:.3g} times what all others foretell: the channel has the wrong sign",
+                     "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+    force = _force_fault(run, gain, likeness, known, least)
+    stroke = _stroke_fault(run, known, sizes, least)
+    if force and stroke:
+        # an elastic force in proportion to its deflection shows the one as the other
+        nearer = _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
+        return stroke if nearer else force
+    return force or stroke
+
+
+def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least: float) -> Fault | None:
+    if not gain > 0.0 or likeness < MOSTLY or abs(math.log(gain)) <= known.reach:
+        return None
+    near = _near(gain, FORCES, known.tolerance, least)
+    if not near:
+        return None
+    like = " or ".join(FORCES[factor] for factor in near)
+    return Fault(run.name, "unit", f"its force is {pretty(gain, '1', 4)} times what all others foretell, like {like}",
+                 "Correct the 'unit' of its force channel", _mending(near))  # fmt: skip
+
+
+def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, least: float) -> Fault | None:
+    rate = np.gradient(run.displacement, run.sample_time)
+    fitting = {}
+    for factor in DISPLACEMENTS:
+        seen = moments_of(run.displacement / factor, rate / factor, run.force, sizes)
+        gain, likeness = known.compare(seen)
+        near = gain > 0.0 and abs(math.log(gain)) <= known.tolerance and likeness >= MOSTLY
+        if near and abs(math.log(factor)) > max(known.reach, math.log(least)):
+            fitting[factor] = abs(math.log(gain))
+    if not fitting:
+        return None
+    fits = sorted(fitting, key=lambda each: fitting[each])
+    divisors = " or ".join(f"{factor:.6g} ({DISPLACEMENTS[factor]})" for factor in fits)
+    return Fault(run.name, "unit_of_displacement",
+                 f"its force is like that of all others if its displacement is divided by {divisors}",
+                 "Correct the 'unit' of its displacement channel", _mending(fits), "displacement")  # fmt: skip
+
+
+def _near(gain: float, factors: dict[float, str], tolerance: float, least: float) -> list[float]:
+    """The known factors that a gain may be, the nearest first."""
+    apart = {factor: abs(math.log(gain / factor)) for factor in factors if abs(math.log(factor)) >= math.log(least)}
+    return sorted((factor for factor in apart if apart[factor] <= tolerance), key=lambda factor: apart[factor])
+
+
+def _mending(near: Sequence[float]) -> float | None:
+    """What a channel is to be multiplied by; None where the spread of the others does not tell which factor it is.
+
+    Of several that are possible the nearest is taken if it is one of the prefixes of the SI, which are mistaken most.
+    """
+    return 1.0 / near[0] if len(near) == 1 or near[0] in PREFIXES else None
+
+
+def _nearer(run: Run, fault: Fault, inside: Sequence[Run], channel: str) -> float:
+    """By how much the size of a channel comes nearer to the range of the other runs when a fault is mended, in logs."""
+    sizes = [size for other in inside if (size := float(np.std(other.channels[channel]))) > 0.0]
+    size, factor = float(np.std(run.channels[channel])), fault.factor
+    if not sizes or not size > 0.0 or factor is None:
+        return 0.0
+
+    def beyond(value: float) -> float:
+        return max(0.0, math.log(min(sizes) / value), math.log(value / max(sizes)))
+
+    return beyond(size) - beyond(size * factor)

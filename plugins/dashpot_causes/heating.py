@@ -1,0 +1,53 @@
+"""Stiffness and damping that fall by the heat of the damping."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import product
+
+import numpy as np
+
+from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.model.network import NetworkSpec
+
+UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1"}
+WARMTHS = (0.3, 1.0, 3.0)  # of the fastest run in the end, in powers of two of the damping
+TIMES = (0.1, 0.4, 1.6)  # of the length of a run
+SPRINGS = (0.0, 1.0)  # stiffness over damping and angular frequency at the end of the band
+
+
+class Heating(Cause):
+    """A part of damping and stiffness that the heat of dissipated power takes away, and cooling gives back."""
+
+    word = "heating"
+    kind = "specimen"
+    about = "softening by dissipated heat"
+    shows = "loss falls over the run, faster where more power is dissipated, then stays; at rest it recovers"
+    confused_with = {
+        "softening": "two runs of one speed and other damping: heat follows the power, not the speed",
+        "fading_damping": "a rest between two runs: what was warm recovers, what faded for good does not",
+        "drift": "a fast run after a slow one: a drift does not know how fast the specimen was moved",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times."""
+        mean_square = max(float(np.mean(np.square(view.velocity(run)))) for run in view.runs)
+        band = 2.0 * np.pi * view.highest_frequency
+        for share in SPRINGS:
+            places = list(product(WARMTHS, [part * view.duration for part in TIMES]))
+
+            def values(damping: float, number: float, share: float = share,
+                       places: list[tuple[float, float]] = places) -> Mapping[str, float]:  # fmt: skip
+                warmth, time = places[int(number)]
+                found = {"damping": damping, "power": damping * mean_square / warmth, "time": time}
+                return found | ({"stiffness": share * damping * band} if share else {})
+
+            yield added_branch(
+                "self_heating",
+                "heating",
+                tuple(float(number) for number in range(len(places))),
+                values,
+                UNITS,
+                unknowns=3 if share else 2,
+                form="a dashpot and a spring that warm up" if share else "a dashpot that warms up",
+            )

@@ -1,0 +1,141 @@
+"""Numbers of the network that are others under other settings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.model.network import Branch, NetworkSpec, Value
+from dashpot.model.patch import add_branch, make_dependent
+from dashpot.text.inserting import plain_or_quoted
+from dashpot.text.problem import InputError
+
+Array = NDArray[np.float64]
+# what says how the specimen was moved, and not in which state it was
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass"}
+MEAN = "mean of "
+NUDGE = 1e-3
+DIGITS = 10
+
+
+class SettingDependence(Cause):
+    """A number of the network, or a force of its own, follows pressure, current, temperature or another setting."""
+
+    word = "setting_dependence"
+    kind = "specimen"
+    about = "dependence on a setting or on a measured channel"
+    shows = "what is left sorts by the setting: runs of one setting err alike, those of another the other way"
+    confused_with = {
+        "gain": "the same setting once more: a gain of single runs does not come back with it",
+        "drift": "settings in another order: drift follows the clock",
+        "offset": "the same setting once more: a zero that was lost does not come back with it",
+    }
+
+    def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
+        """Each number of each branch along a straight line over each setting; a force over each setting."""
+        for setting in _settings(view):
+            numbers = list(_numbers(network))
+            if numbers:
+                yield _changed(setting, numbers)
+            yield _force(setting)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A setting by the name under which runs have it, with its mean over them and how far it goes."""
+
+    name: str
+    middle: float
+    spread: float
+    values: Mapping[str, float]
+
+    def share(self, run: str) -> float:
+        """How far a run is from the middle, over the spread."""
+        return (self.values[run] - self.middle) / self.spread
+
+    def over(self, slope: float) -> str:
+        """The dependence as it stands in a file, with a slope to be found."""
+        kind = "channel" if self.name.startswith(MEAN) else "setting"
+        word = plain_or_quoted(self.name.removeprefix(MEAN))
+        return f"{kind}: {word}, at: {self.middle:.{DIGITS}g}, slope: {{start: {slope:.{DIGITS}g}}}"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a branch, and what the branch has besides."""
+
+    branch: Branch
+    key: str
+    value: Value
+
+    def column(self, view: View, run: str) -> Array:
+        """The change of the force (n,) when the number changes by all of its size."""
+        known = {key: value.number for key, value in self.branch.values.items()}
+        known |= {key: curve.values[0].number for key, curve in self.branch.curves.items()}
+        moved = [{**known, self.key: known[self.key] * (1.0 + side * NUDGE)} for side in (-1.0, 1.0)]
+        less, more = view.respond(run, self.branch.element.word, moved)
+        return (more - less) / (2.0 * NUDGE)
+
+
+def _settings(view: View) -> Iterator[Setting]:
+    found = {run: view.settings(run) for run in view.runs}
+    common = set.intersection(*(set(each) for each in found.values())) if found else set()
+    for name in sorted(common - OF_THE_MOTION):
+        values = {run: each[name] for run, each in found.items()}
+        spread = max(values.values()) - min(values.values())
+        middle = float(f"{np.mean(list(values.values())):.{DIGITS}g}")
+        if spread > 1e-9 * abs(middle):
+            yield Setting(name, middle, spread, values)
+
+
+def _numbers(network: NetworkSpec) -> Iterator[Number]:
+    if network.document is None or network.joints:
+        return
+    for branch in network.leaves():
+        if branch.scale or any(curve.form != "constant" for curve in branch.curves.values()):
+            continue
+        known = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
+        for key, value in known.items():
+            if value.number and not value.over and not value.setting and _stands(network, branch, key):
+                yield Number(branch, key, value)
+
+
+def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
+    try:
+        make_dependent(network.text, branch.name, key, "setting: s, at: 0, slope: 0")
+    except (InputError, ValueError):
+        return False
+    return True
+
+
+def _changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
+    def columns(view: View, run: str) -> Array:
+        return setting.share(run) * np.array([number.column(view, run) for number in numbers])
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        for strength, place in atoms:
+            number = numbers[int(place)]
+            slope = strength * number.value.number / setting.spread
+            text = make_dependent(text, number.branch.name, number.key, setting.over(slope))
+        return text
+
+    grid = tuple(map(float, range(len(numbers))))
+    return Suspect(f"a number over {setting.name}", grid, columns, extend, sign=0, unknowns=0, most=2,
+                   quantity="change over the settings", unit="1")  # fmt: skip
+
+
+def _force(setting: Setting) -> Suspect:
+    def columns(view: View, run: str) -> Array:
+        return np.full((1, view.displacement(run).size), setting.share(run))
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        slope = atoms[0][0] / setting.spread
+        entry = f"force: {{fixed: 0 N, over: {{{setting.over(slope)}}}}}"
+        return add_branch(text, f"{free_name(text, 'setting_force')}:\n  element: constant_force\n  {entry}")
+
+    return Suspect(f"a force over {setting.name}", (0.0,), columns, extend, sign=0, unknowns=0,
+                   quantity="change over the settings", unit="N")  # fmt: skip

@@ -1,0 +1,69 @@
+"""A dashpot of any power with a spring in series."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Series, Symbol
+from dashpot_elements.behind_spring import memory, pressed
+
+STEPS = 7
+REST = 1e-3  # of the reference velocity, below which the curve is a straight line
+
+
+class CompliantDamper(Element):
+    """A dashpot in series with a spring: F = force r |r|^(exponent - 1), r = (v - F'/stiffness)/reference.
+
+    The exponent 1 is `maxwell`, 2 turbulent flow behind the compliance of oil, hoses and mounts, and towards 0 a slider
+    behind a spring. A piston rod in a soft mount looks like a delay of the force where the spring is stiff, and like a
+    spring where the damper is strong. Below a thousandth of the reference velocity the curve is a straight line through
+    zero, so that its slope is finite at rest. A `series:` of a spring and any other law does the same for all laws;
+    this one is a single branch.
+
+    One step follows TR-BDF2, of second order in the step; its equation is solved by Newton's method in logarithms,
+    where it is convex and converges for every number.
+    """
+
+    picture = Series(Symbol.SPRING, Symbol.DASHPOT)
+    source = "Hosea and Shampine, Applied Numerical Mathematics 20 (1996) 21, for TR-BDF2"
+    exact = False
+
+    stiffness = Parameter("N/m", "stiffness in series", bounds=(1.0, 1e10), symbol="k")
+    force = Parameter("N", "force at the reference velocity", bounds=(1e-3, 1e6), symbol="F_r")
+    exponent = Parameter("1", "power of the velocity", bounds=(0.05, 4.0), scale="linear", symbol="n", default=1.0)
+    reference = Parameter("m/s", "velocity at which the force is told", bounds=(1e-4, 1e2), symbol="v_r", default=0.1)
+    load, speed = memory()
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """Spring and dashpot together."""
+
+        def law(given: Any, rate: Any) -> tuple[Any, Any]:
+            drag = rate * p.reference / p.force
+            size = np.maximum(np.abs(given) / p.force, REST**p.exponent + REST * drag)
+            share, ratio = _flow(size, drag, p.exponent)
+            return given * share, given / (size * p.force) * ratio * p.reference
+
+        return pressed(x, z, p.stiffness, dt, law)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the spring."""
+        return 0.5 * z.load * z.load / p.stiffness
+
+
+def _flow(given: Any, drag: Any, exponent: Any) -> tuple[Any, Any]:
+    """The share that r^exponent has in r^exponent + drag r = given, and r.
+
+    The logarithm of the sum is convex in that of r; where one of both terms alone would do, it is at most ln 2 too
+    large, and Newton's method comes down from there without overshooting.
+    """
+    aim, straight = np.log(given), np.log(drag)
+    y = np.minimum(aim - straight, aim / exponent)
+    for _ in range(STEPS):
+        power, line = exponent * y, straight + y
+        top = np.maximum(power, line)
+        left, right = np.exp(power - top), np.exp(line - top)
+        y = y - (top + np.log(left + right) - aim) * (left + right) / (exponent * left + right)
+    return np.exp(exponent * y - aim), np.exp(y)

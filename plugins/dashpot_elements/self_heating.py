@@ -1,0 +1,54 @@
+"""A spring and a dashpot that get soft by the heat of the dashpot."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response, State
+from dashpot.model.picture import Parallel, Symbol
+from dashpot_elements.softening import mean_square
+
+LN2 = 0.6931471805599453
+
+
+class SelfHeating(Element):
+    """A spring and a dashpot that warm up by what the dashpot takes up, and cool: F = 2^(-ratio w) stiffness x + D v,
+    D = 2^-w damping, w' = (D v^2/power - w)/time.
+
+    w is the rise of temperature over the one that halves the damping; there the stiffness has fallen to 2^-ratio. At a
+    steady dissipated power it is that power over `power`. As a damper that is warm takes up less, it warms up less. The
+    heat goes with the dissipated power and not with the square of the velocity, as in `softening`, so that it does not
+    run away. Every record begins at the temperature of its surroundings: warmth is not carried from run to run.
+
+    The heat of a step is that of its mean squared velocity, with the damping in the middle of the step: second order.
+    Not passive by itself, as a spring that cools under load takes up energy as heat.
+    """
+
+    picture = Parallel(Symbol.SPRING, Symbol.DASHPOT)
+    exact = False
+    passive = False
+
+    stiffness = Parameter("N/m", "stiffness of the cold specimen", bounds=(0.0, 1e9), scale="linear", symbol="k",
+                          default=0.0)  # fmt: skip
+    damping = Parameter("N*s/m", "damping of the cold specimen", bounds=(1e-2, 1e7), symbol="d")
+    power = Parameter("W", "dissipated power at which the damping is halved in the end", bounds=(1e-6, 1e7), symbol="P")
+    time = Parameter("s", "time constant of warming and cooling", bounds=(1e-2, 1e5), symbol="T")
+    ratio = Parameter("1", "fall of the stiffness over that of the damping, of their logarithms", bounds=(0.0, 10.0),
+                      scale="linear", symbol="r", default=1.0)  # fmt: skip
+    warmth = State("1", "rise of temperature over that which halves the damping")
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """A first guess of the warmth, then the step with the damping in between."""
+        gained = -np.expm1(-dt / p.time)
+        heat = p.damping * mean_square(x, dt) / p.power
+        guess = z.warmth + gained * (heat * np.exp(-LN2 * z.warmth) - z.warmth)
+        middle = 0.5 * (z.warmth + np.maximum(guess, 0.0))
+        warmth = z.warmth + gained * (heat * np.exp(-LN2 * middle) - z.warmth)
+        spring = p.stiffness * x.new * np.exp(-LN2 * p.ratio * warmth)
+        return Response(spring + p.damping * x.velocity_new * np.exp(-LN2 * warmth), warmth=warmth)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the softened spring, without the warmth."""
+        return 0.5 * p.stiffness * x.new * x.new * np.exp(-LN2 * p.ratio * z.warmth)

@@ -1,0 +1,78 @@
+"""A valve with a column of oil in front of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dashpot.model.element import Element, Motion, Parameter, Response
+from dashpot.model.picture import Series, Symbol
+from dashpot_elements.behind_spring import memory, pressed
+
+STEPS = 6  # of Newton's method: the knee is at most 8 sharp
+TINY = 1e-30
+
+
+class Valve(Element):
+    """A valve that opens at a knee, in series with a spring: F = g(v - F'/stiffness),
+    g = opened w + (damping - opened) w/(1 + |w/knee|^sharpness)^(1/sharpness).
+
+    w is the velocity of the flow through the valve. Below the knee velocity the slope is `damping`, far above it
+    `opened` (blow-off); without `opened` the force approaches damping times knee (digressive). Compression and rebound
+    have numbers of their own. With a sharpness of 1 the force at the knee is half of that of the straight line; with a
+    large one it is a line with a kink. `stiffness` is that of oil, hoses and mounts, of the gas in the oil: it lets the
+    force lag behind the velocity, so that the curve of force over velocity opens to a loop.
+
+    One step follows TR-BDF2, of second order in the step; its equation is solved by Newton's method from below, where
+    it converges for every number, as the curve is bent one way only.
+    """
+
+    picture = Series(Symbol.SPRING, Symbol.DASHPOT)
+    source = "Hosea and Shampine, Applied Numerical Mathematics 20 (1996) 21, for TR-BDF2"
+    exact = False
+
+    stiffness = Parameter("N/m", "stiffness in series", bounds=(1.0, 1e10), symbol="k")
+    compression = Parameter("N*s/m", "damping in compression below the knee", bounds=(1e-2, 1e7), symbol="d_c")
+    rebound = Parameter("N*s/m", "damping in rebound below the knee", bounds=(1e-2, 1e7), symbol="d_r")
+    compression_knee = Parameter("m/s", "velocity at which it opens in compression", bounds=(1e-4, 1e3), symbol="v_c")
+    rebound_knee = Parameter("m/s", "velocity at which it opens in rebound", bounds=(1e-4, 1e3), symbol="v_r")
+    compression_opened = Parameter("N*s/m", "slope far above the knee in compression, at most its damping",
+                                   bounds=(0.0, 1e7), scale="linear", symbol="b_c", default=0.0)  # fmt: skip
+    rebound_opened = Parameter("N*s/m", "slope far above the knee in rebound, at most its damping", bounds=(0.0, 1e7),
+                               scale="linear", symbol="b_r", default=0.0)  # fmt: skip
+    sharpness = Parameter("1", "how suddenly it opens", bounds=(1.0, 8.0), scale="linear", symbol="m", default=1.0)
+    load, speed = memory()
+
+    def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+        """Spring and valve together."""
+
+        def law(given: Any, rate: Any) -> tuple[Any, Any]:
+            outward = given < 0.0
+            damping = np.where(outward, p.rebound, p.compression)
+            knee = np.where(outward, p.rebound_knee, p.compression_knee)
+            opened = np.minimum(np.where(outward, p.rebound_opened, p.compression_opened), damping)
+            return _flow(given, rate, damping - opened, knee, opened, p.sharpness)
+
+        return pressed(x, z, p.stiffness, dt, law)
+
+    def stored(self, x: Motion, z: Any, p: Any) -> Any:
+        """The energy of the spring."""
+        return 0.5 * z.load * z.load / p.stiffness
+
+
+def _flow(given: Any, rate: Any, closing: Any, knee: Any, opened: Any, sharpness: Any) -> tuple[Any, Any]:
+    """Force and velocity at which the force and rate times the velocity are ``given``.
+
+    In r = |w|/knee: (rate + opened) r + closing r/(1 + r^m)^(1/m) = |given|/knee, which is concave and lies below both
+    of its asymptotes: Newton's method from where they meet the right side never overshoots.
+    """
+    size, straight = np.abs(given) / knee, rate + opened
+    ratio = np.maximum(size / (straight + closing), (size - closing) / straight)
+    for _ in range(STEPS):
+        power = np.maximum(ratio, TINY) ** sharpness
+        share = np.exp(-np.log1p(power) / sharpness)
+        slope = straight + closing * share / (1.0 + power)
+        ratio = ratio + (size - (straight + closing * share) * ratio) / slope
+    speed = knee * np.where(given < 0.0, -ratio, ratio)
+    return given - rate * speed, speed

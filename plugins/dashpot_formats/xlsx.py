@@ -1,0 +1,87 @@
+"""Workbooks of Excel (.xlsx), with the library openpyxl in a process of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from dashpot.contract.reader import Reader, ReadingError, Table
+from dashpot.text.problem import nearest
+from dashpot_formats.apart import read_apart
+from dashpot_formats.delimited_layout import find_layout
+from dashpot_formats.delimited_table import read_table
+from dashpot_formats.extra import require
+from dashpot_formats.option import check_options, get_option
+
+_BETWEEN = "\t"
+
+
+class Xlsx(Reader):
+    """Reads a sheet as the table that it shows: names, units in brackets or in a row of their own, numbers.
+
+    Formulas count with the values that were saved with them. Without the option `sheet` (a name, or a number counted
+    from 1) it is the sheet with the most rows of numbers. Needs `dashpot[excel]`.
+    """
+
+    word = "xlsx"
+    suffixes = (".xlsx", ".xlsm")
+
+    def read(self, path: Path, options: Mapping[str, object]) -> Table:
+        check_options(options, ("sheet",))
+        require("openpyxl", "excel", "Excel workbooks")
+        sheets: dict[str, list[str]] = read_apart(read_sheets, path, "Excel workbook").notes["sheets"]
+        lines = sheets[_chosen(sheets, options.get("sheet"))]
+        return read_table(lines, find_layout(lines, (_BETWEEN,), (".",)))
+
+
+def _chosen(sheets: Mapping[str, Sequence[str]], wanted: object) -> str:
+    names = list(sheets)
+    if wanted is None:
+        return max(names, key=lambda name: sum(_is_row_of_numbers(line) for line in sheets[name]))
+    if isinstance(wanted, int) and not isinstance(wanted, bool):
+        if not 1 <= wanted <= len(names):
+            raise ReadingError(f"it has {len(names)} sheets, there is no sheet {wanted}", "sheets count from 1")
+        return names[wanted - 1]
+    name = get_option({"sheet": wanted}, "sheet", str, "")
+    if name not in sheets:
+        raise ReadingError(
+            f"it has no sheet '{name}'", nearest(name, names) or f"its sheets are: {', '.join(names[:12])}"
+        )
+    return name
+
+
+def _is_row_of_numbers(line: str) -> bool:
+    cells = [cell for cell in line.split(_BETWEEN) if cell]
+    return bool(cells) and cells[-1][-1].isdigit() and cells[0][-1].isdigit()
+
+
+def read_sheets(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """The lines of all sheets with tabs between their cells."""
+    from openpyxl import load_workbook
+
+    book = load_workbook(path, read_only=True, data_only=True)
+    try:
+        sheets = {sheet.title: _lines(sheet.iter_rows(values_only=True)) for sheet in book.worksheets}
+    finally:
+        book.close()
+    if not any(sheets.values()):
+        raise ReadingError("its sheets are empty", "check that this is the file of the measurement")
+    return {}, {"sheets": sheets}
+
+
+def _lines(rows: Iterable[Sequence[Any]]) -> list[str]:
+    lines = [_BETWEEN.join(map(_text, row)).rstrip(_BETWEEN) for row in rows]
+    while lines and not lines[-1]:
+        lines.pop()
+    return lines
+
+
+def _text(cell: Any) -> str:
+    if cell is None or isinstance(cell, bool):
+        return ""
+    if isinstance(cell, int | float):
+        return repr(cell)
+    return " ".join(str(cell).split())

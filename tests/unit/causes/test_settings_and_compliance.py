@@ -1,0 +1,111 @@
+"""Causes that change a branch that is there: a damper on a spring, a number that depends on a setting."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.causes.test_promises import NETWORK, REGISTRY, VIEW, SmallView
+
+from dashpot.kernel.eager import simulate_eagerly
+from dashpot.model.reading import parse_network
+
+DAMPERS = {
+    "damper": "damping: 300 N*s/m",
+    "quadratic_damper": "damping: 2000 N*s^2/m^2",
+    "power_law_damper": "force: 60 N, exponent: 0.6",
+    "asymmetric_damper": "compression: 200 N*s/m, rebound: 500 N*s/m, rebound_digression: 8 s/m",
+}
+
+
+def damped(word):
+    return NETWORK.replace("{element: damper, damping: 300 N*s/m}", f"{{element: {word}, {DAMPERS[word]}}}")
+
+
+def compliance(text, view=VIEW):
+    return list(REGISTRY.causes["compliant_damper"]().suspects(view, parse_network(text, REGISTRY.elements)))
+
+
+@pytest.mark.parametrize("word", DAMPERS)
+def test_a_damper_of_the_network_is_put_on_a_spring(word):
+    """The column is the derivative of the force after the compliance; the cure is the branch behind that spring."""
+    text = damped(word)
+    [suspect] = compliance(text)
+    small = 2e-7 if word == "damper" else 1e-6
+    network = parse_network(suspect.extend(text, [(small, 0.0)]), REGISTRY.elements)
+    assert [branch.name for branch in network.leaves()] == ["stiffness", "damping"]
+    drive = VIEW.drives["large"]
+    change = simulate_eagerly(network, drive) - simulate_eagerly(parse_network(text, REGISTRY.elements), drive)
+    shown = small * suspect.columns(VIEW, "large")[0]
+    # the curve of a small power is so steep at rest that no compliance is a small one there
+    assert np.corrcoef(change[5:], shown[5:])[0, 1] > (0.9 if word == "power_law_damper" else 0.97)
+    assert np.dot(change[5:], shown[5:]) / np.dot(shown[5:], shown[5:]) == pytest.approx(1.0, abs=0.25)
+
+
+@pytest.mark.parametrize("entry", [
+    "{element: damper, damping: {velocity: [-1 m/s, 1 m/s], force: [-1 kN, 1 kN]}}",
+    "{element: damper, damping: 300 N*s/m, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}",
+    "{element: coulomb, limit: 30 N, creep_velocity: 1 mm/s}",
+])  # fmt: skip
+def test_what_is_no_simple_dashpot_is_left_alone(entry):
+    assert compliance(NETWORK.replace("{element: damper, damping: 300 N*s/m}", entry)) == []
+
+
+def dependence(text=NETWORK, view=VIEW):
+    return list(REGISTRY.causes["setting_dependence"]().suspects(view, parse_network(text, REGISTRY.elements)))
+
+
+def test_numbers_and_a_force_over_each_setting_of_the_specimen():
+    numbers, force = dependence()
+    assert (numbers.form, force.form) == ("a number over pressure", "a force over pressure")
+    assert len(numbers.grid) == 2
+
+
+def test_the_dependence_is_written_with_the_slope_that_was_seen():
+    numbers, force = dependence()
+    spec = parse_network(force.extend(numbers.extend(NETWORK, [(0.5, 0.0)]), [(40.0, 0.0)]), REGISTRY.elements)
+    found = {slot.path: slot.value for slot in spec.slots()}
+    assert found["stiffness.stiffness.slope"].number == pytest.approx(0.5 * 200e3 / 1e5)
+    assert found["setting_force.force.slope"].number == pytest.approx(40.0 / 1e5)
+    assert found["stiffness.stiffness"].over.at == (250e3,)
+    assert found["stiffness.stiffness.slope"].searched
+    assert not found["setting_force.force"].searched
+
+
+def test_columns_sort_by_the_setting():
+    numbers, force = dependence()
+    for run, side in (("small", -0.5), ("large", 0.5)):
+        assert force.columns(VIEW, run) == pytest.approx(np.full((1, 120), side))
+        assert numbers.columns(VIEW, run)[0] == pytest.approx(side * 200e3 * VIEW.displacement(run), rel=1e-6)
+
+
+def test_the_mean_of_a_channel_is_a_setting_too():
+    class Warm(SmallView):
+        def settings(self, run):
+            return {"mean of temperature": {"small": 293.0, "large": 313.0}[run], "amplitude": 1e-3}
+
+    numbers, _ = dependence(view=Warm())
+    spec = parse_network(numbers.extend(NETWORK, [(-0.2, 1.0)]), REGISTRY.elements)
+    over = {slot.path: slot.value for slot in spec.slots()}["damping.damping"].over
+    assert (over.word, over.channel, over.at) == ("temperature", True, (303.0,))
+
+
+def test_settings_that_do_not_change_or_are_not_known_give_nothing():
+    class Same(SmallView):
+        def settings(self, run):
+            return {"pressure": 2e5, "amplitude": {"small": 1e-3, "large": 2e-3}[run]}
+
+    class Silent(SmallView):
+        def settings(self, run):
+            return {}
+
+    assert dependence(view=Same()) == []
+    assert dependence(view=Silent()) == []
+
+
+def test_a_number_that_depends_already_is_left_alone():
+    over = "{fixed: 300 N*s/m, over: {setting: pressure, at: 0, slope: 1}}"
+    text = NETWORK.replace("damping: 300 N*s/m", f"damping: {over}")
+    numbers, _ = dependence(text)
+    assert len(numbers.grid) == 1
+
+

@@ -1,0 +1,97 @@
+"""A look at runs, from the samples to the page."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from unit.compare.specimens import DAMPING, DT, NOISE, STIFFNESS, run, slide, sweep, sweeps
+
+from dashpot.compare import boosting
+from dashpot.compare.look import look, spectra
+from dashpot.compare.strokes import see
+from dashpot.data.dataset import Dataset
+from dashpot.report.json_text import json_text
+from dashpot.report.look import look_figures, look_headline
+
+
+@pytest.fixture(autouse=True)
+def _ridge_only(monkeypatch):
+    monkeypatch.setattr(boosting, "find_spec", lambda name: None)
+
+
+def with_repeat() -> Dataset:
+    """Sweeps, the last of them measured again with other noise."""
+    dataset = sweeps()
+    last = dataset.runs[-1]
+    law = STIFFNESS * last.displacement + DAMPING * np.gradient(last.displacement, DT) + slide(last.displacement)
+    force = law + NOISE * np.random.default_rng(9).standard_normal(law.size)
+    again = replace(run("again", last.displacement, force, repeats=last.name, order=9), settings=last.settings)
+    return Dataset("with a repeat", (*dataset.runs, again))
+
+
+def test_repeats_tell_the_noise_floor():
+    seen = look(with_repeat())
+    [group] = seen.repeats()
+    assert group["runs"] == ["a3_p15", "again"]
+    assert group["rms"] == pytest.approx(NOISE, rel=0.05)
+    assert seen.as_dict()["noise_floor"]["value"] == pytest.approx(group["rms"], rel=1e-9)
+
+
+def test_a_run_with_the_wrong_sign_gives_back_work():
+    dataset = sweeps()
+    wrong = [replace(each, channels={**each.channels, "force": -each.force}) if each.name == "a1_p10" else each
+             for each in dataset.runs]  # fmt: skip
+    told = look(Dataset("wrong", tuple(wrong))).as_dict()
+    assert [each["run"] for each in told["runs"] if each["gives_back"]] == ["a1_p10"]
+    assert look_headline(told).startswith("a1_p10 gives back work over closed cycles")
+
+
+def test_the_spectrum_has_the_amplitude_of_a_sine():
+    time = DT * np.arange(4000)
+    x = 2e-3 * np.sin(2.0 * np.pi * 8.0 * time)
+    told = {each["of"]: each for each in spectra(see(run("r", x, STIFFNESS * x, "harmonic")))}
+    assert told["force"]["y"].max() == pytest.approx(400.0, rel=1e-3)
+    assert told["force"]["x"][told["force"]["y"].argmax()] == pytest.approx(8.0, abs=0.3)
+
+
+def test_look_json_is_plain_and_the_same_twice():
+    first, second = (json_text(look(with_repeat(), 3).as_dict()) for _ in range(2))
+    assert first == second
+    told = json.loads(first)
+    assert told["format"] == "dashpot-look/1"
+    assert all(each["energy_per_cycle"] > 0.0 for each in told["runs"])
+    assert told["explainable"]["held_out"] < 1.5 * NOISE
+
+
+def test_every_picture_is_drawn():
+    titles = [figure.title for figure in look_figures(look(with_repeat()).evidence())]
+    assert titles == [
+        "Force over displacement",
+        "Force over velocity",
+        "Force over velocity at mid stroke",
+        "Force over deflection at low speed",
+        "The same less a straight spring",
+        "Stiffness after reversals",
+        "By amplitude, preload, setting and order",
+        "Loss stiffness over time",
+        "Amplitude spectrum of the force",
+        "Amplitude spectrum of the displacement",
+        "Repeats against each other",
+    ]
+
+
+def test_a_slow_run_alone_can_be_looked_at():
+    x = 5e-3 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 2001)))
+    seen = look(Dataset("slow", (run("qs", x, STIFFNESS * x + slide(x), "quasi_static"),)))
+    assert seen.as_dict()["runs"][0]["cycles"] == 1
+    assert len(look_figures(seen.evidence())) >= 6
+
+
+def test_a_random_motion_can_be_looked_at():
+    x = 1e-3 * np.convolve(np.random.default_rng(4).standard_normal(4000), np.hanning(60), "same") / 5.0
+    seen = look(Dataset("random", (run("noise", x, STIFFNESS * x + slide(x), "random"),)))
+    assert not seen.as_dict()["runs"][0]["gives_back"]
+    assert sweep(1e-3, 0.0).size and len(look_figures(seen.evidence())) >= 6

@@ -1,0 +1,119 @@
+"""Shapes of forces whose law is written down here."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.compare.specimens import DT, run, slide, sweep
+
+from dashpot.compare.residual_map import residual_maps
+from dashpot.compare.shapes import after_reversals, conditions_of, less_spring, low_speed, mid_stroke, shapes_of
+from dashpot.compare.strokes import cycle_values, see, work
+
+STIFFNESS, DAMPING = 200e3, 900.0
+TIME = DT * np.arange(6000)
+
+
+def sine(amplitude: float, frequency: float) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement and velocity (n,)."""
+    omega = 2.0 * np.pi * frequency
+    return amplitude * np.sin(omega * TIME), amplitude * omega * np.cos(omega * TIME)
+
+
+def test_a_cycle_of_a_viscous_damper_takes_up_pi_c_omega_amplitude_squared():
+    amplitude, frequency = 2e-3, 3.0
+    x, v = sine(amplitude, frequency)
+    values = cycle_values(see(run("r", x, STIFFNESS * x + DAMPING * v, "harmonic")), "measured")
+    expected = np.pi * DAMPING * 2.0 * np.pi * frequency * amplitude**2
+    assert values.energy == pytest.approx(np.full(values.energy.size, expected), rel=2e-3)
+    assert values.stiffness == pytest.approx(np.full(values.energy.size, STIFFNESS), rel=2e-3)
+    assert values.loss == pytest.approx(np.full(values.energy.size, DAMPING * 2.0 * np.pi * frequency), rel=2e-3)
+    assert values.time.size >= 15
+
+
+def test_an_ideal_slider_takes_up_four_limits_times_the_slid_way():
+    amplitude, limit, travel = 2e-3, 50.0, 0.2e-3
+    x, _ = sine(amplitude, 2.0)
+    values = cycle_values(see(run("r", x, slide(x, limit, travel), "harmonic")), "measured")
+    assert values.energy == pytest.approx(np.full(values.energy.size, 4.0 * limit * (amplitude - travel)), rel=2e-3)
+
+
+def test_a_single_slow_loop_counts_as_a_cycle():
+    x = 5e-3 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 2001)))
+    values = cycle_values(see(run("qs", x, slide(x, 40.0, 0.1e-3), "quasi_static")), "measured")
+    assert values.time.size == 1
+    assert values.energy[0] > 0.0
+
+
+def test_the_work_of_an_open_path_is_closed_by_a_straight_line():
+    x = np.linspace(0.0, 1e-3, 50)
+    assert work(x, STIFFNESS * x) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_force_at_mid_stroke_is_damping_and_friction_without_the_spring():
+    x = sweep(3e-3, 8e-3)
+    v = np.gradient(x, DT)
+    seen = see(run("r", x, STIFFNESS * x + DAMPING * v + slide(x, 60.0, 0.1e-3)))
+    [curve] = mid_stroke(seen)
+    expected = DAMPING * curve["x"] + 60.0 * np.sign(curve["x"])
+    assert curve["x"].size > 40
+    # the middle of a stroke is found to a sample, in which a fast stroke travels a little
+    assert curve["y"] == pytest.approx(expected, abs=12.0)
+
+
+def test_the_low_speed_loop_has_the_width_of_the_friction():
+    x = 5e-3 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 4001)))
+    [curve] = less_spring(low_speed(see(run("qs", x, STIFFNESS * x + slide(x, 40.0, 0.1e-3), "quasi_static"))))
+    gap = int(np.flatnonzero(np.isnan(curve["x"]))[0])
+    middle = slice(gap // 4, 3 * gap // 4)
+    width = curve["y"][:gap][middle] - curve["y"][gap + 1 :][middle]
+    assert width == pytest.approx(np.full(width.size, 80.0), rel=0.02)
+
+
+def test_stiffness_after_reversals_falls_from_both_springs_to_one():
+    limit, travel = 40.0, 0.4e-3
+    x, _ = sine(4e-3, 1.0)
+    [curve] = after_reversals(see(run("r", x, STIFFNESS * x + slide(x, limit, travel), "harmonic")))
+    expected = STIFFNESS + np.minimum(limit / travel, 2.0 * limit / curve["x"])
+    assert curve["y"] == pytest.approx(expected, rel=0.01)
+
+
+def test_conditions_have_the_settings_and_the_order():
+    x, v = sine(1e-3, 4.0)
+    [row] = conditions_of(see(run("r", x, DAMPING * v, "harmonic", order=6, pressure=2e5, amplitude=1e-3)))
+    assert row["conditions"] == {"amplitude": pytest.approx(1e-3, rel=1e-3), "preload": pytest.approx(0.0, abs=1e-6),
+                                 "pressure": 2e5, "order of tests": 7.0}  # fmt: skip
+
+
+def test_the_residual_is_shown_over_the_variables_that_made_it():
+    runs = [run(f"r{k}", sweep(2e-3, 0.0), np.zeros(3000), order=k, pressure=float(k % 3)) for k in range(6)]
+    rng = np.random.default_rng(2)
+    seen = []
+    for each in runs:
+        v = np.gradient(each.displacement, DT)
+        missing = 300.0 * np.tanh(v / 0.05) * each.settings["pressure"] + 5.0 * rng.standard_normal(v.size)
+        seen.append(see(run(each.name, each.displacement, missing, order=each.order, **each.settings),
+                        {"model": {each.name: np.zeros(v.size)}}))  # fmt: skip
+    [told] = residual_maps(seen)
+    assert {told["x"]["name"], told["y"]["name"]} == {"velocity", "pressure"}
+    assert told["explained"] > 0.95
+    assert max(told["singles"], key=told["singles"].get) == "velocity"
+
+
+def test_noise_is_explained_by_nothing():
+    rng = np.random.default_rng(3)
+    x = sweep(2e-3, 0.0)
+    seen = [see(run(f"r{k}", x, rng.standard_normal(x.size), order=k), {"model": {f"r{k}": np.zeros(x.size)}})
+            for k in range(4)]  # fmt: skip
+    [told] = residual_maps(seen)
+    assert told["explained"] < 0.03
+
+
+def test_simulated_forces_go_through_the_same_evaluation():
+    x = sweep(2e-3, 5e-3)
+    force = STIFFNESS * x + DAMPING * np.gradient(x, DT)
+    shapes = shapes_of([run("r", x, force)], {"model": {"r": force}})
+    for way in ("mid_stroke", "low_speed", "less_spring", "after_reversals", "cycles"):
+        measured, simulated = shapes[way]
+        assert (measured["label"], simulated["label"]) == ("measured", "model")
+        assert np.array_equal(measured["y"], simulated["y"], equal_nan=True)

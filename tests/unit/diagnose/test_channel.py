@@ -1,0 +1,100 @@
+"""Faults of single runs: found where repeats or neighbours show them, never where a law could do the same."""
+
+import numpy as np
+import pytest
+from unit.diagnose.rig import MOTIONS, Motion, bench, causes, dataset, line, plain
+
+from dashpot.diagnose.channel import accuse, conditions, covers, disagreeing, kinds_of, repeats_of
+from dashpot.diagnose.look import look_at
+
+WORDS = ("gain", "offset", "drift", "hum")
+AGAIN = {"again": "a3_p8"}
+FAULTS = {
+    "offset": (lambda force: force + 15.0, 15.0),
+    "gain": (lambda force: 1.03 * force, 0.03),
+    "drift": (lambda force: force + np.linspace(0.0, 30.0, force.size), 30.0),
+}
+
+
+def examined(data, doubted=False):
+    """Accusations by (run, word), of a bench at which nothing is missing in the network."""
+    made = bench(data)
+    look = look_at(made.refitter, made.model, causes(*WORDS), made.groups)
+    kinds = kinds_of(causes(*WORDS), look)
+    differ = [kinds[number] for number in disagreeing(made.refitter, look, kinds, made.groups)]
+    if doubted:
+        return {kind.cause.word for kind in differ}
+    faults = [kind.fault for kind in differ]
+    look = look_at(made.refitter, made.model, causes(*WORDS), made.groups, faults=faults)
+    measured = {run.name: run for run in data.runs if run.name in made.setting.split.train}
+    found = accuse(made.refitter, look, kinds, made.groups, measured, 0.0015)
+    return {(one.run, one.kind.cause.word): one for one in found}
+
+
+@pytest.mark.parametrize("word", FAULTS)
+def test_a_repeat_that_differs_is_accused_with_its_size(word):
+    fault, size = FAULTS[word]
+    data = dataset(repeats=AGAIN, fault={"again": fault})
+    assert word in examined(data, doubted=True)
+    found = examined(data)
+    assert set(found) == {("again", word)}
+    one = found["again", word]
+    assert one.evidence_of == "repeats" and "'a3_p8'" in one.words
+    assert one.strengths[0] == pytest.approx(size, rel=0.15)
+    sound, wrong = plain(MOTIONS["a3_p8"]), fault(plain(MOTIONS["a3_p8"]))
+    assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
+
+
+def test_repeats_that_agree_accuse_nobody():
+    data = dataset(repeats=AGAIN)
+    assert examined(data, doubted=True) == set()
+    assert examined(data) == {}
+
+
+def test_a_run_within_what_others_cover_is_accused():
+    """Preload 8 mm lies between 5 and 11 mm, and both amplitudes are there at both."""
+    found = examined(dataset(fault={"a3_p8": lambda force: 1.03 * force}))
+    assert set(found) == {("a3_p8", "gain")}
+    assert "other runs under the same conditions" in found["a3_p8", "gain"].words
+
+
+@pytest.mark.parametrize("extreme", [Motion(3e-3, 8e-3, 25.0), Motion(6e-3, 8e-3), Motion(3e-3, 15e-3)],
+                         ids=["fastest", "largest", "deepest"])  # fmt: skip
+def test_a_run_at_the_end_of_what_was_measured_is_never_accused(extreme):
+    data = dataset(motions={**MOTIONS, "extreme": extreme}, fault={"extreme": lambda force: 1.05 * force})
+    assert not [key for key in examined(data) if key[0] == "extreme"]
+
+
+def test_a_law_that_grows_with_speed_accuses_no_run():
+    """Quadratic damping that the network lacks: the fast runs deviate, each within its own conditions only."""
+    motions = {f"f{f}": Motion(3e-3, 8e-3, float(f)) for f in (4, 8, 12, 16, 24)}
+    data = dataset(lambda motion: plain(motion) + 400.0 * motion.v() * np.abs(motion.v()), motions=motions)
+    assert "f24" not in {run for run, _ in examined(data)}
+
+
+def test_hum_is_seen_where_nothing_was_driven():
+    phases = {name: 1.0 + number for number, name in enumerate(MOTIONS)}
+    fault = {name: lambda force, phase=phase: force + line(50.0, 12.0, phase) for name, phase in phases.items()}
+    found = examined(dataset(fault=fault))
+    assert set(found) == {(run, "hum") for run in MOTIONS}
+    for one in found.values():
+        assert one.evidence_of == "at_rest" and one.kind.fault.form == "50 Hz"
+        assert np.hypot(*one.strengths) == pytest.approx(12.0, rel=0.15)
+
+
+def test_repeats_are_the_same_motion():
+    data = dataset(repeats=AGAIN)
+    made = bench(data)
+    assert repeats_of(made.refitter, made.groups) in ([("a3_p8", "again")], [("again", "a3_p8")])
+    alone = {name: name for name in made.groups}
+    assert repeats_of(made.refitter, alone) == []
+
+
+def test_what_covers_a_run():
+    runs = {run.name: run for run in dataset().runs}
+    others = [run for name, run in runs.items() if name != "a3_p8"]
+    assert covers(others, runs["a3_p8"])
+    shallow = [run for name, run in runs.items() if not name.endswith("p11")]
+    assert not covers(shallow, runs["a3_p11"])
+    assert not covers(others[:1], runs["a3_p8"])
+    assert conditions(runs["a3_p8"])["stroke"] == pytest.approx(6e-3, rel=0.01)

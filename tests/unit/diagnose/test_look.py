@@ -1,0 +1,142 @@
+"""A look against plain least squares: Gram matrices of all columns beside which the base is refitted."""
+
+import numpy as np
+import pytest
+from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dataset, friction, plain
+
+from dashpot.contract.cause import Suspect
+from dashpot.diagnose.look import beside_base, look_at
+from dashpot.diagnose.whitening import ORDER
+
+
+class Closed(Made):
+    """Columns that need no element: the square of the velocity, and its sign times two deflections."""
+
+    def suspects(self, view, network):
+        """Two forms with one and two places."""
+        yield Suspect("square", (1.0,), lambda view, run: view.velocity(run)[None] ** 2, None)
+        yield Suspect("side", (1e-3, 2e-3), side, None)
+
+
+def side(view, run):
+    return np.sign(view.velocity(run)) * np.maximum(view.displacement(run) - np.array([[1e-3], [2e-3]]), 0.0)
+
+
+@pytest.fixture(scope="module")
+def made():
+    return bench(dataset(lambda motion: plain(motion) + friction(motion), held_out=("a3_p8",)))
+
+
+@pytest.fixture(scope="module")
+def look(made):
+    return look_at(made.refitter, made.model, [Closed], made.groups)
+
+
+def whitened(look, run, signal):
+    """Averages over blocks, then the filter, value by value."""
+    step, coefficients = look.noise.steps[run.name], look.noise.filters[run.name]
+    kept = signal.size // step
+    blocks = signal[: kept * step].reshape(kept, step).sum(axis=1) / np.sqrt(step)
+    white = np.convolve(blocks, coefficients)[:kept]
+    white[:ORDER] = 0.0
+    return white
+
+
+@pytest.fixture(scope="module")
+def columns(made, look):
+    """Base tangents (2, n) and residual with the candidates' columns (4, n) by run, from the motions alone."""
+    numbers = {slot.path: slot.value.number for slot in made.model.fitted.slots()}
+    found = {}
+    for run in made.refitter.runs:
+        x, v = run.drive.displacement[run.first :], run.drive.velocity[run.first :]
+        residual = run.force[run.first :] - numbers["stiffness.stiffness"] * x - numbers["damping.damping"] * v
+        bank = [v**2, *(np.sign(v) * np.maximum(x - at, 0.0) for at in (1e-3, 2e-3))]
+        found[run.name] = (np.array([whitened(look, run, each) for each in (x, v)]),
+                           np.array([whitened(look, run, each) for each in (residual, *bank)]))  # fmt: skip
+    return found
+
+
+def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, columns):
+    base = np.concatenate([tangents for tangents, _ in columns.values()], axis=1)
+    all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
+    strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
+    scale = np.sqrt(np.diag(look.total))
+    for number, group in enumerate(look.groups):
+        tangents, rows = columns[group]
+        left = rows - strengths.T @ tangents
+        assert look.grams[number] / np.outer(scale, scale) == pytest.approx(left @ left.T / np.outer(scale, scale),
+                                                                            abs=2e-6)  # fmt: skip
+        assert look.samples[number] == rows.shape[1]
+    assert look.groups == tuple(columns)
+
+
+def test_held_out_runs_take_no_part(made, look):
+    assert "a3_p8" in MOTIONS and "a3_p8" not in look.groups
+    assert "a3_p8" not in look.noise.steps
+
+
+def test_the_columns_of_candidates_stand_one_behind_the_other(look):
+    known = [(one.suspect.form, one.columns) for one in look.candidates]
+    assert known == [("square", slice(0, 1)), ("side", slice(1, 3))]
+    assert (look.layout.tangents, look.layout.terms, look.layout.bank, look.layout.size) == (0, 0, 3, 4)
+
+
+def test_sizes_are_those_of_the_columns_in_newton(look, made):
+    """Averages over blocks keep the sum of squares of a slow signal: its size times the root of the block."""
+    runs = made.refitter.runs
+    step = look.noise.steps[runs[0].name]
+    squares = [np.mean(run.drive.velocity[run.first :] ** 4) for run in runs]
+    assert look.sizes[1] == pytest.approx(np.sqrt(step * np.mean(squares)), rel=0.02)
+
+
+def test_columns_do_not_make_the_noise_of_the_records_smaller():
+    """Half a thousand of them take up a part of 1250 values of noise."""
+    null = bench(dataset(held_out=("a3_p8",)))
+    look = look_at(null.refitter, null.model, causes(*REGISTRY.causes), null.groups)
+    assert look.layout.bank > 300
+    assert look.rich == pytest.approx(NOISE, rel=0.06)
+
+
+def test_a_cause_that_cannot_be_tried_is_told(made):
+    class Missing(Made):
+        word = "missing"
+
+        def suspects(self, view, network):
+            yield Suspect("none", (1.0,), lambda view, run: view.respond(run, "no_such_element", [{}]), None)
+
+    look = look_at(made.refitter, made.model, [Missing, Closed], made.groups)
+    ((word, reason),) = look.unavailable
+    assert word == "missing" and "no_such_element" in reason
+    assert len(look.candidates) == 2
+
+
+@pytest.fixture
+def block():
+    """Six groups of columns: two that are free, three with a precision, four behind them."""
+    rng = np.random.default_rng(0)
+    return [rng.standard_normal((9, 40)) for _ in range(6)], np.array([0.0, 0.0, 3.0, 7.0, 1.0])
+
+
+def test_projection_is_the_schur_complement(block):
+    rows, _ = block
+    grams = np.array([each @ each.T for each in rows])
+    left, moves, prior, occam = beside_base(grams, np.zeros(5), 5)
+    total = grams.sum(axis=0)
+    expected = total[5:, 5:] - total[5:, :5] @ np.linalg.solve(total[:5, :5], total[:5, 5:])
+    assert left.sum(axis=0) == pytest.approx(expected)
+    whole = np.concatenate(rows, axis=1)
+    assert moves == pytest.approx(np.linalg.lstsq(whole[:5].T, whole[5:].T, rcond=None)[0])
+    assert not prior.any() and occam == 0.0
+
+
+def test_errors_of_forms_are_marginalised(block):
+    """Squares left and prior together are those under the covariance of the forms; the rest is its determinant."""
+    rows, precision = block
+    whole = np.concatenate(rows, axis=1)
+    free, forms, target = whole[:2], whole[2:5], whole[5:]
+    left, _, prior, occam = beside_base(np.array([each @ each.T for each in rows]), precision, 2)
+    outside = np.eye(whole.shape[1]) - free.T @ np.linalg.solve(free @ free.T, free)
+    target, forms = target @ outside, forms @ outside
+    covariance = np.eye(whole.shape[1]) + forms.T @ (forms / precision[2:, None])
+    assert left.sum(axis=0) + prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
+    assert occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])

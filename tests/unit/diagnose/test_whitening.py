@@ -1,0 +1,82 @@
+"""Noise against processes whose colour is known, and what averaging keeps."""
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from dashpot.diagnose.whitening import ORDER, Noise, learn_filter, reduction
+
+
+def autoregressive(coefficients, size, seed=0):
+    """A process x_t = sum a_k x_(t-k) + e_t with unit e, its start thrown away."""
+    noise = np.random.default_rng(seed).standard_normal(size + 1000)
+    return lfilter([1.0], np.concatenate([[1.0], -np.asarray(coefficients)]), noise)[1000:]
+
+
+@pytest.mark.parametrize("coefficients", [[0.0], [0.9], [0.98], [1.2, -0.5]])
+def test_filtered_noise_is_white_and_of_unit_variance(coefficients):
+    noise = 7.0 * autoregressive(coefficients, 50_000)
+    white = Noise({"run": 1}, {"run": learn_filter(noise, 0.0, 1e-9)}).whiten("run", noise)[ORDER:]
+    assert np.var(white) == pytest.approx(1.0, rel=0.02)
+    lags = [np.mean(white[lag:] * white[:-lag]) for lag in range(1, ORDER)]
+    assert np.max(np.abs(lags)) < 5.0 / np.sqrt(white.size)
+
+
+def test_the_filter_of_an_autoregressive_process_is_its_own():
+    """Second order, 100 000 samples: standard errors are about 0.003."""
+    found = learn_filter(autoregressive([1.2, -0.5], 100_000), 0.0, 1e-9)
+    assert found == pytest.approx([1.0, -1.2, 0.5, *[0.0] * (ORDER - 2)], abs=0.02)
+
+
+def test_far_above_the_noise_the_error_of_the_model_makes_all_frequencies_weigh_alike():
+    found = learn_filter(autoregressive([0.9], 20_000), 1000.0, 1e-9)
+    assert found[0] == pytest.approx(1e-3, rel=1e-3)
+    assert np.abs(found[1:]).max() < 1e-5 * 1.0
+
+
+def test_nothing_smaller_than_the_resolution_is_taken_for_noise():
+    for size in (0.0, 1e-9):
+        found = learn_filter(size * np.random.default_rng(0).standard_normal(500), 0.0, 0.01)
+        assert found[0] == pytest.approx(100.0)
+        assert np.abs(found[1:]).max() < 1e-6
+
+
+def test_a_run_too_short_for_its_colour_has_white_noise():
+    found = learn_filter(np.array([1.0, -1.0, 1.0, -1.0]), 0.0, 1e-9)
+    assert found == pytest.approx([1.0, *[0.0] * ORDER])
+
+
+def test_averages_keep_the_deviation_of_white_noise_and_the_inner_products_of_slow_signals():
+    noise, slow = np.random.default_rng(0).standard_normal(60_003), np.sin(2e-3 * np.arange(60_003))
+    reduced = Noise({"run": 6}).reduce("run", np.array([noise, slow]))
+    assert reduced.shape == (2, 10_000)
+    assert np.std(reduced[0]) == pytest.approx(1.0, rel=0.02)
+    assert reduced[1] @ reduced[1] == pytest.approx(slow @ slow, rel=1e-3)
+    assert Noise({"run": 6}).kept("run", 60_003) == 10_000
+
+
+def test_rows_are_filtered_apart_and_the_first_values_have_no_past():
+    rows = np.random.default_rng(1).standard_normal((3, 50))
+    coefficients = np.array([0.5, -0.3, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.05])
+    found = Noise({"run": 1}, {"run": coefficients}).filter("run", rows)
+    expected = np.array([[coefficients @ row[n - ORDER : n + 1][::-1] for n in range(ORDER, 50)] for row in rows])
+    assert found[:, ORDER:] == pytest.approx(expected)
+    assert not found[:, :ORDER].any()
+
+
+def test_the_fifth_harmonic_of_the_driven_band_stays():
+    """At 1 kHz and 10 Hz: averages over ten samples, 100 Hz, hold 50 Hz."""
+    assert reduction(1e-3, 10.0) == 10
+    assert reduction(1e-3, 500.0) == 1
+
+
+def test_a_line_beyond_the_band_of_the_blocks_is_not_taken_for_its_alias():
+    """Blocks of 8 ms hold up to 62.5 Hz: 50 Hz is there, 150 Hz would look like 25 Hz."""
+    angle = 2.0 * np.pi * 2e-3 * np.arange(1000)
+    reduced = Noise({"run": 4}).reduce_shapes("run", np.array([np.sin(50.0 * angle), np.sin(150.0 * angle)]))
+    assert reduced[0].any() and not reduced[1].any()
+
+
+def test_white_noise_asks_for_no_past():
+    found = Noise({"run": 1}).with_white({"run": 2.0}).whiten("run", np.arange(4.0))
+    assert found == pytest.approx([0.0, 0.5, 1.0, 1.5])

@@ -1,0 +1,166 @@
+"""Numbers that depend on a setting of the run: in a simulation, in a Jacobian, in a whole fit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from unit.fit.bench import TIME, ready
+
+from dashpot import load_registry
+from dashpot.data.dataset import Dataset
+from dashpot.data.excitation import Excitation
+from dashpot.data.run import Run
+from dashpot.fit.api import fit_network
+from dashpot.fit.scored import score_run
+from dashpot.kernel.api import simulate_runs
+from dashpot.kernel.network import compile_network
+from dashpot.model.reading import parse_network
+from dashpot.text.problem import InputError
+
+REGISTRY = load_registry()
+PRESSURES = (1.0, 2.0, 3.0)
+HEAD = "format: dashpot-network/1\nname: tire\nbranches:\n"
+TRUTH = HEAD + """\
+  rubber: {element: spring, stiffness: 200 N/mm}
+  air: {element: damper, damping: {fixed: 300 N*s/m, over: {setting: pressure, at: 2 bar, rate: 20 %/bar}}}
+  friction:
+    element: dahl
+    stiffness: 300 N/mm
+    limit: {fixed: 40 N, over: {setting: pressure, at: 2 bar, slope: 15 N/bar}}
+  piston: {element: constant_force, force: {fixed: 0 N, over: {setting: pressure, at: 0 bar, slope: 100 N/bar}}}
+"""
+MODEL = HEAD + """\
+  rubber: {element: spring, stiffness: {start: 100 N/mm}}
+  air: {element: damper, damping: {start: 100 N*s/m, over: {setting: pressure, at: 2 bar, rate: {start: 0 /bar}}}}
+  friction:
+    element: dahl
+    stiffness: {start: 100 N/mm}
+    limit: {start: 10 N, over: {setting: pressure, at: 2 bar, slope: {start: 0 N/bar}}}
+  piston: {element: constant_force, force: {fixed: 0 N, over: {setting: pressure, at: 0 bar, slope: {start: 0 N/bar}}}}
+"""
+
+
+def run(name, pressure, amplitude, frequency, text=TRUTH, **settings):
+    x = amplitude * np.sin(2.0 * np.pi * frequency * TIME) * np.minimum(1.0, TIME / 0.2)
+    given = {"pressure": pressure * 1e5} | settings
+    made = Run(name, "harmonic", TIME, {"displacement": x, "force": np.zeros_like(x)}, given, group=name)
+    force = simulate_runs(parse_network(text, REGISTRY.elements), Dataset("d", (made,)))[name]
+    noise = 0.1 * np.random.default_rng(len(name)).standard_normal(x.size)
+    return replace(made, channels={"displacement": x, "force": force + noise})
+
+
+def dataset():
+    runs = [run(f"p{p:g}_{f:g}", p, a, f) for p in PRESSURES for a, f in ((3e-3, 2.0), (1e-3, 7.0))]
+    return Dataset("d", tuple(runs))
+
+
+def test_each_run_has_the_number_of_its_setting():
+    for pressure in PRESSURES:
+        plain = HEAD + f"""\
+  rubber: {{element: spring, stiffness: 200 N/mm}}
+  air: {{element: damper, damping: {300.0 * np.exp(0.2 * (pressure - 2.0)):.17g} N*s/m}}
+  friction: {{element: dahl, stiffness: 300 N/mm, limit: {40.0 + 15.0 * (pressure - 2.0):g} N}}
+  piston: {{element: constant_force, force: {100.0 * pressure:g} N}}
+"""
+        found, expected = (run("r", pressure, 2e-3, 5.0, text).force for text in (TRUTH, plain))
+        assert found == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize(("current", "factor"), [(-1.0, 1.0), (0.0, 1.0), (0.5, 1.5), (1.5, 2.25), (7.0, 2.5)])
+def test_factors_go_along_straight_lines_between_their_places(current, factor):
+    text = HEAD + ("  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {setting: current, at: [0, 1, 2], "
+                   "factor: [1, 2, 2.5]}}}\n")  # fmt: skip
+    plain = HEAD + f"  oil: {{element: damper, damping: {100.0 * factor} N*s/m}}\n"
+    found, expected = (run("r", 1.0, 2e-3, 5.0, text, current=current).force for text in (text, plain))
+    assert found == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_number_stays_inside_its_sensible_range():
+    text = HEAD + "  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {setting: t, at: 0, slope: -30 N*s/m}}}\n"
+    force = run("r", 1.0, 2e-3, 5.0, text, t=50.0).force
+    assert np.max(np.abs(force)) < 1.0
+
+
+def test_a_channel_counts_with_its_mean_over_the_run():
+    text = HEAD + ("  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {channel: temperature, at: 20 degC, "
+                   "slope: -2 N*s/m/K}}}\n")  # fmt: skip
+    made = run("r", 1.0, 2e-3, 5.0)
+    warm = replace(made, channels={**made.channels, "temperature": 303.15 + np.linspace(-5.0, 5.0, TIME.size)})
+    found = simulate_runs(parse_network(text, REGISTRY.elements), Dataset("d", (warm,)))["r"]
+    plain = parse_network(HEAD + "  oil: {element: damper, damping: 80 N*s/m}\n", REGISTRY.elements)
+    assert found == pytest.approx(simulate_runs(plain, Dataset("d", (warm,)))["r"], abs=1e-9)
+
+
+def test_runs_without_the_setting_are_named_before_anything_is_simulated():
+    runs = list(dataset().runs)
+    lacking = tuple(replace(each, settings={}) if number in (1, 4) else each for number, each in enumerate(runs))
+    spec = parse_network(MODEL, REGISTRY.elements, "m.yaml")
+    for work in (simulate_runs, lambda spec, data: fit_network(spec, data, registry=REGISTRY)):
+        with pytest.raises(InputError) as caught:
+            work(spec, Dataset("d", lacking))
+        told = str(caught.value)
+        assert "m.yaml:5:35: 'air.damping' depends on the setting 'pressure', which run 'p1_7' does not have" in told
+        assert "run 'p3_2'" in told
+        assert "p2_2" not in told
+    bare = Excitation.of_run(lacking[1])
+    with pytest.raises(InputError, match="run 'p1_7' does not have"):
+        compile_network(spec).prepare(bare)
+
+
+def test_the_jacobian_knows_the_slopes():
+    scored = [score_run(each) for each in dataset().runs]
+    _, objective, coordinates = ready(MODEL.partition("branches:\n")[2], scored)
+    values = coordinates.to_values(coordinates.start)[0]
+    shifts = 1e-3 * np.maximum(np.abs(values[coordinates.which]), 1e-4)
+    residual, changes = objective.linearise(values, coordinates.which, shifts)
+    whole, moved = objective._linearise_as_a_whole(values, coordinates.which, shifts)
+    assert residual == pytest.approx(whole, abs=1e-9)
+    assert changes == pytest.approx(moved, abs=1e-8)
+    assert np.all(np.max(np.abs(changes), axis=1) > 0.0)
+
+
+def test_branches_of_one_law_with_other_dependences_are_not_one_make():
+    text = """
+oil: {element: damper, damping: {start: 100 N*s/m, over: {setting: pressure, at: 2 bar, slope: {start: 20 N*s/m/bar}}}}
+air: {element: damper, damping: {start: 50 N*s/m, over: {setting: pressure, at: 1 bar, slope: {start: 5 N*s/m/bar}}}}
+"""
+    _, objective, coordinates = ready(text, [score_run(each) for each in dataset().runs])
+    values = objective.network.start
+    shifts = 1e-2 * np.abs(values[coordinates.which])
+    residual, changes = objective.linearise(values, coordinates.which, shifts)
+    whole, moved = objective._linearise_as_a_whole(values, coordinates.which, shifts)
+    assert residual == pytest.approx(whole, abs=1e-9)
+    assert changes == pytest.approx(moved, abs=1e-8)
+
+
+def test_a_fit_finds_base_slope_and_rate():
+    found = fit_network(parse_network(MODEL, REGISTRY.elements), dataset(), registry=REGISTRY)
+    numbers = {slot.path: slot.value for slot in found.fitted.slots()}
+    truth = {"rubber.stiffness": 2e5, "air.damping": 300.0, "air.damping.rate": 0.2e-5, "friction.limit": 40.0,
+             "friction.limit.slope": 15e-5, "piston.force.slope": 100e-5}  # fmt: skip
+    for path, number in truth.items():
+        assert numbers[path].number == pytest.approx(number, rel=0.02)
+        low, high = numbers[path].interval
+        assert low < numbers[path].number < high
+    assert found.errors.train == pytest.approx(0.1, rel=0.1)
+    again = parse_network(found.identified_text, REGISTRY.elements)
+    assert {slot.path for slot in again.slots()} == set(numbers)
+
+
+def test_a_network_with_nodes_knows_the_setting():
+    text = """\
+format: dashpot-network/1
+name: two
+nodes: {top: driven, middle: {mass: 1 kg}, base: ground}
+branches:
+  upper: {element: spring, stiffness: 100 N/mm, between: [base, middle]}
+  lower:
+    element: spring
+    between: [middle, top]
+    stiffness: {fixed: 50 N/mm, over: {setting: pressure, at: 2 bar, slope: 25 N/mm/bar}}
+"""
+    plain = text.replace("{fixed: 50 N/mm, over: {setting: pressure, at: 2 bar, slope: 25 N/mm/bar}}", "75 N/mm")
+    found, expected = (run("r", 3.0, 1e-3, 3.0, each).force for each in (text, plain))
+    assert found == pytest.approx(expected, abs=1e-9)

@@ -1,0 +1,151 @@
+"""Triage on a damped progressive spring with noise: each fault is told, sound runs and their effects are not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from seeds import seed_of
+
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.data.trouble import Trouble
+from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.examine import examine
+
+STEP = 1e-3
+TIME = np.arange(4000) * STEP
+CONDITIONS = [(a, p) for a in (0.5e-3, 1e-3, 2e-3, 5e-3) for p in (10e-3, 20e-3)]
+
+
+@pytest.fixture
+def rng(request):
+    seed = seed_of("test_examine")
+    print(f"seed {seed}")
+    return np.random.default_rng(seed)
+
+
+def sweep(name, amplitude, preload, rng, effect=lambda x, v: 0.0):
+    """A sweep from 1 to 21 Hz with 2 um and 5 N of noise."""
+    phase = 2.0 * np.pi * (TIME + 2.5 * TIME**2)
+    x = preload + amplitude * np.sin(phase)
+    v = np.gradient(x, STEP)
+    force = 2e5 * x + 3e6 * x**2 + 300.0 * v + effect(x, v) + 5.0 * rng.standard_normal(x.size)
+    return Run(
+        name, "sweep", TIME, {"displacement": x + 2e-6 * rng.standard_normal(x.size), "force": force}, group=name
+    )
+
+
+def dataset(rng, effect=lambda x, v: 0.0):
+    return Dataset("made", tuple(sweep(f"r{k}", a, p, rng, effect) for k, (a, p) in enumerate(CONDITIONS)))
+
+
+def with_run(data, number, **channels):
+    """The dataset with channels of one run replaced, the time cut to their length."""
+    runs = list(data.runs)
+    changed = {**runs[number].channels, **channels}
+    runs[number] = replace(runs[number], time=TIME[: changed["force"].size], channels=changed)
+    return replace(data, runs=tuple(runs))
+
+
+def kinds(data):
+    return [(fault.run, fault.kind) for fault in examine(data).faults]
+
+
+def test_sound_runs_have_no_fault(rng):
+    assert kinds(dataset(rng)) == []
+
+
+@pytest.mark.parametrize("effect", [
+    lambda x, v: 150.0 * np.tanh(v / 1e-3),
+    lambda x, v: 5e5 * np.maximum(x - 20e-3, 0.0),
+    lambda x, v: 800.0 * v * (x / 10e-3),
+    lambda x, v: 2.0e3 * np.abs(v) * v,
+    lambda x, v: np.where(x > 21e-3, -2e5 * (x - 21e-3), 0.0),
+], ids=["friction", "stop", "preload", "quadratic", "yielding"])  # fmt: skip
+def test_effects_of_the_specimen_are_no_faults(rng, effect):
+    assert kinds(dataset(rng, effect)) == []
+
+
+def test_a_force_of_the_wrong_sign_is_turned(rng):
+    data = dataset(rng)
+    number = int(rng.integers(len(CONDITIONS)))
+    found = examine(with_run(data, number, force=-data.runs[number].force))
+    assert [(fault.run, fault.kind) for fault in found.faults] == [(f"r{number}", "polarity")]
+    assert np.array_equal(found.dataset.runs[number].force, data.runs[number].force)
+
+
+@pytest.mark.parametrize("factor", [1000.0, 1e-3, 10.0, 0.1, 9.80665, 1 / 9.80665, 4.4482216])
+def test_a_wrong_unit_is_told_by_its_factor(rng, factor):
+    data = dataset(rng)
+    number = int(rng.integers(len(CONDITIONS)))
+    found = examine(with_run(data, number, force=factor * data.runs[number].force))
+    assert [(fault.run, fault.kind) for fault in found.faults] == [(f"r{number}", "unit")]
+    assert found.faults[0].factor == pytest.approx(1.0 / factor, rel=0.03)
+
+
+def test_a_gain_within_reason_is_no_wrong_unit(rng):
+    """1.3 is a matter of the sensor or of the specimen: the pursuit of causes deals with it."""
+    data = dataset(rng)
+    assert kinds(with_run(data, 3, force=1.3 * data.runs[3].force)) == []
+
+
+def test_a_copy_is_told(rng):
+    data = dataset(rng)
+    assert kinds(with_run(data, 5, **data.runs[2].channels)) == [("r5", "duplicate")]
+
+
+def test_computed_forces_may_repeat_themselves():
+    """Without noise two runs of one motion are the same: nobody copied them."""
+    x = 0.02 + 1e-3 * np.sin(2.0 * np.pi * 5.0 * TIME)
+    runs = tuple(Run(n, "harmonic", TIME, {"displacement": x, "force": 2e5 * x}, group="a") for n in "ab")
+    assert kinds(Dataset("computed", runs)) == []
+
+
+@pytest.mark.parametrize("lost", [3, 20])
+def test_lost_samples_are_told(rng, lost):
+    data = dataset(rng)
+    number, at = int(rng.integers(len(CONDITIONS))), int(rng.integers(500, 3400))
+    keep = np.r_[0:at, at + lost : TIME.size]
+    x, force = data.runs[number].displacement[keep], data.runs[number].force[keep]
+    before, across, after = np.diff(x[at - 2 : at + 2])
+    # less than what a sample travels, and the cut happens to close up again
+    if abs(across - 0.5 * (before + after)) > max(0.2e-3, 1.2 * abs(before), 1.2 * abs(after)):
+        assert kinds(with_run(data, number, displacement=x, force=force)) == [(f"r{number}", "lost_samples")]
+
+
+def test_corners_of_a_triangle_are_no_lost_samples(rng):
+    x = 0.03 * (1.0 - np.abs(TIME / 2.0 - 1.0)) + 2e-6 * rng.standard_normal(TIME.size)
+    run = Run("qs", "quasi_static", TIME, {"displacement": x, "force": 2e5 * x + rng.standard_normal(x.size)})
+    assert kinds(Dataset("triangle", (run,))) == []
+
+
+def test_clipped_runs_that_reading_set_aside_are_remembered(rng):
+    data = replace(dataset(rng), faults=(("gone", Trouble("the force stays", "measure again", fault="clipping")),))
+    fault = examine(data).faults[0]
+    assert (fault.run, fault.kind) == ("gone", "clipping")
+
+
+def test_harmonics_of_the_actuator_are_remarked():
+    """A tenth of the motion in the second harmonic, and none."""
+    for share in (0.1, 0.0):
+        phase = 2.0 * np.pi * 5.0 * TIME
+        x = 0.02 + 1e-3 * (np.sin(phase) + share * np.sin(2.0 * phase))
+        said = actuator_harmonics(Run("a", "harmonic", TIME, {"displacement": x, "force": 2e5 * x}))
+        assert ("harmonic 2 of the displacement itself is 10%" in said) == (share > 0.0)
+
+
+def test_a_prescribed_force_may_come_back_to_the_last_digit(rng):
+    """A rig that drives the force: two periods have one force, and motions of their own."""
+    data = dataset(rng)
+    copied = data.runs[2]
+    moved = copied.displacement + 2e-6 * rng.standard_normal(TIME.size)
+    assert kinds(with_run(data, 5, force=copied.force, displacement=moved)) == []
+
+
+def test_jumps_that_an_uneven_clock_allows_are_no_lost_samples(rng):
+    """Where the time was laid on an even grid as many samples may be missing as reading bridges."""
+    x = 5e-3 * np.sin(2.0 * np.pi * TIME)
+    keep = np.r_[0:1000, 1012 : TIME.size]
+    run = Run("a", "harmonic", TIME[: keep.size], {"displacement": x[keep], "force": 2e5 * x[keep]}, group="a")
+    assert kinds(Dataset("even", (run,))) == [("a", "lost_samples")]
+    assert kinds(Dataset("uneven", (replace(run, uneven=True),))) == []

@@ -1,0 +1,171 @@
+"""Runs that give work back are named with what they most likely are; passive specimens of all kinds never are."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.triage.examine import examine, examined
+from dashpot.triage.work import REVERSIBILITY, work_of_cycles
+
+STEP = 1e-3
+TIME = np.arange(6000) * STEP
+
+
+def sine(amplitude, frequency, preload=0.0):
+    return preload + amplitude * np.sin(2.0 * np.pi * frequency * TIME)
+
+
+def run(name, x, force, noise=0.0, seed=0, **more):
+    rng = np.random.default_rng(seed)
+    force = force + noise * rng.standard_normal(x.size)
+    return Run(name, "harmonic", TIME, {"displacement": x, "force": force}, group=name, **more)
+
+
+def late(signal, delay):
+    """The signal a while later, by linear interpolation of a finely sampled smooth course."""
+    return np.interp(TIME - delay, TIME, signal)
+
+
+def mount(name, amplitude, frequency, delay=0.0, seed=0):
+    """A progressive spring with a dashpot and friction, behind 2 N of noise."""
+    x = sine(amplitude, frequency, 5e-3)
+    v = np.gradient(x, STEP)
+    force = 1e5 * x + 4e6 * x**2 + 200.0 * v + 20.0 * np.tanh(v / 2e-3)
+    return run(name, x, late(force, delay), 2.0, seed)
+
+
+def mounts():
+    return [
+        mount(f"r{k}", a, f, seed=k) for k, (a, f) in enumerate([(1e-3, 2), (2e-3, 2), (1e-3, 5), (2e-3, 5), (3e-3, 3)])
+    ]
+
+
+def told(runs):
+    return {fault.run: fault for fault in examine(Dataset("made", tuple(runs))).faults}
+
+
+def test_the_work_of_a_cycle_is_that_of_the_ellipse():
+    """A dashpot takes pi c w A^2 in each cycle, whatever spring lies beside it."""
+    amplitude, frequency, damping = 2e-3, 4.0, 300.0
+    x = sine(amplitude, frequency)
+    work = work_of_cycles(run("a", x, 1e5 * x + damping * np.gradient(x, STEP) + 700.0))
+    expected = np.pi * damping * 2.0 * np.pi * frequency * amplitude**2
+    assert work.taken == pytest.approx(np.full(work.taken.size, expected), rel=2e-3)
+
+
+def test_each_second_of_delay_takes_away_what_is_told():
+    """A spring seen late by d gives back pi k A^2 sin(w d): its work per second of delay is -pi k A^2 w."""
+    amplitude, frequency, stiffness = 2e-3, 4.0, 1e5
+    x = sine(amplitude, frequency)
+    work = work_of_cycles(run("a", x, stiffness * x))
+    assert work.per_delay == pytest.approx(np.pi * stiffness * amplitude**2 * 2.0 * np.pi * frequency, rel=2e-3)
+    assert work.moved == pytest.approx(2.0 * stiffness * amplitude**2, rel=2e-3)
+    assert work.explicable(0.0) == pytest.approx(REVERSIBILITY * work.moved)
+
+
+@pytest.mark.parametrize("law", [
+    lambda x, v: 1e5 * x,
+    lambda x, v: 1e5 * x + 3e8 * x**3,
+    lambda x, v: 1e5 * x + 20.0 * np.gradient(v, STEP),
+    lambda x, v: np.where(x > 0.0, 1e5 * x, 0.0),
+    lambda x, v: 1e5 * np.maximum(np.abs(x) - 5e-4, 0.0) * np.sign(x),
+], ids=["spring", "progressive", "mass", "lift_off", "clearance"])  # fmt: skip
+@pytest.mark.parametrize("delay", [0.0, 0.9e-3])
+@pytest.mark.parametrize("noise", [0.0, 20.0])
+def test_an_elastic_specimen_is_not_accused(law, delay, noise):
+    runs = []
+    for number, (a, f) in enumerate([(1e-3, 1), (2e-3, 3), (1e-3, 7), (3e-3, 2)]):
+        x = sine(a, f)
+        runs.append(run(f"r{number}", x, late(law(x, np.gradient(x, STEP)), delay), noise, number))
+    assert told(runs) == {}
+
+
+def test_random_motion_of_an_elastic_specimen_is_not_accused():
+    rng = np.random.default_rng(5)
+    runs = []
+    for number in range(6):
+        x = np.convolve(rng.standard_normal(TIME.size), np.hanning(60), "same") * 1e-4
+        runs.append(run(f"r{number}", x, 1e5 * x + 1e9 * x**3, 5.0, number))
+    assert told(runs) == {}
+
+
+def test_sound_mounts_are_not_accused():
+    assert told(mounts()) == {}
+
+
+def test_a_turned_force_is_named_and_turned_back():
+    runs = mounts()
+    runs[1] = replace(runs[1], channels={**runs[1].channels, "force": -runs[1].force})
+    found = examine(Dataset("made", tuple(runs)))
+    assert [(fault.run, fault.kind, fault.channel, fault.factor) for fault in found.faults] == [
+        ("r1", "polarity", "force", -1.0)
+    ]
+    assert np.array_equal(found.dataset.run("r1").force, mounts()[1].force)
+
+
+def test_a_turned_displacement_is_told_from_a_turned_force():
+    """The middle of the stroke and the progressive spring tell the one from the other."""
+    runs = mounts()
+    runs[3] = replace(runs[3], channels={**runs[3].channels, "displacement": -runs[3].displacement})
+    fault = told(runs)["r3"]
+    assert (fault.kind, fault.channel) == ("polarity", "displacement")
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_swapped_channels_are_named_and_left_out(unit):
+    """Both columns taken for each other; in mm and N the numbers of the force become mm."""
+    runs = mounts()
+    x, force = runs[2].displacement, runs[2].force
+    runs[2] = replace(runs[2], channels={"displacement": unit * force, "force": x / unit})
+    fault = told(runs)["r2"]
+    assert (fault.kind, fault.factor) == ("swapped_channels", None)
+    assert "r2" not in [each.name for each in examine(Dataset("made", tuple(runs))).dataset.runs]
+
+
+def test_a_delay_that_makes_a_run_give_back_work_is_named_with_its_length():
+    runs = mounts()
+    runs[3] = mount("r3", 2e-3, 5, delay=12e-3, seed=3)
+    fault = told(runs)["r3"]
+    assert fault.kind == "delay"
+    found = float(fault.cure.split("delay: ")[1].split(" ms")[0])
+    assert found == pytest.approx(12.0, rel=0.12)
+
+
+def test_what_nothing_mends_is_left_out():
+    """A record of another specimen whose drive pulls it along agrees with nobody."""
+    runs = mounts()
+    x = runs[0].displacement
+    runs[0] = run("r0", x, -400.0 * np.gradient(x, STEP) * np.abs(x - 5e-3) / 1e-3 + np.sin(40.0 * TIME))
+    assert told(runs)["r0"].kind == "energy"
+
+
+def test_turned_forces_of_most_runs_are_all_turned_back():
+    """Energy is no vote: four of five runs may be wrong."""
+    runs = [replace(each, channels={**each.channels, "force": -each.force}) for each in mounts()[:4]] + mounts()[4:]
+    found = examine(Dataset("made", tuple(runs)))
+    assert {fault.run for fault in found.faults} == {"r0", "r1", "r2", "r3"}
+    assert all(np.array_equal(one.force, other.force) for one, other in zip(found.dataset.runs, mounts(), strict=True))
+
+
+def test_a_dataset_never_loses_its_last_run():
+    """Every force comes late by the same: that is said, and the runs stay."""
+    found = examine(Dataset("made", tuple(mount(f"r{k}", a, 5.0, 12e-3, k) for k, a in enumerate((1e-3, 2e-3)))))
+    assert [fault.kind for fault in found.faults] == ["delay", "delay"]
+    assert len(found.dataset.runs) == 2
+    assert "No run is without a fault" in found.remarks[-1]
+
+
+def test_two_cycles_are_too_few_to_accuse():
+    x = sine(1e-3, 2.0)[:1200]
+    short = Run("a", "transient", TIME[:1200], {"displacement": x, "force": -300.0 * np.gradient(x, STEP)}, group="a")
+    assert told([short]) == {}
+
+
+def test_what_was_done_is_told_among_the_problems():
+    runs = mounts()
+    runs[1] = replace(runs[1], channels={**runs[1].channels, "force": -runs[1].force})
+    (problem,) = examined(Dataset("made", tuple(runs))).problems
+    assert "run 'r1'" in problem.message and "gives back" in problem.message and "multiplied by -1" in problem.message

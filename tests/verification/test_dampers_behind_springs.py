@@ -1,0 +1,123 @@
+"""Valves and dampers in series with a spring against an independent integration, and in the limits that are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from verification.alone import circling, network_of
+from verification.test_elements_with_memory import march, orders, relative, speed
+
+VALVE = {"stiffness": 3e5, "compression": 2e3, "rebound": 5e3, "compression_knee": 0.05, "rebound_knee": 0.02,
+         "compression_opened": 300.0, "rebound_opened": 100.0, "sharpness": 3.0}  # fmt: skip
+
+
+def valve_curve(w, numbers):
+    side = "rebound" if w < 0.0 else "compression"
+    low, high, knee = (numbers[side + key] for key in ("", "_opened", "_knee"))
+    m = numbers["sharpness"]
+    return high * w + (low - high) * w / (1.0 + abs(w / knee) ** m) ** (1.0 / m)
+
+
+def valve_slope(w, numbers):
+    side = "rebound" if w < 0.0 else "compression"
+    low, high, knee = (numbers[side + key] for key in ("", "_opened", "_knee"))
+    m = numbers["sharpness"]
+    return high + (low - high) * (1.0 + abs(w / knee) ** m) ** (-1.0 / m - 1.0)
+
+
+def power_curve(w, numbers):
+    r = abs(w / 0.1)
+    return numbers["force"] * np.sign(w) * (r ** numbers["exponent"] if r > 1e-3 else r * at_rest(numbers))
+
+
+def at_rest(numbers):
+    return 1e-3 ** (numbers["exponent"] - 1.0)
+
+
+def power_slope(w, numbers):
+    r, n = abs(w / 0.1), numbers["exponent"]
+    return numbers["force"] / 0.1 * (n * r ** (n - 1.0) if r > 1e-3 else at_rest(numbers))
+
+
+def truth(curve, slope, numbers, time):
+    """g(w) where g'(w) dw/dt = k (v - w)."""
+    answer = solve_ivp(lambda t, w: [numbers["stiffness"] * (speed(t) - w[0]) / slope(w[0], numbers)],
+                       (0.0, time[-1]), [0.0], method="LSODA", rtol=1e-10, atol=1e-13, t_eval=time,
+                       max_step=2e-4)  # fmt: skip
+    return np.array([curve(w, numbers) for w in answer.y[0]])
+
+
+@pytest.mark.parametrize(("element", "curve", "slope", "numbers"), [
+    ("valve", valve_curve, valve_slope, VALVE),
+    ("valve", valve_curve, valve_slope, {**VALVE, "sharpness": 1.0, "compression_opened": 0.0, "stiffness": 1e5}),
+    ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 300.0, "exponent": 2.0}),
+    ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 100.0, "exponent": 0.6}),
+])  # fmt: skip
+def test_a_damper_behind_a_spring_is_of_second_order_in_the_step(element, curve, slope, numbers, state):
+    errors = []
+    for dt in (1e-3, 0.5e-3, 0.25e-3):
+        time, found = march(element, dt, 1.0, **numbers)
+        errors.append(relative(found, truth(curve, slope, numbers, time)))
+    state(f"{element} at 1, 0.5, 0.25 ms: {', '.join(f'{error:.1e}' for error in errors)} of the largest force")
+    # where turbulent flow turns, its slope is next to nothing: the square root of the force that is left there has none
+    assert errors[0] < 1e-3
+    assert np.all(orders(errors) > 1.6) or (numbers.get("exponent") == 2.0 and errors[2] < 0.3 * errors[0])
+
+
+def test_a_linear_damper_behind_a_spring_is_a_maxwell_element():
+    errors = []
+    for dt in (1e-3, 0.5e-3):
+        _, maxwell = march("maxwell", dt, stiffness=4e4, relaxation_time=0.02)
+        _, found = march("compliant_damper", dt, stiffness=4e4, force=80.0)
+        errors.append(relative(found, maxwell))
+        _, valve = march("valve", dt, stiffness=4e4, compression=800.0, rebound=800.0, compression_knee=1e3,
+                         rebound_knee=1e3, compression_opened=800.0, rebound_opened=800.0)  # fmt: skip
+        assert valve == pytest.approx(found, abs=1e-9)
+    assert errors[0] < 1e-3
+    assert orders(errors)[0] > 1.9
+
+
+@pytest.mark.parametrize(("element", "curve", "numbers"), [
+    ("valve", valve_curve, {**VALVE, "stiffness": 1e10}),
+    ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 2.0}),
+    ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 0.3}),
+])  # fmt: skip
+def test_behind_a_rigid_spring_a_damper_follows_its_curve(element, curve, numbers):
+    drive = circling(5e-3, 5.0, 2, 100)
+    network = network_of(element, **numbers)
+    found = network.simulate(network.prepare(drive))[50:]
+    expected = np.array([curve(v, numbers) for v in drive.velocity[50:]])
+    # near zero velocity the curve of a small power is stiffer than any spring
+    slow = np.abs(drive.velocity[50:]) < 0.05 * np.max(drive.velocity)
+    assert np.max(np.abs(found - expected)[~slow]) < 1e-3 * np.max(expected)
+
+
+def test_towards_the_power_zero_it_is_a_slider_behind_a_spring():
+    _, slider = march("dahl", 0.5e-3, stiffness=4e4, limit=30.0, exponent=0.0)
+    _, found = march("compliant_damper", 0.5e-3, stiffness=4e4, force=30.0, exponent=0.05)
+    # |v| runs over decades: at its twentieth power the force is off by (v/0.1 m/s)^0.05 - 1
+    assert relative(found, slider) < 0.15
+
+
+@pytest.mark.parametrize("exponent", [0.05, 0.3, 1.0, 2.0, 4.0])
+@pytest.mark.parametrize("stiffness", [1e2, 1e5, 1e9])
+def test_the_step_of_a_power_leaves_no_residual(exponent, stiffness):
+    from dashpot_elements.compliant_damper import _flow
+
+    given, rate = np.geomspace(1e-6, 1e6, 400), 0.2929 * 1e-3 * stiffness * 0.1 / 50.0
+    share, ratio = _flow(given, rate, exponent)
+    assert share * given + rate * ratio == pytest.approx(given, rel=1e-12)
+    assert ratio**exponent == pytest.approx(share * given, rel=1e-10, abs=1e-300)
+
+
+@pytest.mark.parametrize("sharpness", [1.0, 2.5, 8.0])
+@pytest.mark.parametrize("rate", [1e-3, 1.0, 1e3, 1e7])
+def test_the_step_of_a_valve_leaves_no_residual(sharpness, rate):
+    from dashpot_elements.valve import _flow
+
+    given = np.concatenate([-np.geomspace(1e-6, 1e5, 300), np.geomspace(1e-6, 1e5, 300)])
+    force, w = _flow(given, rate, 1800.0, 0.05, 200.0, sharpness)
+    curve = 200.0 * w + 1800.0 * w / (1.0 + np.abs(w / 0.05) ** sharpness) ** (1.0 / sharpness)
+    assert curve + rate * w == pytest.approx(given, rel=1e-10)
+    assert force + rate * w == pytest.approx(given, rel=1e-12)

@@ -1,0 +1,64 @@
+"""Friction with a limit for each direction, and with one that grows away from a middle."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from verification.alone import last_cycle
+from verification.test_elements_with_memory import AMPLITUDE, TURNS, march, place, relative, speed
+from verification.truth.elements import integrate
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
+def test_friction_by_direction_solves_its_equation(exponent):
+    numbers = {"stiffness": 6e4, "compression": 12.0, "rebound": 30.0, "exponent": exponent}
+
+    def rate(t, force):
+        side = np.sign(speed(t))
+        u = 1.0 - side * force / (12.0 if side > 0.0 else 30.0)
+        return 6e4 * speed(t) * np.abs(u) ** exponent * np.sign(u)
+
+    time, found = march("directional_friction", 1e-3, 2.0, **numbers)
+    assert relative(found, integrate(rate, [0.0], time, TURNS)[0]) < 2e-6
+
+
+def test_with_equal_limits_it_is_a_dahl_slider():
+    _, found = march("directional_friction", 1e-3, stiffness=6e4, compression=12.0, rebound=12.0)
+    _, dahl = march("dahl", 1e-3, stiffness=6e4, limit=12.0)
+    assert relative(found, dahl) < 1e-12
+
+
+def test_sliding_to_and_fro_takes_the_work_of_both_limits_and_leaves_half_their_difference():
+    _, x, force = last_cycle("directional_friction", 5e-3, 1.0, 3, 4000, stiffness=1e8, compression=20.0, rebound=50.0,
+                             exponent=0.0)  # fmt: skip
+    work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
+    assert work == pytest.approx(2.0 * 5e-3 * (20.0 + 50.0), rel=1e-3)
+    assert np.mean(force) == pytest.approx(0.5 * (20.0 - 50.0), rel=1e-2)
+
+
+@pytest.mark.parametrize(("growth", "middle"), [(0.0, 0.0), (2e3, 1.5e-3), (5e3, 0.0), (5e4, 3e-3), (59999.0, 1e-3)])
+def test_friction_by_place_solves_its_equation(growth, middle):
+    """The limit has a kink where the way crosses the middle: the integration begins anew there."""
+
+    def rate(t, force):
+        limit = 12.0 + growth * np.abs(place(t) - middle)
+        return 6e4 * (speed(t) - np.abs(speed(t)) * force / limit)
+
+    crossing = np.arccos(np.clip(1.0 - middle / AMPLITUDE, -1.0, 1.0)) / (2.0 * np.pi * 7.0)
+    kinks = np.sort(np.concatenate([TURNS, [n / 7.0 + s * crossing for n in range(9) for s in (-1.0, 1.0)]]))
+    kinks = kinks[np.concatenate([[True], np.diff(kinks) > 1e-9])]
+    time, found = march("side_load_friction", 1e-3, 2.0, stiffness=6e4, limit=12.0, growth=growth, middle=middle)
+    assert relative(found, integrate(rate, [0.0], time, kinks)[0]) < 2e-6
+
+
+def test_without_growth_it_is_a_dahl_slider():
+    _, found = march("side_load_friction", 1e-3, stiffness=6e4, limit=12.0, growth=0.0)
+    _, dahl = march("dahl", 1e-3, stiffness=6e4, limit=12.0)
+    assert relative(found, dahl) < 1e-12
+
+
+def test_a_stiff_slider_follows_the_butterfly_of_its_limit():
+    _, x, force = last_cycle("side_load_friction", 5e-3, 1.0, 3, 4000, stiffness=1e8, limit=5.0, growth=4e3)
+    work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
+    # to and fro: 4 times the integral of the limit over half the stroke
+    assert work == pytest.approx(4.0 * (5.0 * 5e-3 + 0.5 * 4e3 * 5e-3**2), rel=2e-3)
