@@ -2,7 +2,8 @@
 
 A specimen answers the same motion alike. So a run may be accused where its repeat disagrees, or where other, sound
 runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at a setting is
-not.
+not. What the same fault would explain in all other runs, or between all other repeats, is the error of the model, and
+the change of the specimen from test to test: nats are divided by this overdispersion.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ Array = NDArray[np.float64]
 SLACK = 0.02  # of the range of a condition
 SAME_MOTION = 0.02  # of the deviation of the displacement
 Key = tuple[str, int]  # run, number of the kind
+Pair = tuple[str, str]  # runs of the same motion
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,11 +82,28 @@ def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise)
 
 def disagreeing(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[int]:
     """The kinds of which repeats of one run differ, by number: the difference needs no model."""
-    rows = rows_of(refitter, look, kinds, _alike(look, groups))
-    price = Odds(len(kinds) * max(len(repeats_of(refitter, groups)), 1)).price("specimen")
-    found = [number for number, _ in enumerate(kinds)
-             if any(_contrast(rows, a, b, number) > price for a, b in repeats_of(refitter, groups))]  # fmt: skip
-    return found
+    rows, pairs = rows_of(refitter, look, kinds, _alike(look, groups)), repeats_of(refitter, groups)
+    price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
+    return [number for number, _ in enumerate(kinds) if _that_differ(rows, pairs, number, price)]
+
+
+def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
+    """The pairs of repeats that differ by a kind of fault, more than all others do."""
+    nats = {pair: _contrast(rows, *pair, kind) for pair in pairs}
+    columns = next(len(shapes) for (_, number), shapes in rows.shapes.items() if number == kind)
+    return [pair for pair in pairs
+            if nats[pair] / overdispersion([nats[other] for other in pairs if not set(other) & set(pair)], columns)
+            > price + columns]  # fmt: skip
+
+
+def overdispersion(nats: Sequence[float], columns: int) -> float:
+    """By how much more than noise faults with so many columns explain of sound data, at least 1.
+
+    The median of ``nats`` over that of noise, of which the doubled nats are distributed as chi-square.
+    """
+    from scipy.stats import chi2
+
+    return max(1.0, 2.0 * float(np.median(nats)) / float(chi2.median(columns))) if nats else 1.0
 
 
 def _alike(look: Look, groups: Mapping[str, str]) -> Noise:
@@ -94,7 +113,7 @@ def _alike(look: Look, groups: Mapping[str, str]) -> Noise:
     return replace(look.measured_noise, filters={run: known[first[groups[run]]] for run in known})
 
 
-def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[tuple[str, str]]:
+def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
     """Pairs of training runs with the same motion."""
     found = []
     runs = list(refitter.runs)
@@ -108,13 +127,13 @@ def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[tuple[str,
 
 
 def _contrast(rows: _Rows, one: str, other: str, kind: int) -> float:
-    """The nats that a kind explains of the difference between two repeats, less those of chance."""
+    """The nats that a kind explains of the difference between two repeats."""
     shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
     difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
     gram = shapes @ shapes.T
     solved = np.linalg.lstsq(gram, shapes @ difference, rcond=1e-10)[0]
     explained = float(solved @ shapes @ difference)
-    return 0.5 * difference.size * -np.log1p(-min(explained / float(difference @ difference), 1 - 1e-12)) - len(gram)
+    return 0.5 * difference.size * -np.log1p(-min(explained / float(difference @ difference), 1 - 1e-12))
 
 
 def accuse(
@@ -136,14 +155,23 @@ def accuse(
         gains = {key: solver.gain(key, chosen) - 0.5 * len(rows.shapes[key]) * np.log(rows.residual[key[0]].size)
                  for key in rows.shapes if key not in chosen}  # fmt: skip
         for key in sorted(gains, key=lambda key: -gains[key]):
-            if gains[key] < max(price, relevance * rows.residual[key[0]].size):
+            least = max(price, relevance * rows.residual[key[0]].size)
+            if gains[key] < least:
                 return _accused(solver, chosen, kinds)
             evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
-            if evidence:
+            of_model = 1.0 if evidence.startswith("at_rest") else _overdispersion_beside(solver, key, chosen)
+            if evidence and gains[key] > least * of_model:
                 chosen[key] = evidence
                 break
         else:
             return _accused(solver, chosen, kinds)
+
+
+def _overdispersion_beside(solver: _Solver, key: Key, chosen: Mapping[Key, str]) -> float:
+    """By how much more than noise the fault ``key`` explains in all other runs, beside it and those chosen."""
+    beside = {**chosen, key: ""}
+    others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in beside]
+    return overdispersion([solver.gain(other, beside) for other in others], len(solver.rows.shapes[key]))
 
 
 def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
@@ -161,7 +189,7 @@ def _evidence(
     chosen: Mapping[Key, str],
     rows: _Rows,
     kinds: Sequence[Kind],
-    pairs: Sequence[tuple[str, str]],
+    pairs: Sequence[Pair],
     groups: Mapping[str, str],
     measured: Mapping[str, Run],
     price: float,
@@ -170,7 +198,7 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = [pair for pair in pairs if _contrast(rows, *pair, kind) > price]
+    demonstrated = _that_differ(rows, pairs, kind, price)
     if any(run in pair for pair in demonstrated):
         other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
         return f"repeats|'{other}' is the same motion, and its force differs"

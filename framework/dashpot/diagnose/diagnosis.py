@@ -227,8 +227,7 @@ class Diagnosis:
 
     def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
         """What the final network gains by a cause, and by how much the error grows without it."""
-        held_out = self.setting.split.held_out or tuple(self.setting.split.train)
-        words = "held-out runs" if self.setting.split.held_out else "training runs"
+        held_out = self.setting.split.held_out
         best = min(removals, key=lambda one: measure_errors(one, self.after_setting, self.jobs).train, default=None)
         if best is None:
             return None, None
@@ -239,10 +238,8 @@ class Diagnosis:
         )  # fmt: skip
         paths = {run: self.setting.scored[run].drive.displacement[cut[run] :] for run in held_out}
         groups = {run.name: run.cluster for run in self.setting.dataset.runs}
-        gain = measure_gain(before, after, groups, paths, words, self.seed)
-        if gain is None:
-            return None, None
-        return gain, (1.0 / (1.0 - gain.value) - 1.0 if self.setting.split.held_out else None)
+        gain = measure_gain(before, after, groups, paths, "held-out runs", self.seed)
+        return gain, (1.0 / (1.0 - gain.value) - 1.0 if gain else None)
 
     def _rivals(self, name: tuple[str, str], probability: float) -> tuple[str, ...]:
         """What may stand in the place of a cause that is not sure."""

@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 
 AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter about the one that all share
 FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
+ZERO = 2.0  # standard errors
 FEWEST_PEAKS = 3  # excursions that end at the same value
 
 
@@ -65,13 +66,19 @@ def _size_in_steps(model: Model, path: str) -> float:
 
 
 def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
-    """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on."""
+    """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on.
+
+    A force that stays at zero is none: a specimen that has lost contact does the same.
+    """
     model = scores.look.model
     limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}
     term = model.terms[number]
     rest = [other for other in model.terms if other is not term]
     free = refitter.forces(refitter.without(model, rest))
     found = []
+    noise = np.sqrt(np.mean([np.mean((run.force - free[run.name]) ** 2) for run in refitter.runs]))
+    if any(abs(level) < ZERO * noise for level in limits.values()):
+        return False
     for word, level in limits.items():
         side = 1.0 if word == "largest" else -1.0
         for run in refitter.runs:

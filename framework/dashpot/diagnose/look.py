@@ -21,7 +21,7 @@ from dashpot.diagnose.location import gather_candidates, locations_of, renumbere
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
-from dashpot.diagnose.whitening import Noise, learn_filter, reduction
+from dashpot.diagnose.whitening import Noise, independent_share, learn_filter, reduction
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import spread
 
@@ -66,7 +66,7 @@ class Look:
     coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all columns together leave, N.
     ``measured_noise`` is that of the records alone, without the error of the model, ``sizes`` (c,) the RMS of columns
     in N. ``prior`` (c, c) is how unlikely the errors of forms are that take part in the refit, ``occam`` what they cost
-    in nats.
+    in nats; ``exact`` (groups, 1 + t, 1 + t) are the matrices of residual and tangents without errors of forms.
     """
 
     model: Model
@@ -75,6 +75,7 @@ class Look:
     candidates: tuple[Candidate, ...]
     layout: Layout
     grams: Array
+    exact: Array
     prior: Array
     occam: float
     samples: Array
@@ -154,9 +155,11 @@ def look_at(
     sizes = np.sqrt(np.mean([np.mean(found[first:] ** 2, axis=1) for found in rows.values()], axis=0))
     names = tuple(dict.fromkeys(groups[run.name] for run in runs))
     grams, samples = _grams(rows, noise, groups, names)
+    inside_model = slice(first + 1 + own.size)
+    exact = beside_base(grams[:, inside_model, inside_model], np.zeros(first), first)[0]
     grams, precision = with_form_errors(grams, first, layout, model, candidates)
     projected, moves, prior, occam = beside_base(grams, precision, first)
-    return Look(model, noise, view, tuple(candidates), layout, projected, prior, occam, samples, names, sizes,
+    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, names, sizes,
                 unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
 
 
@@ -175,13 +178,16 @@ def _shapes(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noi
 
 def _grams(rows: dict[str, Array], noise: Noise, groups: Mapping[str, str], names: Sequence[str]
            ) -> tuple[Array, Array]:  # fmt: skip
-    """Gram matrices (groups, c, c) of whitened rows and the number (groups,) of their samples; takes the rows."""
+    """Gram matrices (groups, c, c) of whitened rows and the number (groups,) of their samples; takes the rows.
+
+    Samples that are not independent weigh less in both.
+    """
     size = len(next(iter(rows.values())))
     grams, samples = np.zeros((len(names), size, size)), np.zeros(len(names))
     for run in list(rows):
-        white = noise.filter(run, rows.pop(run))
-        grams[names.index(groups[run])] += white @ white.T
-        samples[names.index(groups[run])] += white.shape[1]
+        white, share = noise.filter(run, rows.pop(run)), noise.independent.get(run, 1.0)
+        grams[names.index(groups[run])] += share * (white @ white.T)
+        samples[names.index(groups[run])] += share * white.shape[1]
     return grams, samples
 
 
@@ -256,7 +262,7 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
     strengths *= scale[first] / scale
     used = len(steadied) - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(steadied)))))
     left = 1.0 - used / sum(found.shape[1] for found in rows.values())
-    filters, alone, squares = {}, {}, []
+    filters, alone, shares, squares = {}, {}, {}, []
     for run in refitter.runs:
         found = rows[run.name]
         rest, shapes = found[first] - strengths @ found, lines[run.name]
@@ -266,7 +272,9 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
         error = np.sqrt(max(float(np.mean(residual**2)) - square, 0.0))
         smallest = RESOLUTION * max(float(np.std(run.force)), 1e-12)
         filters[run.name] = learn_filter(rest, error, smallest)
+        shares[run.name] = independent_share(replace(plain, filters=filters).filter(run.name, residual))
         freed = rest / np.sqrt(left) if left > LEFT else residual
         alone[run.name] = learn_filter(freed, 0.0, smallest)
         squares.append(float(np.mean(freed**2)))
-    return replace(plain, filters=filters), replace(plain, filters=alone), float(np.sqrt(np.mean(squares)))
+    noise = replace(plain, filters=filters, independent=shares)
+    return noise, replace(plain, filters=alone), float(np.sqrt(np.mean(squares)))

@@ -31,17 +31,17 @@ NAMED = 0.9  # of the draws: probability from which on a cause is named
 
 @dataclass(frozen=True, eq=False)
 class Scored:
-    """A refitted structure and what it predicts: ``nats`` (groups,) less log likelihood of each group left out."""
+    """A refitted structure and what it predicts.
+
+    ``score`` is minus the log of likelihood and prior, with errors of forms allowed for; ``nats`` (groups,) are minus
+    the log likelihood of each group left out with the laws as they are, and ``price`` is the prior of the terms.
+    """
 
     model: Model
+    score: float
     nats: Array
     samples: Array
     price: float
-
-    @property
-    def score(self) -> float:
-        """Minus the log of likelihood and prior."""
-        return float(self.nats.sum()) + self.price
 
     def drawn(self, weights: Array) -> Array:
         """The score (draws,) under weights (draws, groups) of the groups."""
@@ -98,22 +98,31 @@ class Pursuer:
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
         first, look, ended, looks = model, look or self.look(model), False, 0
-        while looks < MOST_LOOKS and not ended:
+        while True:
+            look, looks, ended = self.climbed(look, looks)
+            fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
+            present, without = self.pruned(look, self.scored(look, fitted, odds), odds)
+            if present.model.names != look.model.names:
+                look = self.look(present.model)
+            rivals = tuple(self.rivals(Scores(look), search(Scores(look)))) if present.model.terms else ()
+            better = min((rival for _, rival in rivals), key=lambda one: one.score, default=present)
+            if not ended or not better.score < present.score:
+                weights = self.weights(len(look.groups))
+                return Pursuit(present, look, first, without, rivals, weights, looks, ended, tuple(self.refused))
+            look = self.look(better.model)
+
+    def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool]:
+        """The look at a structure than which none of those refitted is better, and whether it was reached."""
+        while looks < MOST_LOOKS:
             looks += 1
             self.watch(looks, len(look.model.terms))
             scores = Scores(look)
             present = self.scored(look, look.model, scores.odds)
             best = min(self.trials(scores, search(scores)), key=lambda trial: trial.score, default=present)
-            ended = not best.score < present.score
-            if not ended:
-                look = self.look(best.model)
-        odds = Odds(look.layout.bank)
-        present, without = self.pruned(look, self.scored(look, self.refitter.fit(look.model, look.noise), odds), odds)
-        if present.model.names != look.model.names:
-            look = self.look(present.model)
-        rivals = tuple(self.rivals(Scores(look), search(Scores(look)))) if present.model.terms else ()
-        weights = self.weights(len(look.groups))
-        return Pursuit(present, look, first, without, rivals, weights, looks, ended, tuple(self.refused))
+            if not best.score < present.score:
+                return look, looks, True
+            look = self.look(best.model)
+        return look, looks, False
 
     def look(self, model: Model) -> Look:
         """All candidates beside a model."""
@@ -200,7 +209,8 @@ def scored_by(scores: Scores, odds: Odds) -> Scored:
     nats, found, model = scores.nats(Structure()), scores.predicted(Structure()), scores.look.model
     assert nats is not None and found is not None
     price = sum(odds.price(term.cause.kind) for term in model.terms)
-    return Scored(model, nats, scores.look.samples, price + found[1] + scores.look.occam)
+    score = float(nats.sum()) + price + found[1] + scores.look.occam
+    return Scored(model, score, scores.exact_nats(), scores.look.samples, price)
 
 
 def _key(scores: Scores, structure: Structure) -> frozenset[tuple[object, ...]]:

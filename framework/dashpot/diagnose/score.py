@@ -99,7 +99,7 @@ class Scores:
     def strengths(self, structure: Structure) -> Array:
         """The solution on all runs, one for each of ``columns``, in their own units."""
         at, target = self.columns(structure), self.target(structure)
-        solution = np.linalg.solve(self._steadied(self.gram, at), self.gram[at] @ target)
+        solution = np.linalg.solve(_steadied(self.gram, at), self.gram[at] @ target)
         return solution * self.scale[0] / self.scale[at]
 
     def moves(self, structure: Structure) -> Array:
@@ -134,21 +134,21 @@ class Scores:
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
         at, target = self.columns(structure), self.target(structure)
-        inner = self.grams[:, at[:, None], at]
-        cross = self.grams[:, at] @ target
-        square = np.einsum("i,gij,j->g", target, self.grams, target)
-        whole, right = self._steadied(self.gram, at), self.gram[at] @ target
-        # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
-        tied = 1.0 / len(inner)
-        solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])[..., 0]
-        left = square - 2.0 * np.einsum("gi,gi->g", solved, cross) + np.einsum("gi,gij,gj->g", solved, inner, solved)
+        left = _left_out(self.grams, self.gram, at, target)
         rest = target.copy()
-        rest[at] -= np.linalg.solve(whole, right)
+        rest[at] -= np.linalg.solve(_steadied(self.gram, at), self.gram[at] @ target)
         unlikely = 0.5 * float(rest @ self.prior @ rest) * self.scale[0] ** 2
         return np.maximum(left * self.scale[0] ** 2 / self.look.samples, 1e-12), unlikely
 
-    def _steadied(self, gram: Array, at: NDArray[np.intp]) -> Array:
-        return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)
+    def exact_nats(self) -> Array:
+        """The nats (groups,) of the present structure with the laws as they are, no errors of forms allowed for."""
+        total = self.look.exact.sum(axis=0)
+        scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
+        alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
+        unit = np.outer(scale, scale)
+        left = _left_out(self.look.exact / unit, total / unit, alive, np.eye(scale.size)[0])
+        squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
+        return 0.5 * self.look.samples * np.log(squares)
 
     def nats(self, structure: Structure) -> Array | None:
         """Minus the predictive log likelihood (groups,) of each group."""
@@ -164,3 +164,22 @@ class Scores:
         """Minus the log of likelihood and prior; the smaller, the better; infinite for one of the wrong sign."""
         found, nats = self.predicted(structure), self.nats(structure)
         return np.inf if found is None or nats is None else float(nats.sum()) + found[1] + self.price(structure)
+
+
+def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
+    """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
+
+    ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand.
+    """
+    inner = grams[:, at[:, None], at]
+    cross = grams[:, at] @ target
+    square = np.einsum("i,gij,j->g", target, grams, target)
+    whole, right = _steadied(gram, at), gram[at] @ target
+    # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
+    tied = 1.0 / len(inner)
+    solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])[..., 0]
+    return square - 2.0 * np.einsum("gi,gi->g", solved, cross) + np.einsum("gi,gij,gj->g", solved, inner, solved)
+
+
+def _steadied(gram: Array, at: NDArray[np.intp]) -> Array:
+    return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)

@@ -65,7 +65,7 @@ class _Projected:
 def additions(scores: Scores, structure: Structure) -> list[Added]:
     """The candidates that explain most beside a structure (score test), the best places of each; best first."""
     left = _project(scores, structure)
-    used = {k for k, _ in structure.added}
+    used = {k for k, _ in structure.added} | _gone(scores, structure)
     found = []
     for k, candidate in enumerate(scores.look.candidates):
         if k not in used and (best := _places(candidate, left)):
@@ -75,6 +75,13 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
                 found.append((merit, Added(k, places)))
     found.sort(key=lambda pair: -pair[0])
     return _varied(scores, [added for _, added in found])
+
+
+def _gone(scores: Scores, structure: Structure) -> set[int]:
+    """The candidates that are terms which go: coming back elsewhere is left to the refit."""
+    terms = [scores.look.model.terms[number] for number in structure.dropped]
+    gone = {(term.name, term.suspect.form) for term in terms}
+    return {k for k, one in enumerate(scores.look.candidates) if (one.name, one.suspect.form) in gone}
 
 
 def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:

@@ -124,7 +124,7 @@ def inherited(declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequ
     known = {slot.path: slot.value for slot in model.fitted.slots()}
     # knots of curves from data have paths that the declared base has not
     values = {
-        slot.path: replace(known[homes.get(slot.path, slot.path)], node=slot.value.node)
+        slot.path: replace(known[homes.get(slot.path, slot.path)], node=slot.value.node, over=slot.value.over)
         for slot in declared.slots()
         if homes.get(slot.path, slot.path) in known and (slot.path in homes or not _owned(slot.path, owned))
     }

@@ -2,7 +2,8 @@
 
 Columns, tangents and residuals are averaged over as many samples as the driven band and its harmonics allow; an
 autoregressive filter then makes what is left of the noise white. The error that the model itself still makes counts as
-white noise beside it: far above the noise all frequencies weigh alike, near to it the noise decides.
+white noise beside it: far above the noise all frequencies weigh alike, near to it the noise decides. Samples of what
+is left that follow from one another count as fewer.
 """
 
 from __future__ import annotations
@@ -24,11 +25,12 @@ HARMONICS = 5  # of the end of the driven band that the reduced records still ho
 class Noise:
     """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of what is left.
 
-    Filtered noise has variance one. ``filters`` in 1/N.
+    Filtered noise has variance one. ``filters`` in 1/N; ``independent`` is the share of independent samples.
     """
 
     steps: Mapping[str, int]
     filters: Mapping[str, Array] = field(default_factory=dict)
+    independent: Mapping[str, float] = field(default_factory=dict)
 
     def kept(self, run: str, samples: int) -> int:
         """How many values are kept of so many samples."""
@@ -68,6 +70,19 @@ class Noise:
     def with_white(self, deviations: Mapping[str, float]) -> Noise:
         """The same blocks under white noise of the given standard deviations in N."""
         return Noise(self.steps, {run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
+
+
+def independent_share(rest: Array) -> float:
+    """The share of the samples (n,) that are independent: 1 of white noise, a few in n of a wave that repeats.
+
+    n over the sum of the squared autocorrelation, here by the powers of its spectrum.
+    Source: G. V. Bayley, J. M. Hammersley: The "effective" number of independent observations in an autocorrelated
+    time series. J. R. Stat. Soc. Suppl. 8, 1946.
+    """
+    powers = np.abs(np.fft.rfft(rest)) ** 2
+    squares = float(np.sum(powers**2))
+    # of white noise the powers are exponentially distributed, and their squares are two squared means
+    return min(4.0 * float(powers.sum()) ** 2 / (squares * rest.size), 1.0) if squares > 0.0 else 1.0
 
 
 def reduction(dt: float, highest_frequency: float) -> int:

@@ -44,15 +44,19 @@ def whitened(look, run, signal):
 
 @pytest.fixture(scope="module")
 def columns(made, look):
-    """Base tangents (2, n) and residual with the candidates' columns (4, n) by run, from the motions alone."""
+    """Base tangents (2, n) and residual with the candidates' columns (4, n) by run, from the motions alone.
+
+    Both weigh as many values as are independent.
+    """
     numbers = {slot.path: slot.value.number for slot in made.model.fitted.slots()}
     found = {}
     for run in made.refitter.runs:
         x, v = run.drive.displacement[run.first :], run.drive.velocity[run.first :]
         residual = run.force[run.first :] - numbers["stiffness.stiffness"] * x - numbers["damping.damping"] * v
         bank = [v**2, *(np.sign(v) * np.maximum(x - at, 0.0) for at in (1e-3, 2e-3))]
-        found[run.name] = (np.array([whitened(look, run, each) for each in (x, v)]),
-                           np.array([whitened(look, run, each) for each in (residual, *bank)]))  # fmt: skip
+        weight = np.sqrt(look.noise.independent[run.name])
+        found[run.name] = (weight * np.array([whitened(look, run, each) for each in (x, v)]),
+                           weight * np.array([whitened(look, run, each) for each in (residual, *bank)]))  # fmt: skip
     return found
 
 
@@ -66,7 +70,7 @@ def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, column
         left = rows - strengths.T @ tangents
         assert look.grams[number] / np.outer(scale, scale) == pytest.approx(left @ left.T / np.outer(scale, scale),
                                                                             abs=2e-6)  # fmt: skip
-        assert look.samples[number] == rows.shape[1]
+        assert look.samples[number] == pytest.approx(look.noise.independent[group] * rows.shape[1])
     assert look.groups == tuple(columns)
 
 

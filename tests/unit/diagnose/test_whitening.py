@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from dashpot.diagnose.whitening import ORDER, Noise, learn_filter, reduction
+from dashpot.diagnose.whitening import ORDER, Noise, independent_share, learn_filter, reduction
 
 
 def autoregressive(coefficients, size, seed=0):
@@ -80,3 +80,17 @@ def test_a_line_beyond_the_band_of_the_blocks_is_not_taken_for_its_alias():
 def test_white_noise_asks_for_no_past():
     found = Noise({"run": 1}).with_white({"run": 2.0}).whiten("run", np.arange(4.0))
     assert found == pytest.approx([0.0, 0.5, 1.0, 1.5])
+
+
+def test_all_values_of_white_noise_are_independent():
+    assert independent_share(np.random.default_rng(1).standard_normal(20_000)) == pytest.approx(1.0, abs=0.05)
+
+
+def test_values_that_remember_count_as_fewer():
+    """The sum of the squared autocorrelation of an autoregression of first order is (1 + a^2) / (1 - a^2)."""
+    assert independent_share(autoregressive([0.9], 100_000)) == pytest.approx(0.19 / 1.81, rel=0.1)
+
+
+def test_a_wave_has_a_few_independent_values_however_long_it_is():
+    time = np.arange(10_000) / 1000.0
+    assert 10_000 * independent_share(np.sin(2.0 * np.pi * 5.0 * time)) == pytest.approx(4.0)
