@@ -72,10 +72,11 @@ def _read_block(segment: Segment, lines: Sequence[str], heading: FileHeading) ->
     named = [i for i, name in enumerate(segment.names) if name != _COMMENT and i not in clocks]
     titles = distinct([segment.names[index] for index in named], "channel")
     channels = {title: columns[index] for title, index in zip(titles, named, strict=True)}
-    written = [columns[index] for index in clocks if np.isfinite(_plain(columns[index])).any()]
-    others = [clock for clock in written[1:] if not np.array_equal(clock, written[0], equal_nan=True)]
-    channels |= {f"{_CLOCK} {number}": clock for number, clock in enumerate(others, 2)}
-    clock = _plain(written[0]) if written else _counted(segment, heading, len(rows))
+    written = {number: columns[index] for number, index in enumerate(clocks, 1)
+               if np.isfinite(_plain(columns[index])).any()}  # fmt: skip
+    clock = _plain(next(iter(written.values()))) if written else _counted(segment, heading, len(rows))
+    channels |= {f"{_CLOCK} {number}": values for number, values in written.items()
+                 if not np.array_equal(_plain(values), clock, equal_nan=True)}  # fmt: skip
     return _Block(clock, channels, np.array(kept) + 1)
 
 
@@ -100,8 +101,9 @@ def _number(texts: Sequence[str], heading: FileHeading) -> float | None:
 def _joined(found: Sequence[Segment], blocks: Sequence[_Block]) -> Table:
     """All segments as one table: times where there are any, names as they stand, units as the headings tell."""
     clock = np.concatenate(_going_on(found, [block.clock for block in blocks]))
-    names = list(blocks[0].channels)
-    columns = {name: np.concatenate([block.channels[name] for block in blocks]) for name in names}
+    names = list(dict.fromkeys(name for block in blocks for name in block.channels))
+    # a further clock is told where it differs from the first one
+    columns = {name: np.concatenate([block.channels.get(name, block.clock) for block in blocks]) for name in names}
     units = {name: unit for name, unit in zip(names, _units(found[0]), strict=False) if unit}
     if np.isfinite(clock).any():
         columns = {_CLOCK: clock, **columns}

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import re
 import tomllib
+from functools import cache
+from importlib.metadata import packages_distributions
 from typing import Any
 
 from architecture.source import PLUGINS, ROOT
+
+# the distributions of extras, which need not be installed, whose package has another name
+PACKAGED_AS = {"sklearn": "scikit-learn"}
 
 
 def project() -> dict[str, Any]:
@@ -24,3 +29,10 @@ def requirements() -> set[str]:
     declared = project()["project"]
     extras = [line for extra, lines in declared["optional-dependencies"].items() if extra != "dev" for line in lines]
     return {re.match(r"[\w.-]+", line)[0].lower() for line in [*declared["dependencies"], *extras]}
+
+
+@cache
+def distributions_of(package: str) -> set[str]:
+    """Names of the distributions that provide a package, in small letters: the installed ones, else by its own name."""
+    provided = packages_distributions().get(package, [PACKAGED_AS.get(package, package)])
+    return {distribution.lower() for distribution in provided}

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import sys
-from importlib.metadata import packages_distributions
 
 import pytest
-from architecture.packaging import plugin_packages, requirements
+from architecture.packaging import distributions_of, plugin_packages, requirements
 from architecture.source import FRAMEWORK, PLUGINS, at, imports, modules, texts
 
 LAYERS = (
@@ -93,7 +92,6 @@ def test_a_plugin_knows_only_dashpot_and_libraries(package):
 
 def test_everything_imported_is_a_declared_requirement():
     ours = plugin_packages() | {"dashpot"}
-    provided_by = packages_distributions()
     declared = requirements()
     wrong = [
         f"{at(path, line)} imports {name}"
@@ -102,7 +100,6 @@ def test_everything_imported_is_a_declared_requirement():
         for name, line in imports(path)
         if (root := name.split(".")[0]) not in ours
         and root not in sys.stdlib_module_names
-        # the library of an extra need not be installed; then its own name has to be declared
-        and not declared & {distribution.lower() for distribution in provided_by.get(root, [root])}
+        and not declared & distributions_of(root)
     ]
     assert not wrong, "\n".join(wrong)

@@ -59,10 +59,10 @@ def _mat(folder: Path) -> list[bytes]:
         stream = io.BytesIO()
         savemat(stream, {"t": TIME, "m": TABLE} if options.get("format") else variables, **options)
         contents.append(stream.getvalue())
-    return [*contents, _hdf5(folder)]
+    return [*contents, _mat73(folder)]
 
 
-def _hdf5(folder: Path) -> bytes:
+def _mat73(folder: Path) -> bytes:
     import h5py
 
     path = folder / "sound.h5"
@@ -72,6 +72,43 @@ def _hdf5(folder: Path) -> bytes:
             file[name].attrs["MATLAB_class"] = np.bytes_("double")
     content = path.read_bytes()
     return b"MATLAB 7.3 MAT-file".ljust(512) + content[512:]
+
+
+def _hdf5(folder: Path) -> list[bytes]:
+    import h5py
+
+    contents = []
+    for options in ({}, {"compression": "gzip", "chunks": (16,)}):
+        path = folder / "sound.hdf5"
+        with h5py.File(path, "w") as file:
+            for name, values in (("sweep/t", TIME), ("sweep/F", FORCE), ("noise/x", WAY)):
+                file.create_dataset(name, data=values, **options)
+            file["sweep/fs"] = 100.0
+            file["note"] = "rig"
+        contents.append(path.read_bytes())
+    return contents
+
+
+def _lvm(folder: Path) -> list[bytes]:
+    return [_lvm_file(clocks, decimal) for clocks in ("One", "Multi", "No") for decimal in ".,"]
+
+
+def _lvm_file(clocks: str, decimal: str) -> bytes:
+    heading = (f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t{decimal}\n"
+               f"X_Columns\t{clocks}\nDate\t2024/02/28\nTime\t15:53:23\n***End_of_Header***\t\n\t\n")  # fmt: skip
+    named = {"One": "X_Value\tWay\tForce", "Multi": "X_Value\tWay\tX_Value\tForce", "No": "X_Value\tWay\tForce"}
+    rows = {
+        "One": "{0:.6f}\t{1:.6f}\t{2:.6f}",
+        "Multi": "{0:.6f}\t{1:.6f}\t{0:.6f}\t{2:.6f}",
+        "No": "\t{1:.6f}\t{2:.6f}",
+    }
+    parts = []
+    for part in (TABLE[:24], TABLE[24:]):
+        channels = (f"Channels\t2\nSamples\t24\t24\nDate\t2024/02/28\t2024/02/28\nTime\t15:53:23\t15:53:23\n"
+                    f"Y_Unit_Label\tmm\tNewton\nX_Dimension\tTime\tTime\nX0\t{part[0, 0]:.6f}\t{part[0, 0]:.6f}\n"
+                    f"Delta_X\t0.01\t0.01\n***End_of_Header***\t\t\n{named[clocks]}\tComment\n")  # fmt: skip
+        parts.append(channels + "".join(rows[clocks].format(*row) + "\t\n" for row in part) + "\n")
+    return (heading + "".join(parts).replace(".", decimal)).replace("\n", "\r\n").encode()
 
 
 def _rpc(folder: Path) -> list[bytes]:
@@ -137,14 +174,31 @@ def _mdf(folder: Path) -> list[bytes]:
     return contents
 
 
+def _xlsx(folder: Path) -> list[bytes]:
+    from openpyxl import Workbook
+
+    contents = []
+    for heads in ([["t [s]", "x [mm]", "F [N]"]], [["bush 7"], [], ["t", "x", "F"], ["s", "mm", "N"]]):
+        book, stream = Workbook(), io.BytesIO()
+        for row in [*heads, *TABLE.tolist()]:
+            book.active.append(row)
+        book.create_sheet("about").append(["rig", "B", 7])
+        book.save(stream)
+        contents.append(stream.getvalue())
+    return contents
+
+
 _WRITERS = {
     "csv": _csv,
+    "hdf5": _hdf5,
     "json": _json,
+    "lvm": _lvm,
     "mat": _mat,
     "mdf": _mdf,
     "npz": _npz,
     "rpc": _rpc,
     "tdms": _tdms,
     "tydex": _tydex,
+    "xlsx": _xlsx,
 }
 WORDS = tuple(_WRITERS)

@@ -25,6 +25,9 @@ from dashpot_formats import apart
 
 SECONDS, MEGABYTES = 20.0, 400
 READERS = {word: made() for word, made in load_registry().formats.items()}
+# what reads a format, and the extra that it comes with
+LIBRARIES = {"hdf5": ("h5py", "matlab73"), "mdf": ("asammdf", "mdf"), "tdms": ("nptdms", "tdms"),
+             "xlsx": ("openpyxl", "excel")}  # fmt: skip
 
 DATASET = """\
 format: dashpot-dataset/1
@@ -103,8 +106,9 @@ def fuzz(word, count, seed, folder):
 
 def check(word, count, folder, monkeypatch):
     """Fuzz a reader and tell what came of it."""
-    if word in ("mdf", "tdms"):
-        pytest.importorskip({"mdf": "asammdf", "tdms": "nptdms"}[word], reason=f"needs dashpot[{word}]")
+    if word in LIBRARIES:
+        library, extra = LIBRARIES[word]
+        pytest.importorskip(library, reason=f"needs dashpot[{extra}]")
     monkeypatch.setattr(apart, "TIME_LIMIT", SECONDS / 2)
     seed = secrets.randbits(32)
     found, seconds, megabytes = fuzz(word, count, seed, folder)

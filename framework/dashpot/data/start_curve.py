@@ -41,7 +41,7 @@ def curve_from_sweeps(runs: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]],
         raise ValueError("expected runs that move, got none; give a sweep, harmonic or random run")
     basis = RisingBasis(float(np.min(displacement)), float(np.max(displacement)), _SPANS)
     speed = float(np.sqrt(np.mean(velocity**2))) or 1.0
-    sliding = velocity / (np.abs(velocity) + _SLOW * speed)
+    sliding = velocity / np.hypot(velocity, _SLOW * speed)
     extra = np.stack([velocity / speed, sliding, around / stroke], axis=1)
     height = float(np.ptp(force)) or 1.0
     columns = np.hstack([basis.columns(displacement), extra])

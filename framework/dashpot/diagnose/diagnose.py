@@ -16,7 +16,8 @@ from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
-from dashpot.diagnose.diagnosis import Diagnosis, Removal
+from dashpot.diagnose.diagnosis import Diagnosis
+from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.next_run import NextRun, next_run

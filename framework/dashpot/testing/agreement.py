@@ -1,9 +1,16 @@
 """Eager, traced and compiled, a law gives the same force.
 
 What is compared is measured by the force scale of a lane: the largest force, or a number of the law in newtons.
+
+The compiled law computes the same in another order, so it rounds differently. A specimen that is struck again and again
+makes more of each rounding with every contact; its force is compared as far as rounding leaves it determined: until the
+results of its steps, changed in their last bits, change the force by the tolerance.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +18,7 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive
 from dashpot.kernel.eager import simulate_eagerly, simulate_interpreted
 from dashpot.kernel.network import compile_network
-from dashpot.model.element import Element
+from dashpot.model.element import Element, Motion, Response
 from dashpot.testing.motion import MOTIONS, random_drive
 from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens
 from dashpot.testing.verdict import Examination
@@ -21,6 +28,8 @@ Array = NDArray[np.float64]
 
 TOLERANCE = 1e-12
 SAMPLES = 160
+LAST_BITS = 4.0 * np.finfo(float).eps
+DRAWS = 2
 
 
 def check_agreement(element: type[Element], seed: int | None = None) -> None:
@@ -31,10 +40,10 @@ def check_agreement(element: type[Element], seed: int | None = None) -> None:
         sizes = draw_sizes(rng)
         drive = random_drive(rng, kind, sizes.length, sizes.time, SAMPLES)
         for specimen in draw_specimens(element, rng, sizes):
-            _compare(examination, specimen, drive, f"{specimen.form}, {kind}")
+            _compare(examination, specimen, drive, f"{specimen.form}, {kind}", rng)
 
 
-def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: str) -> None:
+def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: str, rng: np.random.Generator) -> None:
     eager = simulate_eagerly(specimen.spec, drive, specimen.values)
     if not np.isfinite(eager).all():
         examination.fail(f"with {case}, the force is not finite for ordinary numbers: {_first(specimen, eager)}",
@@ -44,8 +53,39 @@ def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: s
     scale = _force_scale(specimen, eager)
     advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
     _demand_equal(examination, traced / scale, eager / scale, f"with {case}, the traced law", advice)
-    _demand_equal(examination, compiled / scale, eager / scale, f"with {case}, the compiled law",
-                  "Avoid differences of nearly equal large numbers.")  # fmt: skip
+    known = determined(specimen, drive, eager, scale, rng)
+    _demand_equal(examination, np.where(known, compiled, eager) / scale, eager / scale,
+                  f"with {case}, the compiled law", "Avoid differences of nearly equal large numbers.")  # fmt: skip
+
+
+def determined(
+    specimen: Specimen, drive: Drive, force: Array, scale: Array, rng: np.random.Generator
+) -> NDArray[np.bool_]:
+    """Which samples (lanes, samples) of a force come before rounding of every step has moved it by TOLERANCE.
+
+    ``force`` (lanes, samples) and ``scale`` (lanes, 1) in N.
+    """
+    branch = specimen.branch
+    spec = replace(specimen.spec, root=replace(specimen.spec.root, members=(
+        replace(branch, element=_rounding(branch.element, rng)),)))  # fmt: skip
+    moved = np.max([np.abs(simulate_eagerly(spec, drive, specimen.values) - force) for _ in range(DRAWS)], axis=0)
+    return np.maximum.accumulate(moved / scale, axis=1) <= TOLERANCE
+
+
+def _rounding(element: type[Element], rng: np.random.Generator) -> type[Element]:
+    """The element with the results of each step changed in their last bits; what is traced stays as it is."""
+
+    def rounded(value: Any) -> Any:
+        if not isinstance(value, np.ndarray):
+            return value
+        return value * (1.0 + LAST_BITS * rng.choice([-1.0, 1.0], value.shape))
+
+    class Rounding(element):  # type: ignore[misc, valid-type]
+        def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
+            response = super().step(x, z, p, dt)
+            return Response(rounded(response.force), **{key: rounded(value) for key, value in response.states.items()})
+
+    return Rounding
 
 
 def _force_scale(specimen: Specimen, force: Array) -> Array:

@@ -15,11 +15,14 @@ def objective(request):
     return ready(KELVIN_VOIGT, SCORED, jobs=request.param)[1]
 
 
+def expected_errors(values):
+    return [np.outer(values[:, 0] - STIFFNESS, run.drive.displacement)
+            + np.outer(values[:, 1] - DAMPING, run.drive.velocity) for run in SCORED]  # fmt: skip
+
+
 def expected_rmse(values):
-    errors = [np.outer(values[:, 0] - STIFFNESS, run.drive.displacement)
-              + np.outer(values[:, 1] - DAMPING, run.drive.velocity) for run in SCORED]  # fmt: skip
     return np.array([np.sqrt(np.mean(error[:, run.first :] ** 2, axis=1))
-                     for error, run in zip(errors, SCORED, strict=True)])  # fmt: skip
+                     for error, run in zip(expected_errors(values), SCORED, strict=True)])  # fmt: skip
 
 
 def test_the_error_of_a_run_is_counted_behind_its_warm_up(objective):
@@ -56,15 +59,26 @@ def test_a_lane_that_fails_costs_infinity_and_leaves_the_others(objective):
     assert np.array_equal(objective.losses(broken)[[0, 2]], objective.losses(VALUES)[[0, 2]])
 
 
-def test_with_whitening_the_loss_is_that_of_the_whitened_misfits():
-    def halve(run, misfits):
-        return misfits * {"slow": 0.5, "fast": 3.0}[run]
+class EverySecond:
+    """A whitening that multiplies the signals of each run by a number of its own and keeps every second sample."""
 
-    objective = ready(KELVIN_VOIGT, SCORED, whiten=halve)[1]
-    misfits = objective.misfits(VALUES)
-    misfits[:, objective.pieces[0]] *= 0.5
-    misfits[:, objective.pieces[1]] *= 3.0
-    assert objective.losses(VALUES) == pytest.approx(np.sqrt(np.mean(misfits**2, axis=1)), abs=1e-9)
+    factors = {"slow": 0.5, "fast": 3.0}
+
+    def whiten(self, run, signals):
+        return signals[..., ::2] * self.factors[run]
+
+    def kept(self, run, samples):
+        return (samples + 1) // 2
+
+
+def test_with_whitening_the_loss_is_that_of_the_whitened_misfits():
+    objective = ready(KELVIN_VOIGT, SCORED, whitening=EverySecond())[1]
+    whitened = [factor * error[:, run.first :: 2] for factor, error, run
+                in zip((0.5, 3.0), expected_errors(VALUES), SCORED, strict=True)]  # fmt: skip
+    expected = np.concatenate(whitened, axis=1)
+    assert objective.total == expected.shape[1]
+    assert objective.residuals(VALUES) == pytest.approx(expected, abs=1e-8)
+    assert objective.losses(VALUES) == pytest.approx(np.sqrt(np.mean(expected**2, axis=1)), abs=1e-8)
     assert objective.losses(np.full((1, 2), np.nan))[0] == np.inf
 
 

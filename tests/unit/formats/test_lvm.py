@@ -70,6 +70,23 @@ def test_one_segment_with_one_several_or_no_clocks(tmp_path, clocks, decimal):
     assert dict(table.units) == {"X_Value": "s", "Force": "N", "Way": "mm"}
 
 
+def test_a_second_clock_with_a_damaged_time_stays_beside_the_first(tmp_path):
+    path = written(tmp_path, segment(clocks="Multi").replace("\t0.170000\t", "\t0,1?000\t"), clocks="Multi")
+    table = Lvm().read(path, {})
+    assert list(table.columns) == ["X_Value", "Force", "Way", "X_Value 2"]
+    assert table.columns["X_Value 2"][17] == "0,1?000"
+    assert np.allclose(table.columns["X_Value"], 0.01 * np.arange(40))
+
+
+def test_a_second_clock_that_differs_in_one_segment_only_is_whole(tmp_path):
+    first, second = (segment(part, clocks="Multi") for part in (slice(20), slice(20, None)))
+    path = written(tmp_path, first, second.replace("\t0.050000\t", "\t0.052000\t"), clocks="Multi")
+    table = Lvm().read(path, {})
+    expected = np.tile(0.01 * np.arange(20), 2)
+    expected[25] = 0.052
+    assert np.allclose(table.columns["X_Value 2"].astype(float), expected)
+
+
 def test_lines_are_those_of_the_file(tmp_path):
     path = written(tmp_path, segment())
     table = Lvm().read(path, {})

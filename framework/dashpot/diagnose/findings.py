@@ -1,0 +1,192 @@
+"""What a diagnosis found, as files: the extended network and the corrected dataset.
+
+The files come first: every error, gain and plot that is told is that of the extended network and the corrected dataset
+as they are written, read again and simulated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+import dashpot
+from dashpot.compare.explainable import Explainable, explainable_error
+from dashpot.compare.misfit import Misfit, describe_misfit
+from dashpot.contract.cause import Cause
+from dashpot.data.correction import Correction, corrected_text
+from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.leftover import Leftover
+from dashpot.diagnose.next_run import NextRun
+from dashpot.diagnose.pursue import Pursuit
+from dashpot.fit.api import Setting, measure_errors
+from dashpot.fit.objective import Objective
+from dashpot.fit.result import Errors, FitResult
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.model.element import Element
+from dashpot.model.network import NetworkSpec
+from dashpot.model.patch import fill_numbers, rename
+from dashpot.model.reading import parse_network
+from dashpot.triage.examine import Triage
+
+Array = NDArray[np.float64]
+
+NEAR_FLOOR = 2.0  # times the noise floor: beyond it a model errs by more than noise
+
+
+@dataclass(frozen=True, eq=False)
+class Removal:
+    """The network without one cause, all else fitted again."""
+
+    name: tuple[str, str]
+    network: NetworkSpec
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """Everything that was found, the files that are written of it, and what they give when they are read again.
+
+    ``corrected`` are the training runs with the faults of single runs put right.
+    """
+
+    setting: Setting
+    triage: Triage
+    fit: FitResult
+    pursuit: Pursuit
+    accused: tuple[Accused, ...]
+    corrected: Mapping[str, ScoredRun]
+    final: NetworkSpec
+    removals: tuple[Removal, ...]
+    leftover: Leftover
+    next_runs: Mapping[tuple[str, str], NextRun]
+    causes: Mapping[str, type[Cause]]
+    relevance: float
+    seed: int
+    jobs: int = 1
+
+    @property
+    def model(self) -> NetworkSpec:
+        """The network that was diagnosed."""
+        return self.fit.declared
+
+    @property
+    def elements(self) -> dict[str, type[Element]]:
+        """The laws that the networks use, by their word."""
+        return {leaf.element.word: leaf.element for leaf in [*self.model.leaves(), *self.final.leaves()]}
+
+    # the files
+
+    @property
+    def extended_name(self) -> str | None:
+        """File name of the network that goes with the result, None where that is the diagnosed one as it was fitted.
+
+        Where single runs were corrected and nothing was added, it is the network fitted to the corrected runs.
+        """
+        words = list(dict.fromkeys(term.cause.word for term in self.pursuit.best.model.terms))
+        words = words or ["corrected"] * bool(self.accused)
+        return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
+
+    @property
+    def fitted_name(self) -> str:
+        """File name of the diagnosed network with its fitted numbers."""
+        return f"{self.model.name}.yaml"
+
+    @property
+    def fitted_text(self) -> str:
+        """The diagnosed network with its fitted numbers."""
+        return self.fit.identified_text
+
+    @cached_property
+    def extended_text(self) -> str | None:
+        """The extended network with its numbers, comments of the original intact."""
+        if self.extended_name is None:
+            return None
+        record = {
+            "data": self.setting.dataset.digest[:16],
+            "seed": str(self.seed),
+            "version": dashpot.__version__,
+            "predecessor": self.model.name,
+        }
+        terms = dict.fromkeys(term.title for term in self.pursuit.best.model.terms)
+        what = "extended by a diagnosis" if terms else "fitted to corrected runs"
+        head = [f"{self.model.name}, {what}.", *(f"cause: {title}" for title in terms)]
+        text = fill_numbers(self.pursuit.best.model.declared, self.final, record)
+        return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
+
+    @property
+    def corrections(self) -> dict[str, Correction]:
+        """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
+        found = {fault.run: Correction(gain=fault.factor) for fault in self.triage.faults
+                 if fault.factor is not None and fault.channel == "force"}  # fmt: skip
+        for one in self.accused:
+            known = found.get(one.run)
+            found[one.run] = known.then(one.correction) if known else one.correction
+        return found
+
+    @property
+    def set_aside(self) -> dict[str, str]:
+        """The runs that triage set aside, with the reason."""
+        kept = {run.record for run in self.setting.dataset.runs}
+        return {fault.run: fault.evidence for fault in self.triage.faults
+                if fault.factor is None and fault.run not in kept}  # fmt: skip
+
+    @property
+    def corrected_name(self) -> str | None:
+        """File name of the corrected dataset; None where no run was corrected or set aside, or there is no file."""
+        return "dataset.yaml" if (self.corrections or self.set_aside) and self.setting.dataset.document else None
+
+    def corrected_dataset(self, folder: Path) -> str:
+        """The text of the corrected dataset, to be written into a folder."""
+        return corrected_text(self.setting.dataset, self.corrections, self.set_aside, folder)
+
+    # what the files say
+
+    @cached_property
+    def written(self) -> NetworkSpec:
+        """The final network as it is written, read again."""
+        text = self.extended_text
+        return parse_network(text, self.elements) if text else self.written_before
+
+    @cached_property
+    def written_before(self) -> NetworkSpec:
+        """The diagnosed network as it is written, read again."""
+        return parse_network(self.fitted_text, self.elements)
+
+    @cached_property
+    def after_setting(self) -> Setting:
+        """The runs as the corrected dataset has them: held-out runs as they were measured."""
+        return replace(self.setting, scored={**self.setting.scored, **self.corrected})
+
+    @cached_property
+    def before(self) -> Errors:
+        """The errors of the diagnosed network."""
+        return measure_errors(self.written_before, self.setting, self.jobs)
+
+    @cached_property
+    def after(self) -> Errors:
+        """The errors of the final files."""
+        return measure_errors(self.written, self.after_setting, self.jobs)
+
+    @cached_property
+    def explainable(self) -> Explainable:
+        """What a general model of the past motion leaves; trees are grown only where the model is far from noise."""
+        floor = self.setting.floor.value
+        return explainable_error(self.setting, self.seed, not floor or self.after.train > NEAR_FLOOR * floor)
+
+    def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
+        """Measured minus simulated force (n,) of every run, warm-up included."""
+        runs = list(setting.scored.values())
+        objective = Objective(compile_network(network), runs, self.jobs)
+        forces = objective.forces(objective.network.start)
+        return {run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)}
+
+    @cached_property
+    def misfit(self) -> tuple[Misfit, ...]:
+        """What the diagnosed network gets wrong on the training runs."""
+        runs = [run for run in self.setting.dataset.runs if run.name in self.setting.split.train]
+        return tuple(describe_misfit(runs, self.residuals(self.written_before, self.setting)))
