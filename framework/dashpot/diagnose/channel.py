@@ -2,8 +2,8 @@
 
 A specimen answers the same motion alike. So a run may be accused where its repeat disagrees, or where other, sound
 runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at a setting is
-not. What the same fault would explain in all other runs, or between all other repeats, is the error of the model, and
-the change of the specimen from test to test: nats are divided by this overdispersion.
+not. Where no repeat tells, what the same fault would explain in all other runs is the error of the model: nats are
+divided by this overdispersion. Samples of what a fault leaves that follow from one another count as fewer.
 """
 
 from __future__ import annotations
@@ -20,12 +20,13 @@ from dashpot.data.run import Run
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds
-from dashpot.diagnose.whitening import Noise
+from dashpot.diagnose.whitening import Noise, independent_share
 
 Array = NDArray[np.float64]
 
 SLACK = 0.02  # of the range of a condition
 SAME_MOTION = 0.02  # of the deviation of the displacement
+NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 Key = tuple[str, int]  # run, number of the kind
 Pair = tuple[str, str]  # runs of the same motion
 
@@ -88,12 +89,9 @@ def disagreeing(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: M
 
 
 def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
-    """The pairs of repeats that differ by a kind of fault, more than all others do."""
-    nats = {pair: _contrast(rows, *pair, kind) for pair in pairs}
+    """The pairs of repeats that differ by a kind of fault."""
     columns = next(len(shapes) for (_, number), shapes in rows.shapes.items() if number == kind)
-    return [pair for pair in pairs
-            if nats[pair] / overdispersion([nats[other] for other in pairs if not set(other) & set(pair)], columns)
-            > price + columns]  # fmt: skip
+    return [pair for pair in pairs if _contrast(rows, *pair, kind) > price + columns]
 
 
 def overdispersion(nats: Sequence[float], columns: int) -> float:
@@ -130,10 +128,14 @@ def _contrast(rows: _Rows, one: str, other: str, kind: int) -> float:
     """The nats that a kind explains of the difference between two repeats."""
     shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
     difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
-    gram = shapes @ shapes.T
-    solved = np.linalg.lstsq(gram, shapes @ difference, rcond=1e-10)[0]
-    explained = float(solved @ shapes @ difference)
-    return 0.5 * difference.size * -np.log1p(-min(explained / float(difference @ difference), 1 - 1e-12))
+    rest = _beside(difference, shapes)
+    explained = float(difference @ difference) / max(float(rest @ rest), 1e-300)
+    return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
+
+
+def _beside(values: Array, shapes: Array) -> Array:
+    """What the best strengths of shapes (k, n) leave of values (n,)."""
+    return values - np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0] @ shapes
 
 
 def accuse(
@@ -150,17 +152,18 @@ def accuse(
     solver = _Solver(rows)
     price = Odds(len(rows.shapes)).price("measurement")
     pairs = repeats_of(refitter, groups)
+    shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
     chosen: dict[Key, str] = {}
     while True:
-        gains = {key: solver.gain(key, chosen) - 0.5 * len(rows.shapes[key]) * np.log(rows.residual[key[0]].size)
+        gains = {key: shares[key] * solver.gain(key, chosen) - 0.5 * len(rows.shapes[key]) * np.log(rows.residual[key[0]].size)
                  for key in rows.shapes if key not in chosen}  # fmt: skip
         for key in sorted(gains, key=lambda key: -gains[key]):
             least = max(price, relevance * rows.residual[key[0]].size)
             if gains[key] < least:
                 return _accused(solver, chosen, kinds)
             evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
-            of_model = 1.0 if evidence.startswith("at_rest") else _overdispersion_beside(solver, key, chosen)
-            if evidence and gains[key] > least * of_model:
+            needed = least * (_overdispersion_beside(solver, key, chosen) if evidence == NEIGHBOURS else 1.0)
+            if evidence and gains[key] > needed:
                 chosen[key] = evidence
                 break
         else:
@@ -206,9 +209,9 @@ def _evidence(
         return ""  # its repeat agrees
     accused = {groups[name] for name, _ in chosen} | {groups[run]}
     sound = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
-    if demonstrated or covers(sound, measured[run]):
-        return "repeats|other runs under the same conditions do not have it"
-    return ""
+    if demonstrated:
+        return "repeats|repeats of other runs differ by the same"
+    return NEIGHBOURS if covers(sound, measured[run]) else ""
 
 
 def covers(others: Sequence[Run], run: Run) -> bool:
@@ -234,7 +237,11 @@ def conditions(run: Run) -> dict[str, float]:
 
 
 class _Solver:
-    """Least squares of residuals by tangents of all runs and shapes of single runs."""
+    """Least squares of residuals by tangents of all runs and shapes of single runs.
+
+    Beforehand a fault is thought to be about as large as what is left of its run: offsets of all runs would else be as
+    good as another curve.
+    """
 
     def __init__(self, rows: _Rows) -> None:
         self.rows = rows
@@ -257,6 +264,8 @@ class _Solver:
             for other_number, other in enumerate(keys):
                 if other[0] == key[0]:
                     gram[mine, ends[other_number] : ends[other_number + 1]] = shapes @ self.rows.shapes[other].T
+            expected = float(self.rows.residual[key[0]] @ self.rows.residual[key[0]])
+            gram[mine, mine] += np.diag(np.sum(shapes**2, axis=1)) / max(expected, 1.0)
         return gram, right
 
     def _solved(self, keys: Sequence[Key]) -> tuple[Array, float]:

@@ -15,8 +15,10 @@ Array = NDArray[np.float64]
 
 AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter about the one that all share
 FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
+DECADES, INTERVAL = 2.0, 1.96  # of a number that nothing tells; of a normal distribution, 95 %
 ZERO = 2.0  # standard errors
-FEWEST_PEAKS = 3  # excursions that end at the same value
+TURNING = 0.25  # of an excursion: at least so much of it rises, and falls
+FEWEST_PEAKS = 2  # excursions that end at the same value: it comes again
 
 
 def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
@@ -25,6 +27,30 @@ def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
     if term.cause.kind != "measurement":
         return True
     return TESTS[term.cause.evidence_of](refitter, scores, number)
+
+
+def is_determined(scores: Scores, number: int) -> bool:
+    """Whether no number of a term is at an end of its range, and no interval of one spans ``DECADES``.
+
+    The numbers of the other terms are free; a curve may have knots, and one of several branches numbers, that the data
+    do not tell.
+    """
+    look = scores.look
+    model, paths = look.model, look.model.coordinates.paths
+    if len(model.terms[number].atoms) > 1:
+        return True
+    if any(at and path in model.owned[number] and not path.endswith("]")
+           for at, path in zip(model.at_bound, paths, strict=True)):  # fmt: skip
+        return False
+    columns = scores.columns(Structure())
+    errors = np.sqrt(np.diag(np.linalg.pinv(scores.gram[np.ix_(columns, columns)], rcond=1e-12, hermitian=True)))
+    for column, error in zip(columns, errors, strict=True):
+        k = look.own[column - 1]
+        if paths[k] in model.owned[number] and model.coordinates.log[k] and not paths[k].endswith("]"):
+            deviation = error / scores.scale[column] * model.coordinates.unit[k]
+            if 2.0 * INTERVAL * deviation > DECADES * np.log(10.0):
+                return False
+    return True
 
 
 def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
@@ -68,7 +94,8 @@ def _size_in_steps(model: Model, path: str) -> float:
 def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on.
 
-    A force that stays at zero is none: a specimen that has lost contact does the same.
+    It stays there while it should rise and while it should fall: that of a slider leaves its limit when the motion turns
+    back. A force that stays at zero is none either: a specimen that has lost contact does the same.
     """
     model = scores.look.model
     limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}
@@ -85,12 +112,13 @@ def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
             beyond = side * (free[run.name] - level) > 0.0
             beyond[: run.first] = False
             starts = np.flatnonzero(beyond[1:] & ~beyond[:-1])
-            found += [(free[run.name][beyond], run.force[beyond], starts.size)] if beyond.any() else []
-    if sum(count for _, _, count in found) < FEWEST_PEAKS:
+            falls = side * np.gradient(free[run.name]) < 0.0
+            found += [(free[run.name][beyond], run.force[beyond], falls[beyond], starts.size)] if beyond.any() else []
+    if sum(one[-1] for one in found) < FEWEST_PEAKS:
         return False
-    free_all, shown = np.concatenate([one for one, _, _ in found]), np.concatenate([one for _, one, _ in found])
+    free_all, shown, falling = (np.concatenate([one[k] for one in found]) for k in range(3))
     rise = np.polyfit(free_all, shown, 1)[0] if np.ptp(free_all) > 0.0 else 1.0
-    return bool(rise < FLAT)
+    return bool(rise < FLAT and TURNING < np.mean(falling) < 1.0 - TURNING)
 
 
 def _numbers(model: Model) -> Mapping[str, float]:

@@ -13,17 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
-from dashpot.diagnose.evidence import has_evidence
+from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds, Scores, Structure
 from dashpot.diagnose.search import search
 from dashpot.diagnose.term import Model, Term
+from dashpot.fit.refine import Outcome
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
 REFITTED = 2  # structures with one change, and as many with more, at each look
+TRIED = 5  # for these; some cannot be written, or have no evidence
 MOST_LOOKS = 12
 DRAWS = 200
 NAMED = 0.9  # of the draws: probability from which on a cause is named
@@ -33,19 +35,30 @@ NAMED = 0.9  # of the draws: probability from which on a cause is named
 class Scored:
     """A refitted structure and what it predicts.
 
-    ``score`` is minus the log of likelihood and prior, with errors of forms allowed for; ``nats`` (groups,) are minus
-    the log likelihood of each group left out with the laws as they are, and ``price`` is the prior of the terms.
+    ``nats`` (groups,) are minus the log likelihood of each group left out with errors of forms allowed for, ``errors``
+    the nats that these errors cost, ``exact`` (groups,) the same as ``nats`` with the laws as they are, and ``price`` is
+    the prior of the terms.
     """
 
     model: Model
-    score: float
     nats: Array
+    errors: float
+    exact: Array
     samples: Array
     price: float
 
+    @property
+    def score(self) -> float:
+        """Minus the log of likelihood and prior."""
+        return float(self.nats.sum()) + self.errors + self.price
+
     def drawn(self, weights: Array) -> Array:
         """The score (draws,) under weights (draws, groups) of the groups."""
-        return weights @ self.nats + self.price
+        return weights @ self.nats + self.errors + self.price
+
+    def drawn_exactly(self, weights: Array) -> Array:
+        """The score (draws,) with the laws as they are."""
+        return weights @ self.exact + self.price
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,6 +111,7 @@ class Pursuer:
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
         first, look, ended, looks = model, look or self.look(model), False, 0
+        seen: set[frozenset[object]] = set()
         while True:
             look, looks, ended = self.climbed(look, looks)
             fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
@@ -105,7 +119,9 @@ class Pursuer:
             if present.model.names != look.model.names:
                 look = self.look(present.model)
             rivals = tuple(self.rivals(Scores(look), search(Scores(look)))) if present.model.terms else ()
-            better = min((rival for _, rival in rivals), key=lambda one: one.score, default=present)
+            seen.add(present.model.forms)
+            fresh = (rival for _, rival in rivals if rival.model.forms not in seen)
+            better = min(fresh, key=lambda one: one.score, default=present)
             if not ended or not better.score < present.score:
                 weights = self.weights(len(look.groups))
                 return Pursuit(present, look, first, without, rivals, weights, looks, ended, tuple(self.refused))
@@ -146,11 +162,13 @@ class Pursuer:
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted."""
         present, names = scores.score(Structure()), set()
-        many: dict[bool, int] = {True: 0, False: 0}
+        many, tried = {True: 0, False: 0}, {True: 0, False: 0}
         for structure in ranked:
             key, single = _key(scores, structure), structure.size == 1
-            if structure.size and key not in names and many[single] < REFITTED and scores.score(structure) < present:
+            wanted = many[single] < REFITTED and tried[single] < TRIED
+            if structure.size and key not in names and wanted and scores.score(structure) < present:
                 names.add(key)
+                tried[single] += 1
                 trial = self.refitted(scores, structure)
                 if trial:
                     many[single] += 1
@@ -164,6 +182,8 @@ class Pursuer:
         except InputError as error:
             self.refused += [(term, str(error)) for term in terms if term not in look.model.terms]
             return None
+        if trial.outcome is Outcome.FAILED:
+            return None
         if not all(term.suspect.admits(trial.numbers_of(k)) for k, term in enumerate(trial.terms)):
             return None
         seen = self.scores_of(look, trial)
@@ -175,12 +195,14 @@ class Pursuer:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
         weights = self.weights(present.nats.size)
         while True:
-            found = []
-            for term in present.model.terms:
+            found, scores = [], self.scores_of(look, present.model)
+            for number, term in enumerate(present.model.terms):
                 rest = [other for other in present.model.terms if other is not term]
+                rest = self.refitter.writable(present.model, rest)
                 scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
-                share = float(np.mean(scored.drawn(weights) > present.drawn(weights)))
-                found.append(Without(term, scored, share if self._matters(present, scored) else 0.0))
+                share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
+                worth = self._matters(present, scored) and is_determined(scores, number)
+                found.append(Without(term, scored, share if worth else 0.0))
             weakest = min(found, key=lambda one: (one.share, one.scored.score), default=None)
             if weakest is None or weakest.share >= NAMED:
                 return present, tuple(found)
@@ -188,7 +210,7 @@ class Pursuer:
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""
-        total = float(np.sum(without.nats - present.nats))
+        total = float(np.sum(without.exact - present.exact))
         return total > float(without.samples.sum()) * self.relevance
 
     def rivals(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[tuple[Term, Scored]]:
@@ -208,9 +230,8 @@ def scored_by(scores: Scores, odds: Odds) -> Scored:
     """What the model of a look predicts, as it is."""
     nats, found, model = scores.nats(Structure()), scores.predicted(Structure()), scores.look.model
     assert nats is not None and found is not None
-    price = sum(odds.price(term.cause.kind) for term in model.terms)
-    score = float(nats.sum()) + price + found[1] + scores.look.occam
-    return Scored(model, score, scores.exact_nats(), scores.look.samples, price)
+    errors = found[1] + scores.look.occam
+    return Scored(model, nats, errors, scores.exact_nats(), scores.look.samples, odds.of_model(model))
 
 
 def _key(scores: Scores, structure: Structure) -> frozenset[tuple[object, ...]]:

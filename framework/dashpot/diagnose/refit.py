@@ -70,7 +70,8 @@ class Refitter:
         objective = self._objective(start, noise)
         points = [search_coordinates(one) for _, _, one in starts]
         places = np.array([each.to_values(each.start)[0] for each in points])
-        best = int(np.argmin(objective.losses(places)))
+        losses = objective.losses(places)
+        best = int(np.argmin(np.where(np.isfinite(losses), losses, np.inf)))
         declared, owned, start = starts[best]
         return self._fitted(model.base, tuple(terms), declared, owned, start, noise, TRIAL_STEPS, TRIAL_TOLERANCE)
 
@@ -118,7 +119,16 @@ class Refitter:
 
     def without(self, model: Model, terms: Sequence[Term]) -> NetworkSpec:
         """The network of a model with some of its terms only, all numbers as they are."""
-        return self._start(model, terms, model.fitted)[2]
+        return self._start(model, self.writable(model, terms), model.fitted)[2]
+
+    def writable(self, model: Model, terms: Sequence[Term]) -> tuple[Term, ...]:
+        """Those of some terms that can be written without the others: one that changes another goes with it."""
+        found: tuple[Term, ...] = ()
+        for term in terms:
+            with suppress(InputError):
+                self._written(model.base, (*found, term))
+                found = (*found, term)
+        return found
 
     def _start(
         self, model: Model, terms: Sequence[Term], numbers: NetworkSpec

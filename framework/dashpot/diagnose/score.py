@@ -18,11 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
+from dashpot.diagnose.term import Model
 
 Array = NDArray[np.float64]
 
 FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
 RIG_ODDS = 0.01  # of a fault of the measurement against a law of the specimen
+NUMBER_ODDS = 0.1  # of a law with a number more against one without it
 STEADY = 1e-6  # of the square of a column: keeps numbers that nothing tells from running away
 
 
@@ -51,9 +53,14 @@ class Odds:
 
     columns: int
 
-    def price(self, kind: str) -> float:
-        """What a term has to predict before it is more likely than not."""
-        return float(np.log(max(self.columns, 1) / FALSE_ALARMS)) - (np.log(RIG_ODDS) if kind == "measurement" else 0.0)
+    def price(self, kind: str, numbers: int = 1) -> float:
+        """What a term with so many numbers has to predict before it is more likely than not."""
+        found = np.log(max(self.columns, 1) / FALSE_ALARMS) - max(numbers - 1, 0) * np.log(NUMBER_ODDS)
+        return float(found - (np.log(RIG_ODDS) if kind == "measurement" else 0.0))
+
+    def of_model(self, model: Model) -> float:
+        """The price of all terms of a model."""
+        return sum(self.price(term.cause.kind, model.count(number)) for number, term in enumerate(model.terms))
 
 
 @dataclass(eq=False)
@@ -157,8 +164,15 @@ class Scores:
 
     def price(self, structure: Structure) -> float:
         """The prior of a structure in nats: what joins less what goes."""
-        joins = sum(self.odds.price(self.look.candidates[k].cause.kind) for k, _ in structure.added)
-        return joins - sum(self.odds.price(self.kinds[number]) for number in structure.dropped)
+        joins = sum(self.joining(added) for added in structure.added)
+        model = self.look.model
+        return joins - sum(self.odds.price(self.kinds[number], model.count(number)) for number in structure.dropped)
+
+    def joining(self, added: Added) -> float:
+        """The price of what joins."""
+        candidate = self.look.candidates[added.candidate]
+        numbers = len(added.places) * (1 + (0 if candidate.suspect.joint else candidate.suspect.unknowns))
+        return self.odds.price(candidate.cause.kind, numbers)
 
     def score(self, structure: Structure) -> float:
         """Minus the log of likelihood and prior; the smaller, the better; infinite for one of the wrong sign."""

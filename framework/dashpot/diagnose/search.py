@@ -69,10 +69,10 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
     found = []
     for k, candidate in enumerate(scores.look.candidates):
         if k not in used and (best := _places(candidate, left)):
-            gain, places = best
-            merit = gain - scores.odds.price(candidate.cause.kind)
+            gain, added = best[0], Added(k, best[1])
+            merit = gain - scores.joining(added)
             if merit > 0.0:
-                found.append((merit, Added(k, places)))
+                found.append((merit, added))
     found.sort(key=lambda pair: -pair[0])
     return _varied(scores, [added for _, added in found])
 

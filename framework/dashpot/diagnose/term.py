@@ -79,6 +79,15 @@ class Model:
         """The names of all terms."""
         return tuple(term.name for term in self.terms)
 
+    @property
+    def forms(self) -> frozenset[object]:
+        """The names and forms of all terms."""
+        return frozenset((term.name, term.suspect.form) for term in self.terms)
+
+    def count(self, number: int) -> int:
+        """How many numbers of a term are searched."""
+        return len(set(self.owned[number]) & set(self.coordinates.paths))
+
     def numbers_of(self, number: int) -> dict[str, float]:
         """The fitted numbers in SI that a term brought, by the last word of their path; a second one ends in ``_2``."""
         return numbers_by_word(self.fitted, self.owned[number])
