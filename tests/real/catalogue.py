@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from .sets import Entry, MeasuredSet, columns
+from real.sets import Entry, MeasuredSet, columns
 
 
 def _bouc_wen() -> Iterator[Entry]:

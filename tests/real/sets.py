@@ -6,15 +6,16 @@ what its owners know of them, and which two shipped networks are diagnosed.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
 
-from . import seal
+from real import seal
 
-SHARED = Path(__file__).resolve().parents[3] / "shared" / "data"
+SHARED = Path(os.environ.get("DASHPOT_MEASURED") or Path(__file__).resolve().parents[3] / "shared" / "data")
 
 Entry = dict[str, object]
 
@@ -45,8 +46,7 @@ class MeasuredSet:
     def write(self, folder: Path, left_out: Iterable[str] = ()) -> Path:
         """Write ``dataset.yaml`` into `folder`, without the runs `left_out`, and return its path."""
         folder.mkdir(parents=True, exist_ok=True)
-        gone = set(left_out)
-        entries = [entry for entry in self.runs() if entry["name"] not in gone]
+        entries = without(list(self.runs()), set(left_out))
         head = {"format": "dashpot-dataset/1", "name": self.title}
         if self.folder == seal.FOLDER:
             seal.write_strokes(SHARED / self.folder, folder, entries)
@@ -56,6 +56,12 @@ class MeasuredSet:
         text = {**head, "defaults": self.defaults, "runs": entries}
         path.write_text(yaml.safe_dump(text, sort_keys=False, width=120), encoding="utf-8")
         return path
+
+
+def without(entries: list[Entry], gone: set[str]) -> list[Entry]:
+    """The entries without some runs; what repeats one of these stands for itself."""
+    kept = [entry for entry in entries if entry["name"] not in gone]
+    return [{k: v for k, v in entry.items() if k != "repeats" or v not in gone} for entry in kept]
 
 
 def columns(displacement: tuple[object, str], force: tuple[object, str], **more: object) -> Entry:
