@@ -26,12 +26,14 @@ COLUMNS = ("set", "base", "seed", "fewer", "verdict", "names", "faults", "before
            "MB")  # fmt: skip
 
 
-def trials(one: MeasuredSet, seeds: Sequence[int] = SEEDS, bases: Sequence[str] = ()) -> list[Trial]:
-    """All repetitions of a set: every base with every seed, and once with fewer runs."""
+def trials(
+    one: MeasuredSet, seeds: Sequence[int] = SEEDS, bases: Sequence[str] = (), whole: bool = False
+) -> list[Trial]:
+    """All repetitions of a set: every base with every seed, and once with fewer runs unless it is to be `whole`."""
     return [
         trial
         for base in (bases or one.bases)
-        for trial in [*(Trial(one, base, seed) for seed in seeds), Trial(one, base, seeds[0], True)]
+        for trial in [*(Trial(one, base, seed) for seed in seeds), *[Trial(one, base, seeds[0], True)] * (not whole)]
     ]
 
 
@@ -106,6 +108,7 @@ def main() -> None:
     parser.add_argument("--set", nargs="*", default=list(SETS), choices=list(SETS), help="all without it")
     parser.add_argument("--base", nargs="*", default=[], help="shipped names; those of the set without it")
     parser.add_argument("--seeds", type=int, nargs="*", default=list(SEEDS))
+    parser.add_argument("--whole", action="store_true", help="no trial with a fifth of the runs removed")
     parser.add_argument("--keep", type=Path, required=True, help="folder for trials and tables")
     parser.add_argument("--stale", action="store_true", help="keep trials of an older dashpot")
     options = parser.parse_args()
@@ -114,7 +117,7 @@ def main() -> None:
         if not SETS[name].present:
             print(f"{name}: not here, {SETS[name].folder} is missing")
             continue
-        for trial in trials(SETS[name], options.seeds, options.base):
+        for trial in trials(SETS[name], options.seeds, options.base, options.whole):
             one = outcome(trial, options.keep.resolve(), options.stale)
             print(f"{name} {trial.word}: " + ", ".join(f"{k} {v}" for k, v in list(row(one).items())[4:] if v), flush=True)
             write_tables(kept(options.keep), options.keep)
