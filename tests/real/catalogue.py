@@ -155,20 +155,17 @@ def _catalogue() -> Iterator[MeasuredSet]:
     yield MeasuredSet(
         name="bouc_wen",
         folder="bouc_wen_benchmark",
-        title="hysteretic oscillator of Bouc and Wen",
-        source="Noel and Schoukens, nonlinearbenchmark.org; copy in M. Forgione's dynonet",
-        licence="MIT",
-        owners="simulated; mass 2 kg, damping 10 N s/m, stiffness 50 kN/m and a Bouc-Wen force of slope 50 kN/m",
+        title="Hysteretic oscillator",
+        cut="Pieces of two random excitations, from the steady part, and of a sweep from 20 to 50 Hz.",
         defaults={"sampling": "750 Hz"},
         runs=_bouc_wen,
+        known_faults=("moving_mass",),
     )
     yield MeasuredSet(
         name="brfd",
         folder="friction_damper_brfd",
-        title="banded rotary friction damper",
-        source="Coble, Huggins, Cao, Ricles, Downey (2022), ARTS-Laboratory",
-        licence="CC BY-SA 4.0",
-        owners="friction of a band brake with backlash, self-energising: another limit in each direction",
+        title="Banded rotary friction damper",
+        cut="Every test of one frequency and amplitude is a run, with its growing and fading cycles.",
         defaults={
             "kind": "harmonic",
             "sampling": "1024 Hz",
@@ -180,10 +177,8 @@ def _catalogue() -> Iterator[MeasuredSet]:
     yield MeasuredSet(
         name="friction_rig_jl",
         folder="friction_rig_jl",
-        title="friction tester",
-        source="Christopherson (2021), FrictionModels.jl",
-        licence="MIT",
-        owners="",
+        title="Friction tester",
+        cut="Two cycles a run, from all over the record; every other run is declared a repeat of the one before.",
         defaults={
             "kind": "transient",
             "channels": {
@@ -195,14 +190,15 @@ def _catalogue() -> Iterator[MeasuredSet]:
         },
         runs=_friction_rig,
     )
-    for name, runs in (("hdrb", _hdrb), ("hdrb_settled", _hdrb_settled)):
+    for name, runs, cut in (
+        ("hdrb", _hdrb, "At each amplitude the first three cycles are a run, the other four another one."),
+        ("hdrb_settled", _hdrb_settled, "At each amplitude cycles 4 and 5, repeated by cycles 6 and 7."),
+    ):
         yield MeasuredSet(
             name=name,
             folder="hdrb_bearing",
-            title="high-damping rubber bearing",
-            source="Gallardo, de la Llera, Restrepo, Chen, Engineering Structures 289 (2023) 116234",
-            licence="MIT",
-            owners="",
+            title="High-damping rubber bearing" + (", settled" if runs is _hdrb_settled else ""),
+            cut=cut,
             defaults={
                 "kind": "harmonic",
                 "sampling": "465.5 Hz",
@@ -214,14 +210,15 @@ def _catalogue() -> Iterator[MeasuredSet]:
             },
             runs=runs,
         )
-    for name, runs in (("labcontrol_off", _labcontrol_off), ("labcontrol_all", _labcontrol_all)):
+    for name, runs, cut in (
+        ("labcontrol_off", _labcontrol_off, "off: Every test without voltage is a run."),
+        ("labcontrol_all", _labcontrol_all, "off and energised: Every test is a run; that it was energised is a setting."),
+    ):
         yield MeasuredSet(
             name=name,
             folder="mr_damper_labcontrol",
-            title="magnetorheological damper on a crank",
-            source="Vargas (2021), Labcontrol, 10.5281/zenodo.4445334",
-            licence="MIT",
-            owners="",
+            title="Magnetorheological damper on a crank, " + cut.partition(":")[0],
+            cut=cut.partition(": ")[2],
             defaults={
                 "kind": "harmonic",
                 "sampling": "100 Hz",
@@ -232,14 +229,15 @@ def _catalogue() -> Iterator[MeasuredSet]:
             runs=runs,
             known_faults=("offset",),
         )
-    for name, runs in (("utfsm_off", _utfsm_off), ("utfsm_all", _utfsm_all)):
+    for name, runs, cut in (
+        ("utfsm_off", _utfsm_off, "no current: Pieces of every sine; a second piece repeats the first."),
+        ("utfsm_all", _utfsm_all, "all currents: A piece of each sine; the current is a setting."),
+    ):
         yield MeasuredSet(
             name=name,
             folder="mr_damper_utfsm",
-            title="magnetorheological damper on a press",
-            source="Quiroz, Universidad Tecnica Federico Santa Maria (2022)",
-            licence="MIT",
-            owners="",
+            title="Magnetorheological damper in a press, " + cut.partition(":")[0],
+            cut=cut.partition(": ")[2],
             defaults={
                 "kind": "harmonic",
                 "channels": columns((2, "mm"), (4, "N"), time={"column": 1, "unit": "s"}),
@@ -251,9 +249,7 @@ def _catalogue() -> Iterator[MeasuredSet]:
             name=name,
             folder="seal_friction_pneumatic",
             title=f"{name[0].upper()}-ring seal of a pneumatic cylinder",
-            source="Zillen, TU Delft (2021)",
-            licence="CC0 1.0",
-            owners="",
+            cut="A cycle forth and back is a run, two pairs of them at each pressure, which is a setting.",
             defaults={
                 "kind": "transient",
                 "channels": columns((2, "mm"), (3, "N"), time={"column": 1, "unit": "s"}),

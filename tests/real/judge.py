@@ -29,7 +29,8 @@ def unlike(outcome: Outcome) -> dict[str, tuple[float, float | None]]:
 
 def accused(outcome: Outcome, known: Iterable[str] = ()) -> list[str]:
     """The faults of the measurement that were named and that the owners of the data do not know of."""
-    return [cause["cause"] for cause in outcome.causes if cause["class"] == "measurement" and cause["cause"] not in known]
+    named = [cause["cause"] for cause in outcome.causes if cause["class"] == "measurement"]
+    return [word for word in [*named, *(fault["kind"] for fault in outcome.faults)] if word not in known]
 
 
 def names(outcome: Outcome) -> frozenset[str]:

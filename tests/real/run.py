@@ -58,11 +58,12 @@ def row(one: Outcome) -> dict[str, object]:
     said = {kind: [cause for cause in one.causes if cause["class"] == kind] for kind in ("specimen", "measurement")}
     listed = {kind: ", ".join(f"{cause['cause']} {cause['probability']:.2f}" for cause in causes)
               for kind, causes in said.items()}  # fmt: skip
+    triage = [f"{fault['kind']} of {fault['run']}" for fault in one.faults]
     errors = {name.replace("_", " ").replace(".", " "): f"{value:.4g}" for name, value in one.told.items()}
     return {
         "set": one.set, "base": one.base, "seed": one.seed, "fewer": "yes" if one.fewer else "",
         "verdict": f"{one.verdict} ({one.failed})" if one.failed else one.verdict,
-        "names": listed["specimen"], "faults": listed["measurement"], **errors,
+        "names": listed["specimen"], "faults": ", ".join(filter(None, [listed["measurement"], *triage])), **errors,
         "explainable": _short(one.explainable), "floor": _short(one.floor),
         "files alike": "" if one.failed else "no" if judge.unlike(one) else "yes",
         "near or admitted": "yes" if judge.near_or_admitted(one) else "no",

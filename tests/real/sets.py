@@ -24,20 +24,23 @@ Entry = dict[str, object]
 class MeasuredSet:
     """One dataset over a folder of measurements by others.
 
-    `runs` gives the entries of ``dataset.yaml``; `bases` are shipped networks, `known_faults` the faults of the
+    `cut` says how records became runs; `runs` gives their entries in ``dataset.yaml``; `bases` are shipped networks, `known_faults` the faults of the
     measurement that its owners tell, by the names of dashpot's causes.
     """
 
     name: str
     folder: str
     title: str
-    source: str
-    licence: str
-    owners: str
+    cut: str
     defaults: Entry
     runs: Callable[[], Iterable[Entry]]
     bases: tuple[str, str] = ("kelvin_voigt", "tire_model_1")
     known_faults: tuple[str, ...] = field(default=())
+
+    @property
+    def owners(self) -> dict[str, str]:
+        """``source``, ``url`` and ``licence`` of the measurements, and what their ``owners`` say of them."""
+        return yaml.safe_load((Path(__file__).parent / "owners.yaml").read_text(encoding="utf-8"))[self.folder]
 
     @property
     def present(self) -> bool:

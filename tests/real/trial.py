@@ -59,7 +59,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a trial came to. `told` and `files`: RMSE in N by ``before.train``, ``after.held_out`` and so on."""
+    """What a trial came to. `faults` are those that triage found. `told` and `files`: RMSE in N by ``before.train``, ``after.held_out`` and so on."""
 
     set: str
     base: str
@@ -67,6 +67,7 @@ class Outcome:
     fewer: bool
     verdict: str
     causes: list[dict[str, Any]]
+    faults: list[dict[str, Any]]
     told: dict[str, float]
     files: dict[str, float]
     explainable: float | None
@@ -104,48 +105,54 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
     """The outcome but for what the files say; without a result the verdict is ``failed``."""
     common = (trial.set.name, trial.base, trial.seed, trial.fewer)
     if told is None:
-        return Outcome(*common, "failed", [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
+        return Outcome(*common, "failed", [], [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
     kept = ("cause", "class", "title", "probability", "evidence_of", "gain", "gain_interval", "indistinguishable_from")
     causes = [{key: cause[key] for key in kept} for cause in told["causes"] if cause["accepted"]]
     errors = {f"{when}.{which}": value for when, pair in told["rmse"].items() for which, value in pair.items()
               if value is not None}  # fmt: skip
-    return Outcome(*common, told["verdict"], causes, errors, {}, told["explainable"]["held_out"],
+    return Outcome(*common, told["verdict"], causes, told["faults"], errors, {}, told["explainable"]["held_out"],
                    told["noise_floor"]["value"], spent.seconds, spent.megabytes, spent.failed)  # fmt: skip
 
 
 def errors_of_files(told: Mapping[str, Any], folder: Path, dataset: Path) -> dict[str, float]:
     """The errors of the files that were written, simulated by command: before and after, on training and held-out runs.
 
-    Training runs are those of the corrected dataset, held-out runs as they were measured.
+    Training runs are those of the corrected dataset, but before the causes only with what triage corrected in them;
+    held-out runs are as they were measured.
     """
     corrected = folder / told["corrected_dataset"] if told["corrected_dataset"] else dataset
-    after = told["extended_model"] or told["fitted_model"]
-    rules = {
-        "before.train": (told["fitted_model"], dataset),
-        "before.held_out": (told["fitted_model"], dataset),
-        "after.train": (after, corrected),
-        "after.held_out": (after, dataset),
+    after = folder / (told["extended_model"] or told["fitted_model"])
+    before = folder / told["fitted_model"]
+    mended = {fault["run"] for fault in told["faults"] if fault["factor"] is not None}
+    measured, put_right = errors_by_run(before, dataset), errors_by_run(before, corrected)
+    first = {run: put_right[run] if run in mended else measured[run] for run in put_right}
+    last = errors_by_run(after, corrected)
+    unseen = set(told["held_out"])
+    found = {
+        "before.train": [value for run, value in first.items() if run not in unseen],
+        "before.held_out": [value for run, value in measured.items() if run in unseen],
+        "after.train": [value for run, value in last.items() if run not in unseen],
+        "after.held_out": [value for run, value in errors_by_run(after, dataset).items() if run in unseen],
     }
-    per_run = {pair: errors_by_run(folder / pair[0], pair[1]) for pair in dict.fromkeys(rules.values())}
-    held_out = set(told["held_out"])
-    found = {}
-    for name, pair in rules.items():
-        errors = [value for run, value in per_run[pair].items() if (run in held_out) == name.endswith("held_out")]
-        if errors:
-            found[name] = float(np.sqrt(np.mean(np.square(errors))))
-    return found
+    return {name: float(np.sqrt(np.mean(np.square(errors)))) for name, errors in found.items() if errors}
 
 
 def errors_by_run(network: Path, dataset: Path) -> dict[str, float]:
     """RMSE in N of a network file on each run of a dataset, by ``dashpot simulate``, after the warm-up of the run."""
-    simulated = network.parent / "simulated.npz"
-    command = [*DASHPOT, "simulate", network, "--data", dataset, "-o", simulated, "--quiet", "--force"]
+    forces = simulated(network, dataset)
+    return {
+        run.name: float(np.sqrt(np.mean((forces[run.name] - run.force)[warm_up(run) :] ** 2)))
+        for run in dashpot.load_dataset(dataset).runs
+    }
+
+
+def simulated(network: Path, dataset: Path) -> dict[str, np.ndarray]:
+    """The force (n,) in N of a network file along each run of a dataset."""
+    kept = network.parent / "simulated.npz"
+    command = [*DASHPOT, "simulate", network, "--data", dataset, "-o", kept, "--quiet", "--force"]
     subprocess.run(list(map(str, command)), check=True, capture_output=True)
-    with np.load(simulated) as forces:
-        return {
-            run.name: float(np.sqrt(np.mean((forces[run.name] - run.force)[warm_up(run) :] ** 2)))
-            for run in dashpot.load_dataset(dataset).runs
-        }
+    with np.load(kept) as forces:
+        return dict(forces)
 
 
 def engine_digest() -> str:
