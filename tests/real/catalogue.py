@@ -190,14 +190,14 @@ def _catalogue() -> Iterator[MeasuredSet]:
         },
         runs=_friction_rig,
     )
-    for name, runs, cut in (
-        ("hdrb", _hdrb, "At each amplitude the first three cycles are a run, the other four another one."),
-        ("hdrb_settled", _hdrb_settled, "At each amplitude cycles 4 and 5, repeated by cycles 6 and 7."),
+    for name, runs, which, cut in (
+        ("hdrb", _hdrb, "", "At each amplitude the first three cycles are a run, the other four another one."),
+        ("hdrb_settled", _hdrb_settled, ", settled", "At each amplitude cycles 4 and 5, repeated by cycles 6 and 7."),
     ):
         yield MeasuredSet(
             name=name,
             folder="hdrb_bearing",
-            title="High-damping rubber bearing" + (", settled" if runs is _hdrb_settled else ""),
+            title=f"High-damping rubber bearing{which}",
             cut=cut,
             defaults={
                 "kind": "harmonic",
@@ -210,15 +210,15 @@ def _catalogue() -> Iterator[MeasuredSet]:
             },
             runs=runs,
         )
-    for name, runs, cut in (
-        ("labcontrol_off", _labcontrol_off, "off: Every test without voltage is a run."),
-        ("labcontrol_all", _labcontrol_all, "off and energised: Every test is a run; that it was energised is a setting."),
+    for name, runs, which, cut in (
+        ("labcontrol_off", _labcontrol_off, "off", "Every test without voltage is a run."),
+        ("labcontrol_all", _labcontrol_all, "off and energised", "Every test is a run; energised or not is a setting."),
     ):
         yield MeasuredSet(
             name=name,
             folder="mr_damper_labcontrol",
-            title="Magnetorheological damper on a crank, " + cut.partition(":")[0],
-            cut=cut.partition(": ")[2],
+            title=f"Magnetorheological damper on a crank, {which}",
+            cut=cut,
             defaults={
                 "kind": "harmonic",
                 "sampling": "100 Hz",
@@ -229,15 +229,15 @@ def _catalogue() -> Iterator[MeasuredSet]:
             runs=runs,
             known_faults=("offset",),
         )
-    for name, runs, cut in (
-        ("utfsm_off", _utfsm_off, "no current: Pieces of every sine; a second piece repeats the first."),
-        ("utfsm_all", _utfsm_all, "all currents: A piece of each sine; the current is a setting."),
+    for name, runs, which, cut in (
+        ("utfsm_off", _utfsm_off, "no current", "Pieces of every sine; a second piece repeats the first."),
+        ("utfsm_all", _utfsm_all, "all currents", "A piece of each sine; the current is a setting."),
     ):
         yield MeasuredSet(
             name=name,
             folder="mr_damper_utfsm",
-            title="Magnetorheological damper in a press, " + cut.partition(":")[0],
-            cut=cut.partition(": ")[2],
+            title=f"Magnetorheological damper in a press, {which}",
+            cut=cut,
             defaults={
                 "kind": "harmonic",
                 "channels": columns((2, "mm"), (4, "N"), time={"column": 1, "unit": "s"}),

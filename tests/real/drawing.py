@@ -31,8 +31,11 @@ def panels(found: Sequence[Panel], x_title: str, y_title: str, legend: Sequence[
     """Panels side by side, each with its own range; `legend` holds colours and words."""
     across = min(len(found), IN_A_ROW)
     rows = -(-len(found) // IN_A_ROW)
-    parts = [f'<g transform="translate({WIDE * (k % IN_A_ROW):g} {24 + HIGH * (k // IN_A_ROW):g})">{_panel(one, x_title, y_title)}</g>'
-             for k, one in enumerate(found)]  # fmt: skip
+    parts = [
+        f'<g transform="translate({WIDE * (k % IN_A_ROW):g} {24 + HIGH * (k // IN_A_ROW):g})">'
+        f"{_panel(one, x_title, y_title)}</g>"
+        for k, one in enumerate(found)
+    ]
     words = [f'<tspan fill="{color}" dx="12">{escape(text)}</tspan>' for color, text in legend]
     return _svg(WIDE * across, 24 + HIGH * rows, [f'<text x="{LEFT:g}" y="15">{"".join(words)}</text>', *parts])
 
@@ -42,7 +45,9 @@ def heat(mean: Array, x: Array, y: Array, x_title: str, y_title: str, unit: str)
     wide, high = 420.0, 300.0
     top = float(np.nanmax(np.abs(mean)))
     step_x, step_y = (wide - LEFT - RIGHT) / (x.size - 1), (high - ABOVE - BELOW) / (y.size - 1)
-    parts = [
+    parts = [f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{wide - LEFT - RIGHT:g}" height="{high - ABOVE - BELOW:g}" '
+             'fill="#e8ebee"/>']  # fmt: skip
+    parts += [
         f'<rect x="{LEFT + column * step_x:.1f}" y="{high - BELOW - (row + 1) * step_y:.1f}" width="{step_x:.1f}" '
         f'height="{step_y:.1f}" fill="{_shade(value / top)}"/>'
         for row, values in enumerate(mean)
@@ -72,7 +77,8 @@ def _panel(panel: Panel, x_title: str, y_title: str) -> str:
         return (LEFT + (x - x_low) / (x_high - x_low) * (right - LEFT),
                 bottom - (y - y_low) / (y_high - y_low) * (bottom - ABOVE))  # fmt: skip
 
-    frame = f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{right - LEFT:g}" height="{bottom - ABOVE:g}" fill="none" stroke="#c9cfd6"/>'
+    frame = (f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{right - LEFT:g}" height="{bottom - ABOVE:g}" fill="none" '
+             'stroke="#c9cfd6"/>')  # fmt: skip
     lines = [f'<polyline points="{_points(*place(x, y))}" fill="none" stroke="{color}" stroke-width="1.2"/>'
              for color, x, y in panel.curves]  # fmt: skip
     ticks = [*_ticks((x_low, x_high), LEFT, right, bottom, True), *_ticks((y_low, y_high), bottom, ABOVE, LEFT, False)]

@@ -20,7 +20,7 @@ from real.catalogue import SETS
 from real.pictures import pictures
 from real.run import summary, trials
 from real.sets import MeasuredSet
-from real.trial import OUTCOME, Outcome, Trial, kept_outcome
+from real.trial import Outcome, Trial, kept_outcome
 
 import dashpot
 
@@ -57,13 +57,13 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
     drawn = pictures(seen, *final, folder / one.name) if final else []
     if final:
         name = f"`{final[0].stem}`"
-        yield f"Black is measured, blue the written file {name}, which has the smallest error on training runs of seed 0."
+        yield f"Black is measured, blue the written file {name}: the one with the smallest error on training runs."
         yield "\n\n".join(f"![{words}]({path.name})" for words, path in drawn)
     yield "## What can be explained"
     rows = [("noise floor", short(kept[0][1].floor)), ("explainable, on held-out runs", short(kept[0][1].explainable))]
     yield table(("error (seed 0)", ""), rows)
-    yield ("Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) leaves on "
-           "runs that it has not seen; it differs with the runs that are held out.")  # fmt: skip
+    yield ("Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) "
+           "leaves on runs that it has not seen; it differs with the runs that are held out.")  # fmt: skip
     yield "## What is diagnosed"
     yield diagnoses([outcome for _, outcome in kept])
     yield remarks([outcome for _, outcome in kept], one)
@@ -71,6 +71,7 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
 
 def told_runs(runs: Sequence[dict[str, object]]) -> str:
     """Numbers of the runs in a sentence or two."""
+
     def reach(key: str, factor: float) -> str:
         values = [factor * float(run[key]) for run in runs]
         low, high = f"{min(values):.3g}", f"{max(values):.3g}"
@@ -84,7 +85,7 @@ def told_runs(runs: Sequence[dict[str, object]]) -> str:
 
 
 def best_file(kept: Kept, folder: Path) -> tuple[Path, Path] | None:
-    """The network of the trial with all runs and the first seed that has the smallest error on them, and its dataset."""
+    """The network with the smallest error on training runs, of the first seed and all runs; and its folder."""
     whole = [(outcome.files["after.train"], trial) for trial, outcome in kept
              if "after.train" in outcome.files and not trial.fewer and trial.seed == kept[0][0].seed]  # fmt: skip
     if not whole:
@@ -138,9 +139,9 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
 def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     """The page that leads to the others."""
     yield "# Measured by others"
-    yield ("What dashpot says of measurements by others, whose truth is not known to it: each set from two shipped networks, "
-           "with three draws of the held-out runs, and with a fifth of the runs removed. The errors are those of the written "
-           "files, read again and simulated.")  # fmt: skip
+    yield ("What dashpot says of measurements by others: each set from two shipped networks, with three draws of the "
+           "held-out runs, and with a fifth of the runs removed. The errors are those of the written files, read again "
+           "and simulated.")  # fmt: skip
     rows = [
         (f"[{SETS[name].title}]({name}.md)", str(len(outcomes)), str(sum(map(judge.near_or_admitted, outcomes))),
          f"{judge.share(judge.same_names(outcomes)):.0%}",
@@ -151,8 +152,8 @@ def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     yield table(head, rows)
     yield "\n".join(f"- {line}" for line in summary([one for each in found.values() for one in each]))
     yield "```{toctree}\n:hidden:\n\n" + "\n".join(found) + "\n```"
-    yield ("Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, and "
-           "`python tests/real/pages.py --keep results` writes these pages.")  # fmt: skip
+    yield ("Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, "
+           "and `python tests/real/pages.py --keep results` writes these pages.")  # fmt: skip
 
 
 def kept_trials(one: MeasuredSet, keep: Path) -> list[tuple[Trial, Outcome]]:

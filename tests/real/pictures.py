@@ -34,7 +34,9 @@ def pictures(look: Look, network: Path, found: Path, stem: Path) -> list[tuple[s
         ("velocity", "Force over velocity", "velocity (mm/s)"),
     ):
         parts = [_panel(each, word == "velocity", each.name in held_out) for each in chosen]
-        drawn.append(_write(f"{words}, measured and simulated", stem, word, panels(parts, x_title, "force (N)", legend)))
+        drawn.append(
+            _write(f"{words}, measured and simulated", stem, word, panels(parts, x_title, "force (N)", legend))
+        )
     told = residual_maps(seen)[0]
     (x, x_title), (y, y_title) = (_axis(told[which]) for which in ("x", "y"))
     words = (f"Measured less simulated force over the two variables that explain most of it: {x_title} and {y_title}, "

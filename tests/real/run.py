@@ -1,8 +1,8 @@
 """Diagnoses of measured sets as a command: ``python tests/real/run.py --set o_ring --keep results``.
 
 Each set is diagnosed from two bases, with three seeds, and once more with a fifth of its runs removed. Finished trials
-are kept in a folder each and not run again unless the source of dashpot has changed; ``--stale`` takes them as they are.
-Writes table.csv and table.md there.
+are kept in a folder each and run again only where the source of dashpot has changed; ``--stale`` takes them as they
+are. Writes table.csv and table.md there.
 """
 
 from __future__ import annotations
@@ -87,7 +87,8 @@ def summary(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield f"a fault of the rig that its owners do not know is named: {guilty} of {count}"
     yield f"near the explainable error, or admitted: {sum(map(judge.near_or_admitted, outcomes))} of {count}"
     yield f"same names within set and base: {judge.share(judge.same_names(outcomes)):.0%}"
-    yield f"same names from both bases, but for what they do of themselves: {judge.share(judge.same_beyond_bases(outcomes)):.0%}"
+    beyond = judge.share(judge.same_beyond_bases(outcomes))
+    yield f"same names from both bases, but for what they do of themselves: {beyond:.0%}"
 
 
 def write_tables(outcomes: Sequence[Outcome], keep: Path) -> None:
@@ -120,7 +121,8 @@ def main() -> None:
             continue
         for trial in trials(SETS[name], options.seeds, options.base, options.whole):
             one = outcome(trial, options.keep.resolve(), options.stale)
-            print(f"{name} {trial.word}: " + ", ".join(f"{k} {v}" for k, v in list(row(one).items())[4:] if v), flush=True)
+            told = [f"{key} {value}" for key, value in list(row(one).items())[4:] if value]
+            print(f"{name} {trial.word}: {', '.join(told)}", flush=True)
             write_tables(kept(options.keep), options.keep)
     print("\n".join(summary(kept(options.keep))))
 

@@ -1,7 +1,7 @@
 """Measured sets of others as dataset files: runs cut by what drove them, units, signs, settings; no number is copied.
 
-Nearly every run is read where it lies, by the readers that dashpot ships. Each set says where the measurements are from,
-what its owners know of them, and which two shipped networks are diagnosed.
+Nearly every run is read where it lies, by the readers that dashpot ships. Each set says where the measurements are
+from, what its owners know of them, and which two shipped networks are diagnosed.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import yaml
-
 from real import seal
 
 SHARED = Path(os.environ.get("DASHPOT_MEASURED") or Path(__file__).resolve().parents[3] / "shared" / "data")
@@ -24,8 +23,8 @@ Entry = dict[str, object]
 class MeasuredSet:
     """One dataset over a folder of measurements by others.
 
-    `cut` says how records became runs; `runs` gives their entries in ``dataset.yaml``; `bases` are shipped networks, `known_faults` the faults of the
-    measurement that its owners tell, by the names of dashpot's causes.
+    `cut` says how records became runs; `runs` gives their entries in ``dataset.yaml``; `bases` are shipped networks,
+    `known_faults` the faults of the measurement that its owners tell, by the names of dashpot's causes.
     """
 
     name: str

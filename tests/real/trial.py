@@ -59,7 +59,11 @@ class Trial:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a trial came to. `faults` are those that triage found. `told` and `files`: RMSE in N by ``before.train``, ``after.held_out`` and so on."""
+    """What a trial came to.
+
+    `faults` are those that triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
+    so on; `floor` and `explainable` are in N.
+    """
 
     set: str
     base: str

@@ -95,7 +95,8 @@ def test_a_constant_difference_is_an_offset_and_no_noise(random):
 def test_repeats_whose_motion_rests_show_no_more_than_their_noise(random):
     time = np.arange(SAMPLES) * SAMPLE_TIME
     swings = [np.clip(1.5 * np.sin(TURN * (time - late) / 20.0), -1.0, 1.0) for late in (0.0, 0.3e-3)]
-    repeats = [(2.37e-2 + gain * swing, 1e3 * swing + noise(random)) for gain, swing in zip((1e-4, 1.01e-4), swings)]
+    displacements = (2.37e-2 + 1e-4 * swings[0], 2.37e-2 + 1.01e-4 * swings[1])
+    repeats = [(x, 1e3 * swing + noise(random)) for x, swing in zip(displacements, swings, strict=True)]
     floor = noise_from_repeats(repeats, SAMPLE_TIME)
     assert floor.value == pytest.approx(DEVIATION, rel=0.05)
 
