@@ -14,7 +14,7 @@ demo: $(VENV)/installed
 
 test: $(VENV)/installed-for-tests
 	$(BIN)/ruff check .
-	$(BIN)/python -m pytest -m "not slow" --numprocesses auto --dist worksteal
+	$(BIN)/python -m pytest -m "not slow and not real" --numprocesses auto --dist worksteal
 
 types: $(VENV)/installed-for-tests
 	$(BIN)/mypy

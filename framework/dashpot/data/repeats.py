@@ -39,7 +39,8 @@ def compare_repeats(runs: Sequence[tuple[np.ndarray, np.ndarray]], sample_time: 
     """Align repeated runs, given as (displacement m, force N), and compensate their small differences of motion.
 
     The force is corrected by the tangent stiffness and the damping that the mean run itself shows piece by piece,
-    times the difference of the displacement. Raises NotRepeatsError when displacements differ by more than a tenth.
+    times the difference of the displacement; not in a piece where that makes the runs differ more, as where the motion
+    rests and shows no tangent. Raises NotRepeatsError when displacements differ by more than a tenth.
     """
     if len(runs) < 2:
         raise NotRepeatsError(f"expected at least two repeated runs, got {len(runs)}; name the runs that repeat it")
@@ -71,13 +72,25 @@ def _explained_by_motion(displacement: np.ndarray, force: np.ndarray, sample_tim
     difference = _smooth(displacement - mean, _end_of_spectrum(mean))
     velocity = np.gradient(_smooth(mean[None], _end_of_spectrum(mean))[0], sample_time)
     stiffness, damping = _tangents(mean, velocity, force.mean(axis=0))
-    return stiffness * difference + damping * np.gradient(difference, sample_time, axis=1)
+    explained = stiffness * difference + damping * np.gradient(difference, sample_time, axis=1)
+    for piece in _pieces(force.shape[1]):
+        if _spread(force[:, piece] - explained[:, piece]) > _spread(force[:, piece]):
+            explained[:, piece] = 0.0
+    return explained
+
+
+def _pieces(samples: int) -> list[np.ndarray]:
+    return np.array_split(np.arange(samples), _PIECES)
+
+
+def _spread(forces: np.ndarray) -> float:
+    return float(np.sum((forces - forces.mean(axis=0)) ** 2))
 
 
 def _tangents(displacement: np.ndarray, velocity: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tangent stiffness and damping at every sample, from a fit of force = f0 + k x + k2 x^2 + d v in every piece."""
     stiffness, damping = np.empty_like(force), np.empty_like(force)
-    for piece in np.array_split(np.arange(len(force)), _PIECES):
+    for piece in _pieces(len(force)):
         x, v = displacement[piece] - displacement[piece].mean(), velocity[piece]
         columns = np.stack([np.ones_like(x), x, x**2, v], axis=1)
         scale = np.maximum(np.max(np.abs(columns), axis=0), np.finfo(float).tiny)

@@ -92,6 +92,15 @@ def test_a_constant_difference_is_an_offset_and_no_noise(random):
     assert floor.offset == pytest.approx(20.0 / np.sqrt(2.0), abs=0.5)
 
 
+def test_repeats_whose_motion_rests_show_no_more_than_their_noise(random):
+    time = np.arange(SAMPLES) * SAMPLE_TIME
+    swings = [np.clip(1.5 * np.sin(TURN * (time - late) / 20.0), -1.0, 1.0) for late in (0.0, 0.3e-3)]
+    displacements = (2.37e-2 + 1e-4 * swings[0], 2.37e-2 + 1.01e-4 * swings[1])
+    repeats = [(x, 1e3 * swing + noise(random)) for x, swing in zip(displacements, swings, strict=True)]
+    floor = noise_from_repeats(repeats, SAMPLE_TIME)
+    assert floor.value == pytest.approx(DEVIATION, rel=0.05)
+
+
 def test_the_lag_is_found_to_a_hundredth_of_a_sample(random):
     late = random.uniform(-100.0, 100.0)
     lags = compare_repeats([clean(), clean(late=late)], SAMPLE_TIME).lags

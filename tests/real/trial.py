@@ -1,0 +1,176 @@
+"""One diagnosis of a measured set as a user would run it: commands, files, seconds and memory."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from architecture.source import FRAMEWORK, PLUGINS, modules
+from real.sets import MeasuredSet
+from seeds import seed_of
+
+import dashpot
+from dashpot.fit.scored import warm_up
+
+DASHPOT = (sys.executable, "-m", "dashpot")
+OUTCOME = "outcome.json"
+LONGEST = 3600.0  # s
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A set diagnosed from one of its bases. ``fewer``: a fifth of the runs was never measured."""
+
+    set: MeasuredSet
+    base: str
+    seed: int
+    fewer: bool = False
+
+    @property
+    def word(self) -> str:
+        return f"{self.base}-{self.seed}{'-fewer' if self.fewer else ''}"
+
+    def run(self, folder: Path) -> Outcome:
+        """Diagnose within `folder`, hold the files against what was told, and keep the outcome there."""
+        names = [str(entry["name"]) for entry in self.set.runs()]
+        rng = np.random.default_rng(seed_of(f"{self.set.name}-{self.word}"))
+        gone = rng.choice(names, len(names) // 5, replace=False) if self.fewer else ()
+        dataset = self.set.write(folder / "data", gone)
+        found = folder / "diagnosis"
+        command = [*DASHPOT, "diagnose", self.base, dataset, "-o", found, "--seed", self.seed, "--jobs", 1, "--force"]
+        spent = measured_command(list(map(str, command)), folder / "log.txt")
+        result = found / "diagnosis.json"
+        told = json.loads(result.read_text()) if spent.failed is None and result.exists() else None
+        outcome = outcome_of(self, told, spent)
+        if told:
+            outcome = Outcome(**{**asdict(outcome), "files": errors_of_files(told, found, dataset)})
+        (folder / OUTCOME).write_text(json.dumps({"engine": engine_digest(), **asdict(outcome)}, indent=1) + "\n")
+        return outcome
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a trial came to.
+
+    `faults` are those that triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
+    so on; `floor` and `explainable` are in N.
+    """
+
+    set: str
+    base: str
+    seed: int
+    fewer: bool
+    verdict: str
+    causes: list[dict[str, Any]]
+    faults: list[dict[str, Any]]
+    told: dict[str, float]
+    files: dict[str, float]
+    explainable: float | None
+    floor: float | None
+    seconds: float
+    megabytes: float
+    failed: str | None
+
+
+@dataclass(frozen=True)
+class Spent:
+    """What a command took; ``failed`` is the last thing that it said where it did not end well."""
+
+    seconds: float
+    megabytes: float
+    failed: str | None
+
+
+def measured_command(command: list[str], log: Path) -> Spent:
+    """Run a command with one thread, its talk kept in `log`."""
+    quiet = {"OMP_NUM_THREADS": "1", "COLUMNS": "200"}
+    began = time.perf_counter()
+    with log.open("w") as out:
+        process = subprocess.Popen(["timeout", str(LONGEST), *command], stdout=out, stderr=subprocess.STDOUT,
+                                   env={**os.environ, **quiet})  # fmt: skip
+        _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    lines = [line for line in log.read_text().splitlines() if line.strip()]
+    words = next((line for line in reversed(lines) if "fault" in line or "error" in line), (lines or [""])[-1])
+    failed = None if process.returncode == 0 else f"exit {process.returncode}: {words.strip()[:200]}"
+    return Spent(time.perf_counter() - began, usage.ru_maxrss / 1024.0, failed)
+
+
+def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Outcome:
+    """The outcome but for what the files say; without a result the verdict is ``failed``."""
+    common = (trial.set.name, trial.base, trial.seed, trial.fewer)
+    if told is None:
+        return Outcome(*common, "failed", [], [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
+    kept = ("cause", "class", "title", "probability", "evidence_of", "gain", "gain_interval", "indistinguishable_from")
+    causes = [{key: cause[key] for key in kept} for cause in told["causes"] if cause["accepted"]]
+    errors = {f"{when}.{which}": value for when, pair in told["rmse"].items() for which, value in pair.items()
+              if value is not None}  # fmt: skip
+    return Outcome(*common, told["verdict"], causes, told["faults"], errors, {}, told["explainable"]["held_out"],
+                   told["noise_floor"]["value"], spent.seconds, spent.megabytes, spent.failed)  # fmt: skip
+
+
+def errors_of_files(told: Mapping[str, Any], folder: Path, dataset: Path) -> dict[str, float]:
+    """The errors of the files that were written, simulated by command: before and after, on training and held-out runs.
+
+    Training runs are those of the corrected dataset, but before the causes only with what triage corrected in them;
+    held-out runs are as they were measured.
+    """
+    corrected = folder / told["corrected_dataset"] if told["corrected_dataset"] else dataset
+    after = folder / (told["extended_model"] or told["fitted_model"])
+    before = folder / told["fitted_model"]
+    mended = {fault["run"] for fault in told["faults"] if fault["factor"] is not None}
+    measured, put_right = errors_by_run(before, dataset), errors_by_run(before, corrected)
+    first = {run: put_right[run] if run in mended else measured[run] for run in put_right}
+    last = errors_by_run(after, corrected)
+    unseen = set(told["held_out"])
+    found = {
+        "before.train": [value for run, value in first.items() if run not in unseen],
+        "before.held_out": [value for run, value in measured.items() if run in unseen],
+        "after.train": [value for run, value in last.items() if run not in unseen],
+        "after.held_out": [value for run, value in errors_by_run(after, dataset).items() if run in unseen],
+    }
+    return {name: float(np.sqrt(np.mean(np.square(errors)))) for name, errors in found.items() if errors}
+
+
+def errors_by_run(network: Path, dataset: Path) -> dict[str, float]:
+    """RMSE in N of a network file on each run of a dataset, by ``dashpot simulate``, after the warm-up of the run."""
+    forces = simulated(network, dataset)
+    return {
+        run.name: float(np.sqrt(np.mean((forces[run.name] - run.force)[warm_up(run) :] ** 2)))
+        for run in dashpot.load_dataset(dataset).runs
+    }
+
+
+def simulated(network: Path, dataset: Path) -> dict[str, np.ndarray]:
+    """The force (n,) in N of a network file along each run of a dataset."""
+    kept = network.parent / "simulated.npz"
+    command = [*DASHPOT, "simulate", network, "--data", dataset, "-o", kept, "--quiet", "--force"]
+    subprocess.run(list(map(str, command)), check=True, capture_output=True)
+    with np.load(kept) as forces:
+        return dict(forces)
+
+
+def engine_digest() -> str:
+    """A digest of the source that a trial ran with."""
+    digest = sha256()
+    for path in [*modules(FRAMEWORK), *modules(PLUGINS)]:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def kept_outcome(folder: Path) -> tuple[str, Outcome] | None:
+    """The outcome kept in a folder with the digest of its engine, None where there is none."""
+    path = folder / OUTCOME
+    if not path.exists():
+        return None
+    found = json.loads(path.read_text())
+    return found.pop("engine"), Outcome(**found)
