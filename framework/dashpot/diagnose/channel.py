@@ -155,8 +155,8 @@ def accuse(
     shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
     chosen: dict[Key, str] = {}
     while True:
-        gains = {key: shares[key] * solver.gain(key, chosen) - 0.5 * len(rows.shapes[key]) * np.log(rows.residual[key[0]].size)
-                 for key in rows.shapes if key not in chosen}  # fmt: skip
+        gains = {key: shares[key] * solver.gain(key, chosen) - 0.5 * len(shapes) * np.log(shapes.shape[1])
+                 for key, shapes in rows.shapes.items() if key not in chosen}  # fmt: skip
         for key in sorted(gains, key=lambda key: -gains[key]):
             least = max(price, relevance * rows.residual[key[0]].size)
             if gains[key] < least:

@@ -94,8 +94,8 @@ def _size_in_steps(model: Model, path: str) -> float:
 def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on.
 
-    It stays there while it should rise and while it should fall: that of a slider leaves its limit when the motion turns
-    back. A force that stays at zero is none either: a specimen that has lost contact does the same.
+    It stays there while it should rise and while it should fall: that of a slider leaves its limit when the motion
+    turns back. A force that stays at zero is none either: a specimen that has lost contact does the same.
     """
     model = scores.look.model
     limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}

@@ -149,14 +149,12 @@ def look_at(
     rows = dict(zip((run.name for run in runs), spread(rows_of, runs, jobs=refitter.jobs), strict=True))
     alone, rich = noise, 0.0
     if noise is None:
-        still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
-        lines = {run.name: _shapes(still, view, run, plain) for run in runs}
-        noise, alone, rich = learn_noise(rows, first, plain, refitter, lines)
+        noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
     sizes = np.sqrt(np.mean([np.mean(found[first:] ** 2, axis=1) for found in rows.values()], axis=0))
     names = tuple(dict.fromkeys(groups[run.name] for run in runs))
     grams, samples = _grams(rows, noise, groups, names)
-    inside_model = slice(first + 1 + own.size)
-    exact = beside_base(grams[:, inside_model, inside_model], np.zeros(first), first)[0]
+    of_model = slice(first + 1 + own.size)
+    exact = beside_base(grams[:, of_model, of_model], np.zeros(first), first)[0]
     grams, precision = with_form_errors(grams, first, layout, model, candidates)
     projected, moves, prior, occam = beside_base(grams, precision, first)
     return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, names, sizes,
@@ -174,6 +172,13 @@ def _shapes(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noi
     """What faults of the channel add to a run (k, kept) at unit strength, reduced."""
     shapes = [np.atleast_2d(fault.shapes(view, run.name))[:, run.first :] for fault in faults]
     return noise.reduce_shapes(run.name, np.concatenate([np.zeros((0, run.samples)), *shapes]))
+
+
+def _shown_at_rest(causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
+                   ) -> dict[str, Array]:  # fmt: skip
+    """What faults that need no motion would add to each run (k, kept)."""
+    still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
+    return {run.name: _shapes(still, view, run, noise) for run in runs}
 
 
 def _grams(rows: dict[str, Array], noise: Noise, groups: Mapping[str, str], names: Sequence[str]

@@ -36,8 +36,8 @@ class Scored:
     """A refitted structure and what it predicts.
 
     ``nats`` (groups,) are minus the log likelihood of each group left out with errors of forms allowed for, ``errors``
-    the nats that these errors cost, ``exact`` (groups,) the same as ``nats`` with the laws as they are, and ``price`` is
-    the prior of the terms.
+    the nats that these errors cost, ``exact`` (groups,) the same as ``nats`` with the laws as they are, ``price`` the
+    prior of the terms.
     """
 
     model: Model
