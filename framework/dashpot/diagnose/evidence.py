@@ -26,27 +26,24 @@ def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
     term = scores.look.model.terms[number]
     if term.cause.kind != "measurement":
         return True
-    return TESTS[term.cause.evidence_of](refitter, scores, number)
+    return is_determined(scores, number) and TESTS[term.cause.evidence_of](refitter, scores, number)
 
 
 def is_determined(scores: Scores, number: int) -> bool:
     """Whether no number of a term is at an end of its range, and no interval of one spans ``DECADES``.
 
-    The numbers of the other terms are free; a curve may have knots, and one of several branches numbers, that the data
-    do not tell.
+    The numbers of the other terms are free.
     """
     look = scores.look
     model, paths = look.model, look.model.coordinates.paths
-    if len(model.terms[number].atoms) > 1:
-        return True
-    if any(at and path in model.owned[number] and not path.endswith("]")
+    if any(at and path in model.owned[number]
            for at, path in zip(model.at_bound, paths, strict=True)):  # fmt: skip
         return False
     columns = scores.columns(Structure())
     errors = np.sqrt(np.diag(np.linalg.pinv(scores.gram[np.ix_(columns, columns)], rcond=1e-12, hermitian=True)))
     for column, error in zip(columns, errors, strict=True):
         k = look.own[column - 1]
-        if paths[k] in model.owned[number] and model.coordinates.log[k] and not paths[k].endswith("]"):
+        if paths[k] in model.owned[number] and model.coordinates.log[k]:
             deviation = error / scores.scale[column] * model.coordinates.unit[k]
             if 2.0 * INTERVAL * deviation > DECADES * np.log(10.0):
                 return False

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
-from dashpot.diagnose.evidence import has_evidence, is_determined
+from dashpot.diagnose.evidence import has_evidence
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds, Scores, Structure
@@ -195,14 +195,13 @@ class Pursuer:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
         weights = self.weights(present.nats.size)
         while True:
-            found, scores = [], self.scores_of(look, present.model)
-            for number, term in enumerate(present.model.terms):
+            found = []
+            for term in present.model.terms:
                 rest = [other for other in present.model.terms if other is not term]
                 rest = self.refitter.writable(present.model, rest)
                 scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
                 share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
-                worth = self._matters(present, scored) and is_determined(scores, number)
-                found.append(Without(term, scored, share if worth else 0.0))
+                found.append(Without(term, scored, share if self._matters(present, scored) else 0.0))
             weakest = min(found, key=lambda one: (one.share, one.scored.score), default=None)
             if weakest is None or weakest.share >= NAMED:
                 return present, tuple(found)
