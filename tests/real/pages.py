@@ -130,7 +130,7 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
     guilty = sum(bool(judge.accused(outcome, one.known_faults)) for outcome in outcomes)
     near = sum(map(judge.near_or_admitted, outcomes))
     return "\n".join([
-        f"- The same names: {', '.join(within)}.",
+        *([f"- The same names: {', '.join(within)}."] if within else []),
         f"- Told errors are those of the files, read again: {alike} of {len(outcomes)}.",
         f"- A fault of the rig that the owners do not know of: {guilty} of {len(outcomes)}.",
         f"- Within {judge.NEAR} times the explainable error on held-out runs, or said to be unexplained or partly "
@@ -141,12 +141,12 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
 def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     """The page that leads to the others."""
     yield "# Measured by others"
-    yield ("What dashpot says of measurements by others: each set from two shipped networks, with three draws of the "
-           "held-out runs, and with a fifth of the runs removed. The errors are those of the written files, read again "
+    yield ("What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
+           "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written files, read again "
            "and simulated.")  # fmt: skip
     rows = [
         (f"[{SETS[name].title}]({name}.md)", str(len(outcomes)), str(sum(map(judge.near_or_admitted, outcomes))),
-         f"{judge.share(judge.same_names(outcomes)):.0%}",
+         f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
          str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)))
         for name, outcomes in found.items()
     ]  # fmt: skip
