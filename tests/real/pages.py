@@ -142,8 +142,8 @@ def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     """The page that leads to the others."""
     yield "# Measured by others"
     yield ("What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
-           "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written files, read again "
-           "and simulated.")  # fmt: skip
+           "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written "
+           "files, read again and simulated.")  # fmt: skip
     rows = [
         (f"[{SETS[name].title}]({name}.md)", str(len(outcomes)), str(sum(map(judge.near_or_admitted, outcomes))),
          f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
