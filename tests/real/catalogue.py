@@ -112,7 +112,7 @@ def _utfsm_all() -> Iterator[Entry]:
     for current in ("0", "0x25", "0x5", "0x75", "1"):
         for record, (length, _) in UTFSM_RECORDS.items():
             if current in ("0", "1") or record in few:
-                yield _utfsm(record, current, 0.0, min(length, 10.0 if record == "25mm0x1Hz" else length))
+                yield _utfsm(record, current, 0.0, length)
 
 
 def _utfsm(record: str, current: str, start: float, length: float) -> Entry:
@@ -134,7 +134,7 @@ def _utfsm(record: str, current: str, start: float, length: float) -> Entry:
 
 def _seal(ring: str) -> Iterator[Entry]:
     for pressure in (1, 3, 5, 7):
-        for number, original in ((1, None), (2, 1), (6, None), (7, 6)):
+        for number, original in ((2, None), (3, 2), (6, None), (7, 6)):
             entry = {
                 "name": f"{pressure}bar_{number}",
                 "file": f"{ring}257_{pressure}bar-{number}.csv",

@@ -46,13 +46,17 @@ def near_or_admitted(outcome: Outcome) -> bool:
 
 
 def same_names(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], tuple[int, int]]:
-    """By set and base, how many of the repetitions name what most of them name, and how many there are."""
+    """By set and base, how many of the repetitions name what most of them name, and how many there are.
+
+    A single diagnosis repeats nothing and is left out.
+    """
     key = lambda one: (one.set, one.base)  # noqa: E731
     found = {}
     for place, group in groupby(sorted(outcomes, key=key), key):
         said = [None if one.verdict == "failed" else names(one) for one in group]
         counts = Counter(one for one in said if one is not None)
-        found[place] = (max(counts.values(), default=0), len(said))
+        if len(said) > 1:
+            found[place] = (max(counts.values(), default=0), len(said))
     return found
 
 

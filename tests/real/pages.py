@@ -45,14 +45,14 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
     """The page of a set."""
     with tempfile.TemporaryDirectory() as place:
         seen = dashpot.look(dashpot.load_dataset(one.write(Path(place))))
-    about, runs = one.owners, seen.as_dict()["runs"]
+    about, look = one.owners, seen.as_dict()
     yield f"# {one.title}"
     yield (f"Source: [{about['source']}]({about['url']}), licence {about['licence']}. The measurements are not part of "
            "dashpot.")  # fmt: skip
     yield "## What its owners say"
     yield about["owners"]
     yield "## The runs"
-    yield one.cut + " " + told_runs(runs)
+    yield one.cut + " " + told_runs(look["runs"])
     final = best_file(kept, keep / one.name)
     drawn = pictures(seen, *final, folder / one.name) if final else []
     if final:
@@ -60,7 +60,8 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
         yield f"Black is measured, blue the written file {name}: the one with the smallest error on training runs."
         yield "\n\n".join(f"![{words}]({path.name})" for words, path in drawn)
     yield "## What can be explained"
-    rows = [("noise floor", short(kept[0][1].floor)), ("explainable, on held-out runs", short(kept[0][1].explainable))]
+    rows = [("noise floor", short(look["noise_floor"].get("value"))),
+            ("explainable, on held-out runs", short(look["explainable"].get("held_out")))]  # fmt: skip
     yield table(("error (seed 0)", ""), rows)
     yield ("Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) "
            "leaves on runs that it has not seen; it differs with the runs that are held out.")  # fmt: skip
@@ -77,11 +78,12 @@ def told_runs(runs: Sequence[dict[str, object]]) -> str:
         low, high = f"{min(values):.3g}", f"{max(values):.3g}"
         return low if low == high else f"{low} to {high}"
 
+    largest = max(abs(float(run[key])) for run in runs for key in ("least_force", "largest_force"))
     back = [str(run["run"]) for run in runs if run["gives_back"]]
     energy = f"Work is given back by {', '.join(back)}." if back else "Every run takes up work."
     return (f"{len(runs)} runs of {reach('duration', 1.0)} s at {reach('sampling', 1.0)} Hz, amplitudes of "
-            f"{reach('amplitude', 1e3)} mm, speeds up to {reach('peak_speed', 1e3)} mm/s, forces up to "
-            f"{short(max(float(run['largest_force']) for run in runs))}. {energy}")  # fmt: skip
+            f"{reach('amplitude', 1e3)} mm, peak speeds of {reach('peak_speed', 1e3)} mm/s, forces up to "
+            f"{short(largest)}. {energy}")  # fmt: skip
 
 
 def best_file(kept: Kept, folder: Path) -> tuple[Path, Path] | None:
@@ -128,7 +130,7 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
     guilty = sum(bool(judge.accused(outcome, one.known_faults)) for outcome in outcomes)
     near = sum(map(judge.near_or_admitted, outcomes))
     return "\n".join([
-        f"- The same names: {', '.join(within)}.",
+        *([f"- The same names: {', '.join(within)}."] if within else []),
         f"- Told errors are those of the files, read again: {alike} of {len(outcomes)}.",
         f"- A fault of the rig that the owners do not know of: {guilty} of {len(outcomes)}.",
         f"- Within {judge.NEAR} times the explainable error on held-out runs, or said to be unexplained or partly "
@@ -139,12 +141,12 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
 def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     """The page that leads to the others."""
     yield "# Measured by others"
-    yield ("What dashpot says of measurements by others: each set from two shipped networks, with three draws of the "
-           "held-out runs, and with a fifth of the runs removed. The errors are those of the written files, read again "
-           "and simulated.")  # fmt: skip
+    yield ("What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
+           "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written "
+           "files, read again and simulated.")  # fmt: skip
     rows = [
         (f"[{SETS[name].title}]({name}.md)", str(len(outcomes)), str(sum(map(judge.near_or_admitted, outcomes))),
-         f"{judge.share(judge.same_names(outcomes)):.0%}",
+         f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
          str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)))
         for name, outcomes in found.items()
     ]  # fmt: skip

@@ -86,7 +86,8 @@ def summary(outcomes: Sequence[Outcome]) -> Iterator[str]:
     guilty = sum(bool(judge.accused(one, known[one.set])) for one in outcomes)
     yield f"a fault of the rig that its owners do not know is named: {guilty} of {count}"
     yield f"near the explainable error, or admitted: {sum(map(judge.near_or_admitted, outcomes))} of {count}"
-    yield f"same names within set and base: {judge.share(judge.same_names(outcomes)):.0%}"
+    if again := judge.same_names(outcomes):
+        yield f"same names within set and base: {judge.share(again):.0%}"
     beyond = judge.share(judge.same_beyond_bases(outcomes))
     yield f"same names from both bases, but for what they do of themselves: {beyond:.0%}"
 

@@ -41,8 +41,10 @@ def cycles(path: Path) -> list[np.ndarray]:
 
 
 def _lower_turns(displacement: np.ndarray) -> np.ndarray:
-    """Where the motion turns at its lower end: the lowest sample between two crossings of its middle."""
-    above = displacement > displacement.mean()
-    falls, rises = (np.flatnonzero(step) for step in (above[:-1] & ~above[1:], ~above[:-1] & above[1:]))
-    pairs = [(fall, rises[rises > fall][0]) for fall in falls if (rises > fall).any()]
-    return np.array([fall + int(np.argmin(displacement[fall:rise])) for fall, rise in pairs])
+    """Where the motion turns at its lower end: the lowest sample between two visits of its upper third."""
+    low, high = displacement.min(), displacement.max()
+    upper = np.flatnonzero(displacement > low + (high - low) * 2.0 / 3.0)
+    leaves = np.flatnonzero(np.diff(upper) > 1)
+    visits = [(upper[k], upper[k + 1]) for k in leaves]
+    deep = [(a, b) for a, b in visits if displacement[a:b].min() < low + (high - low) / 3.0]
+    return np.array([a + int(np.argmin(displacement[a:b])) for a, b in deep])

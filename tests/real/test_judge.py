@@ -69,6 +69,7 @@ def test_names_are_single_and_repeats_are_there(name):
 def test_strokes_are_cut_at_the_lower_end_and_freed_of_pressure(tmp_path):
     clock = np.arange(0.0, 30e3, 13.0)
     travel = -20.0 * np.cos(2.0 * np.pi * clock / 6e3)
+    travel[600] = -travel[600]  # crosses the middle and is no stroke
     friction, pressure = 5.0 * np.sign(np.sin(2.0 * np.pi * clock / 6e3)), np.full(clock.size, 3.0)
     force = friction + 1e5 * np.pi * 12.85e-3**2 * pressure
     nothing = np.zeros(clock.size)

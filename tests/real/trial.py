@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -39,12 +40,16 @@ class Trial:
     def word(self) -> str:
         return f"{self.base}-{self.seed}{'-fewer' if self.fewer else ''}"
 
-    def run(self, folder: Path) -> Outcome:
-        """Diagnose within `folder`, hold the files against what was told, and keep the outcome there."""
+    def removed(self) -> list[str]:
+        """A fifth of the runs."""
         names = [str(entry["name"]) for entry in self.set.runs()]
         rng = np.random.default_rng(seed_of(f"{self.set.name}-{self.word}"))
-        gone = rng.choice(names, len(names) // 5, replace=False) if self.fewer else ()
-        dataset = self.set.write(folder / "data", gone)
+        return rng.choice(names, len(names) // 5, replace=False).tolist()
+
+    def run(self, folder: Path) -> Outcome:
+        """Diagnose within `folder`, hold the files against what was told, and keep the outcome there."""
+        shutil.rmtree(folder, ignore_errors=True)
+        dataset = self.set.write(folder / "data", self.removed() if self.fewer else ())
         found = folder / "diagnosis"
         command = [*DASHPOT, "diagnose", self.base, dataset, "-o", found, "--seed", self.seed, "--jobs", 1, "--force"]
         spent = measured_command(list(map(str, command)), folder / "log.txt")

@@ -7,13 +7,14 @@ data leave open of its numbers, does not count.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause
 from dashpot.data.drive import drive_from_samples
+from dashpot.data.excitation import Excitation
 from dashpot.diagnose.proposals import LONGEST, Proposal, runs_to_choose_from
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model
@@ -23,6 +24,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.settings import used_settings
 
 Array = NDArray[np.float64]
 
@@ -33,15 +35,21 @@ MOST_TRIED = 3
 
 @dataclass(frozen=True)
 class NextRun:
-    """A run and the squared distance, in units of the noise, that it is expected to bring between two models."""
+    """A run and the squared distance, in units of the noise, that it is expected to bring between two models.
+
+    Its settings, where a model depends on them, are those of the run ``like``.
+    """
 
     proposal: Proposal
     distance: float
+    like: str = ""
 
     @property
     def words(self) -> str:
         """The run with what is to be expected of it."""
-        return f"{self.proposal.words}: the two would differ by {np.sqrt(self.distance):.2g} standard deviations"
+        settings = f", with the settings of '{self.like}'" if self.like else ""
+        apart = f"the two would differ by {np.sqrt(self.distance):.2g} standard deviations"
+        return f"{self.proposal.words}{settings}: {apart}"
 
 
 def next_run(refitter: Refitter, one: Model, other: Model, noise: Noise) -> NextRun | None:
@@ -62,16 +70,20 @@ def next_run(refitter: Refitter, one: Model, other: Model, noise: Noise) -> Next
 
 @dataclass(frozen=True, eq=False)
 class _Pair:
-    """Two models with the directions in which the present data leave each of them open."""
+    """Two models with the directions in which the present data leave each of them open.
+
+    ``like`` is the run whose settings hold where the models depend on some.
+    """
 
     models: tuple[Model, Model]
     known: tuple[Array, Array]
     deviation: float
+    like: ScoredRun
 
     @classmethod
     def of(cls, refitter: Refitter, one: Model, other: Model, noise: Noise) -> _Pair:
         known = known_directions(refitter, one, noise), known_directions(refitter, other, noise)
-        return cls((one, other), known, noise_deviation(refitter, noise))
+        return cls((one, other), known, noise_deviation(refitter, noise), refitter.runs[0])
 
     def tell(self, proposal: Proposal) -> NextRun:
         """How far the two come apart on a run, whichever is true.
@@ -79,14 +91,16 @@ class _Pair:
         Where one has fewer numbers it has to miss what the other one foresees; if it is true itself, the other one has
         to give up what it owes to chance.
         """
-        run = _as_run(proposal)
+        settings = self.like.excitation.settings
+        run = _as_run(proposal, settings)
         forces = [_force(model, run) for model in self.models]
         fewest = min(model.point.size for model in self.models)
         distances = [
             _distance(forces[1] - forces[0], _tangents(model, run), directions, self.deviation)
             for model, directions in zip(self.models, self.known, strict=True) if model.point.size == fewest
         ]  # fmt: skip
-        return NextRun(proposal, min(distances))
+        depends = any(used_settings(model.fitted, settings) for model in self.models)
+        return NextRun(proposal, min(distances), self.like.name if depends else "")
 
 
 def noise_deviation(refitter: Refitter, noise: Noise) -> float:
@@ -104,10 +118,11 @@ def known_directions(refitter: Refitter, model: Model, noise: Noise) -> Array:
     return (vectors[:, kept] / np.sqrt(values[kept])).T / scale
 
 
-def _as_run(proposal: Proposal) -> ScoredRun:
+def _as_run(proposal: Proposal, settings: Mapping[str, float]) -> ScoredRun:
     displacement = proposal.displacement
     drive = drive_from_samples(proposal.dt, displacement)
-    return ScoredRun("next", "sweep", drive, np.zeros(displacement.size), displacement.size // 20)
+    whole = replace(Excitation.of_drive(drive), settings=settings)
+    return ScoredRun("next", "sweep", drive, np.zeros(displacement.size), displacement.size // 20, whole=whole)
 
 
 def _force(model: Model, run: ScoredRun) -> Array:
