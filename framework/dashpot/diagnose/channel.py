@@ -1,9 +1,10 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
-A specimen answers the same motion alike. So a run may be accused where its repeat disagrees, or where other, sound
-runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at a setting is
-not. Where no repeat tells, what the same fault would explain in all other runs is the error of the model: nats are
-divided by this overdispersion. Samples of what a fault leaves that follow from one another count as fewer.
+A specimen answers the same motion alike, or changes from test to test in one way. So a run may be accused where its
+repeat disagrees as other repeats do not, or where other, sound runs cover the conditions under which it was made; one
+that is the fastest, the largest or the only one at a setting is not. Where no repeat tells, what the same fault would
+explain in all other runs is the error of the model: nats are divided by this overdispersion. Samples of what a fault
+leaves that follow from one another count as fewer.
 """
 
 from __future__ import annotations
@@ -89,9 +90,15 @@ def disagreeing(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: M
 
 
 def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
-    """The pairs of repeats that differ by a kind of fault."""
-    columns = next(len(shapes) for (_, number), shapes in rows.shapes.items() if number == kind)
-    return [pair for pair in pairs if _contrast(rows, *pair, kind) > price + columns]
+    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test."""
+    strengths = {pair: _strengths(*_difference(rows, *pair, kind)) for pair in pairs}
+    found = []
+    for pair in pairs:
+        others = [strengths[other] for other in pairs if other != pair]
+        usual = np.mean(others, axis=0) if others else np.zeros_like(strengths[pair])
+        if _contrast(*_difference(rows, *pair, kind), usual) > price + usual.size:
+            found.append(pair)
+    return found
 
 
 def overdispersion(nats: Sequence[float], columns: int) -> float:
@@ -124,18 +131,28 @@ def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
     return found
 
 
-def _contrast(rows: _Rows, one: str, other: str, kind: int) -> float:
-    """The nats that a kind explains of the difference between two repeats."""
+def _difference(rows: _Rows, one: str, other: str, kind: int) -> tuple[Array, Array]:
+    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault."""
     shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
-    difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
-    rest = _beside(difference, shapes)
-    explained = float(difference @ difference) / max(float(rest @ rest), 1e-300)
+    return (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0), shapes
+
+
+def _contrast(difference: Array, shapes: Array, usual: Array) -> float:
+    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do."""
+    rest, changed = _beside(difference, shapes), difference - usual @ shapes
+    before = min(float(difference @ difference), float(changed @ changed))
+    explained = before / max(float(rest @ rest), 1e-300)
     return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
 
 
 def _beside(values: Array, shapes: Array) -> Array:
     """What the best strengths of shapes (k, n) leave of values (n,)."""
-    return values - np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0] @ shapes
+    return values - _strengths(values, shapes) @ shapes
+
+
+def _strengths(values: Array, shapes: Array) -> Array:
+    """The strengths (k,) of shapes (k, n) that explain most of values (n,)."""
+    return np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0]
 
 
 def accuse(

@@ -17,7 +17,6 @@ AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter abo
 FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
 DECADES, INTERVAL = 2.0, 1.96  # of a number that nothing tells; of a normal distribution, 95 %
 ZERO = 2.0  # standard errors
-TURNING = 0.25  # of an excursion: at least so much of it rises, and falls
 FEWEST_PEAKS = 2  # excursions that end at the same value: it comes again
 
 
@@ -114,8 +113,11 @@ def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     if sum(one[-1] for one in found) < FEWEST_PEAKS:
         return False
     free_all, shown, falling = (np.concatenate([one[k] for one in found]) for k in range(3))
-    rise = np.polyfit(free_all, shown, 1)[0] if np.ptp(free_all) > 0.0 else 1.0
-    return bool(rise < FLAT and TURNING < np.mean(falling) < 1.0 - TURNING)
+    return all(_slope(free_all[part], shown[part]) < FLAT for part in (falling, ~falling))
+
+
+def _slope(x: Array, y: Array) -> float:
+    return float(np.polyfit(x, y, 1)[0]) if x.size > 1 and np.ptp(x) > 0.0 else 1.0
 
 
 def _numbers(model: Model) -> Mapping[str, float]:

@@ -134,7 +134,8 @@ class Pursuer:
             self.watch(looks, len(look.model.terms))
             scores = Scores(look)
             present = self.scored(look, look.model, scores.odds)
-            best = min(self.trials(scores, search(scores)), key=lambda trial: trial.score, default=present)
+            trials = (trial for trial in self.trials(scores, search(scores)) if self._surely(trial, present))
+            best = min(trials, key=lambda trial: trial.score, default=present)
             if not best.score < present.score:
                 return look, looks, True
             look = self.look(best.model)
@@ -195,17 +196,24 @@ class Pursuer:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
         weights = self.weights(present.nats.size)
         while True:
-            found = []
-            for term in present.model.terms:
+            found, seen = [], self.scores_of(look, present.model)
+            for number, term in enumerate(present.model.terms):
                 rest = [other for other in present.model.terms if other is not term]
                 rest = self.refitter.writable(present.model, rest)
                 scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
                 share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
-                found.append(Without(term, scored, share if self._matters(present, scored) else 0.0))
+                worth = self._matters(present, scored) and has_evidence(self.refitter, seen, number)
+                found.append(Without(term, scored, share if worth else 0.0))
             weakest = min(found, key=lambda one: (one.share, one.scored.score), default=None)
             if weakest is None or weakest.share >= NAMED:
                 return present, tuple(found)
             present = weakest.scored
+
+    def _surely(self, trial: Scored, present: Scored) -> bool:
+        """Whether a larger structure predicts more than its prior odds, by the draws, with the laws as they are."""
+        weights = self.weights(present.exact.size)
+        better = trial.drawn_exactly(weights) < present.drawn_exactly(weights)
+        return trial.price <= present.price or float(np.mean(better)) >= NAMED
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""

@@ -69,10 +69,8 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
     found = []
     for k, candidate in enumerate(scores.look.candidates):
         if k not in used and (best := _places(candidate, left)):
-            gain, added = best[0], Added(k, best[1])
-            merit = gain - scores.joining(added)
-            if merit > 0.0:
-                found.append((merit, added))
+            added = Added(k, best[1])
+            found.append((best[0] - scores.joining(added), added))
     found.sort(key=lambda pair: -pair[0])
     return _varied(scores, [added for _, added in found])
 
@@ -135,8 +133,9 @@ def _jointly(own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected,
     at = own[alive]
     matrix, right = left.gram[np.ix_(at, at)] + 1e-7 * np.eye(at.size), left.right[at]
     if positive:
-        root = np.linalg.cholesky(matrix + 1e-9 * np.trace(matrix) * np.eye(at.size))
-        strengths = nnls(root.T, np.linalg.solve(root, right))[0]
+        sizes, axes = np.linalg.eigh(matrix)
+        root = np.sqrt(np.maximum(sizes, 1e-9 * sizes[-1]))
+        strengths = nnls(root[:, None] * axes.T, axes.T @ right / root)[0]
     else:
         strengths = np.linalg.solve(matrix, right)
     kept = alive[strengths != 0.0]
