@@ -140,6 +140,7 @@ class Diagnosis(Findings):
             "rejected": self._rejected(),
             "limits": self.limits(),
             "leftover": vars(self.leftover),
+            "remarks": self.remarks,
             "seed": self.seed,
         }
 
@@ -221,7 +222,7 @@ class Diagnosis(Findings):
         residuals = {"before": self.residuals(self.written_before, self.setting)}
         if self.named:
             residuals["after"] = self.residuals(self.written, self.after_setting)
-        triage = [*(fault.sentence for fault in self.triage.faults), *self.triage.remarks]
+        triage = [*(fault.sentence for fault in self.triage.faults), *self.remarks]
         untried = [f"The cause '{word}' could not be tried: {reason}" for word, reason in self.pursuit.look.unavailable]
         return {
             **signal_evidence(self.setting.dataset.runs, residuals),

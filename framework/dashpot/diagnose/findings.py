@@ -36,6 +36,7 @@ from dashpot.triage.examine import Triage
 
 Array = NDArray[np.float64]
 
+ALONE = 2.0  # times the error of the worst training run
 NEAR_FLOOR = 2.0  # times the noise floor: beyond it a model errs by more than noise
 
 
@@ -177,6 +178,16 @@ class Findings:
         """What a general model of the past motion leaves; trees are grown only where the model is far from noise."""
         floor = self.setting.floor.value
         return explainable_error(self.setting, self.seed, not floor or self.after.train > NEAR_FLOOR * floor)
+
+    @property
+    def remarks(self) -> list[str]:
+        """What to say of the data and the search; a fault that only a held-out run has stands here and nowhere else."""
+        errors = self.after.per_run
+        worst = max(errors[run] for run in self.setting.split.train)
+        alone = [f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
+                 "it has a fault, or was made under conditions that these do not have. It decided nothing."
+                 for run in self.setting.split.held_out if errors[run] > ALONE * worst]  # fmt: skip
+        return [*self.triage.remarks, *alone]
 
     def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
         """Measured minus simulated force (n,) of every run, warm-up included."""
