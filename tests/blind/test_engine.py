@@ -37,7 +37,6 @@ def test_nothing_is_named_where_nothing_is_hidden(seed):
     assert any(outcome.verdict["verdict"] == NOTHING for outcome in outcomes)
 
 
-@pytest.mark.xfail(strict=False, reason="known defect: a fault of the only run is named friction")
 def test_a_diagnosis_goes_through_on_a_single_run(seed):
     """With one sweep there is nothing to hold out: no gain is invented, save that of a fault on pieces of its run."""
     outcome = Bench("one_sweep").run(seed, "kelvin_voigt", "friction", STRENGTH)

@@ -50,7 +50,9 @@ def test_the_score_is_the_log_likelihood_and_the_prior():
     structure = joined((0,))
     squares = scores.predicted(structure)[0]
     assert scores.nats(structure) == pytest.approx(0.5 * 200 * np.log(squares))
-    assert scores.score(structure) == pytest.approx(scores.nats(structure).sum() + np.log(6 / FALSE_ALARMS))
+    # its form has a strength and one number more
+    prior = np.log(6 / FALSE_ALARMS) + np.log(10.0)
+    assert scores.score(structure) == pytest.approx(scores.nats(structure).sum() + prior)
 
 
 def test_a_strength_of_the_wrong_sign_is_not_admitted():
@@ -74,3 +76,8 @@ def test_the_rig_has_to_be_a_hundred_times_as_likely_as_a_law():
     assert Odds(50).price("specimen") == pytest.approx(np.log(50 / 0.01))
     assert Odds(50).price("measurement") - Odds(50).price("specimen") == pytest.approx(-np.log(RIG_ODDS))
     assert Odds(0).price("specimen") == pytest.approx(np.log(100.0))
+
+
+def test_a_law_with_a_number_more_has_to_be_ten_times_as_likely():
+    assert Odds(50).price("specimen", 3) - Odds(50).price("specimen", 1) == pytest.approx(2.0 * np.log(10.0))
+    assert Odds(50).price("specimen", 0) == Odds(50).price("specimen")
