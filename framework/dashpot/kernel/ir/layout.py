@@ -11,8 +11,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 from dashpot.expr.node import Node
-from dashpot.kernel.stages import cut_stages
-from dashpot.kernel.tiers import Program
+from dashpot.kernel.ir.program import Program
+from dashpot.kernel.ir.stages import cut_stages
+from dashpot.model.network import Characteristic
+
+LANES = 8  # that every target takes side by side, or one after the other
 
 # printed as it is, hoisted per lane, hoisted per sample, a memory, or computed in the loop
 Kind = Literal["number", "lane", "drive", "state", "result"]
@@ -32,6 +35,16 @@ class Shelf:
 
     base: int
     count: int
+
+
+def shelves_of(curves: Mapping[str, Characteristic]) -> dict[str, Shelf]:
+    """Where every tabulated one of the curves stands, one after the other."""
+    shelves, base = {}, 0
+    for path, curve in curves.items():
+        if curve.form == "table":
+            shelves[path] = Shelf(base, len(curve.at))
+            base += len(curve.at) + 1
+    return shelves
 
 
 @dataclass(frozen=True)

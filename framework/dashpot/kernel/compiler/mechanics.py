@@ -26,9 +26,9 @@ import numpy as np
 from dashpot.expr.derive import derive
 from dashpot.expr.node import Node, constant, maximum, minimum, symbol, where
 from dashpot.expr.rebuild import replaced
-from dashpot.kernel.elimination import ZERO, Mount, solve_symmetric
-from dashpot.kernel.own_tables import with_own_tables
-from dashpot.kernel.trace import RATES, TracedBranch, trace_along
+from dashpot.kernel.compiler.elimination import ZERO, Mount, solve_symmetric
+from dashpot.kernel.compiler.own_tables import with_own_tables
+from dashpot.kernel.compiler.trace import RATES, TracedBranch, trace_along
 from dashpot.model.topology import COMPLIANCE, Edge, Topology
 
 SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from enum import IntFlag
 
 from dashpot.expr.node import Node, apply, constant, symbol, walk, with_arguments
-from dashpot.kernel.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
-from dashpot.kernel.trace import TracedBranch
+from dashpot.kernel.compiler.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
+from dashpot.kernel.compiler.trace import TracedBranch
+from dashpot.kernel.ir.program import Lookup, Program
 
 ONE, ZERO = constant(1.0), constant(0.0)
 
@@ -26,43 +26,6 @@ class Tier(IntFlag):
     LANE = 1
     DRIVE = 2
     STATE = 7
-
-
-@dataclass(frozen=True)
-class Lookup:
-    """A tabulated curve at an argument that depends on the drive alone."""
-
-    curve: str
-    argument: Node
-
-
-@dataclass(frozen=True, eq=False)
-class Program:
-    """A network ready to be printed: what is hoisted, and what the passes over the lanes compute.
-
-    A step computes ``force`` and ``updates``; at a turning point the states in ``turning`` alone move. Where one of the
-    ``events`` is true, ``corrections`` of old states come first.
-    """
-
-    columns: tuple[Node, ...]
-    constants: tuple[Node, ...]
-    lookups: tuple[Lookup, ...]
-    followers: Mapping[str, Node]
-    force: Node
-    updates: Mapping[str, Node]
-    turning: tuple[str, ...]
-    events: tuple[Node, ...]
-    corrections: Mapping[str, Node]
-
-    @property
-    def states(self) -> tuple[str, ...]:
-        """The memories of the lanes."""
-        return tuple(self.updates)
-
-    @property
-    def roots(self) -> list[Node]:
-        """What a step computes."""
-        return [self.force, *self.updates.values()]
 
 
 def sort_tiers(branches: Sequence[TracedBranch]) -> Program:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dashpot.kernel.assembly import LANES, Bundle, joined
+from dashpot.kernel.ir.layout import LANES
+from dashpot.kernel.targets.llvm.assembly import Bundle, joined
 
 
 def packed(bundles: Sequence[Bundle]) -> Bundle:

@@ -17,8 +17,8 @@ from dashpot.data.drive import Drive
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node, constant, symbol, symbols_of, walk
 from dashpot.expr.rebuild import rebuild
-from dashpot.kernel.stages import LONG
-from dashpot.kernel.trace import RATES, STATE_MARK
+from dashpot.kernel.compiler.trace import RATES, STATE_MARK
+from dashpot.kernel.ir.stages import LONG
 
 Array = NDArray[np.float64]
 Seen = Mapping[str, Array | float]

@@ -8,10 +8,10 @@ from functools import partial
 from typing import Any
 
 from dashpot.expr.node import Node, is_logical
-from dashpot.kernel import functions
-from dashpot.kernel.assembly import BITS, LANES, NUMBER, TRUTH, Assembly, Bundle, joined, parted
-from dashpot.kernel.layout import Fusion, Layout, Shelf
-from dashpot.kernel.packing import packed, unpacked
+from dashpot.kernel.ir.layout import LANES, Fusion, Layout, Shelf
+from dashpot.kernel.targets.llvm import functions
+from dashpot.kernel.targets.llvm.assembly import BITS, NUMBER, TRUTH, Assembly, Bundle, joined, parted
+from dashpot.kernel.targets.llvm.packing import packed, unpacked
 
 POWERS = 4  # coefficients of a cubic
 TOGETHER = 8  # vectors of arguments of long functions at once

@@ -13,8 +13,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from dashpot.kernel.ir.layout import LANES
+
 T = TypeVar("T")
-LANES = 8  # in a vector; processors with narrower ones take several steps
+# a vector has all LANES; processors with narrower ones take several steps
 NUMBER, BITS, TRUTH = f"<{LANES} x double>", f"<{LANES} x i64>", f"<{LANES} x i1>"
 INTRINSICS = {"fabs": 1, "sqrt": 1, "fmuladd": 3}
 

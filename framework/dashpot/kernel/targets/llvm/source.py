@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dashpot.kernel.assembly import LANES, Assembly, Bundle
-from dashpot.kernel.layout import Passes, score_row
-from dashpot.kernel.passes import Arrays, Pass, library_functions
-from dashpot.kernel.tiers import Program
+from dashpot.kernel.ir.layout import LANES, Passes, score_row
+from dashpot.kernel.ir.program import Program
+from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
+from dashpot.kernel.targets.llvm.passes import Arrays, Pass, library_functions
 
 # the machine's full width; without the word LLVM halves the vectors of many processors
 ATTRIBUTES = 'attributes #0 = { nounwind "prefer-vector-width"="512" }\n'

@@ -9,7 +9,6 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import os
-import tempfile
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
@@ -17,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dashpot.text.problem import InputError, Place
+from dashpot.kernel.targets.cache import cache_folder, keep
 
 if TYPE_CHECKING:
     from llvmlite.binding import TargetMachine
@@ -41,15 +40,6 @@ class Native:
 
 def _place(argument: np.ndarray | int | None) -> int | None:
     return argument.__array_interface__["data"][0] if isinstance(argument, np.ndarray) else argument
-
-
-def cache_folder() -> Path:
-    """``DASHPOT_CACHE``, or ``dashpot`` in the user's cache folder."""
-    given = os.environ.get("DASHPOT_CACHE")
-    if given:
-        return Path(given)
-    base = os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA")
-    return (Path(base) if base else Path.home() / ".cache") / "dashpot"
 
 
 def load_native(text: str, count: int) -> Native:
@@ -85,7 +75,7 @@ def _native(text: str, count: int, folder: str, maker: tuple[str, str, str]) -> 
     code = _kept(file)
     if code is None:
         code = compiled(text, *target)
-        _keep(file, code)
+        keep(file, hashlib.sha256(code).digest() + code)
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine(*target))
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -135,16 +125,3 @@ def _kept(file: Path) -> bytes | None:
         return None
     code = content[DIGEST:]
     return code if hashlib.sha256(code).digest() == content[:DIGEST] else None
-
-
-def _keep(file: Path, code: bytes) -> None:
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(hashlib.sha256(code).digest() + code)
-        os.replace(temporary, file)
-    except OSError as error:
-        message = f"compiled networks cannot be kept here: {error.strerror}"
-        hint = "let the environment variable DASHPOT_CACHE name a folder that may be written"
-        raise InputError.at(Place(str(file.parent)), message, hint) from None

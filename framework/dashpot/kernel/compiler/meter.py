@@ -10,9 +10,9 @@ from collections.abc import Mapping
 
 from dashpot.expr.node import Node, symbol
 from dashpot.expr.rebuild import replaced
-from dashpot.kernel.elimination import ZERO
-from dashpot.kernel.mechanics import GIVES_WAY, GRAVITY, Balance, Moving, Rows, row_of
-from dashpot.kernel.trace import TracedBranch, trace_stored
+from dashpot.kernel.compiler.elimination import ZERO
+from dashpot.kernel.compiler.mechanics import GIVES_WAY, GRAVITY, Balance, Moving, Rows, row_of
+from dashpot.kernel.compiler.trace import TracedBranch, trace_stored
 from dashpot.model.topology import Edge, Topology
 
 WORK, STORED, BEGIN = "work", "stored", "begin"

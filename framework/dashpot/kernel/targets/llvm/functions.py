@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from dashpot.kernel.assembly import BITS, NUMBER, Bundle
+from dashpot.kernel.targets.llvm.assembly import BITS, NUMBER, Bundle
 
 LOG2_E, LN_2 = 1.4426950408889634, 0.6931471805599453
 LN_2_HIGH, LN_2_LOW = 0.693145751953125, 1.4286068203094173e-06

@@ -1,25 +1,17 @@
 """Writing a network with unknown nodes as one self-contained text of LLVM assembly.
 
-The equilibrium is found first. Then every sample is reached twice, in few long steps and in twice as many short ones:
-their difference tells the error and takes its leading term away (Richardson). A step is a chain of passes over a group
-of lanes: predict, improve until every lane is done, commit.
+Every pass over a group of lanes is a function of its own; the loop of ``SystemProgram`` calls them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from dashpot.expr.node import Node
-from dashpot.kernel.assembly import LANES, Assembly, Bundle
-from dashpot.kernel.layout import Layout, Shelf
-from dashpot.kernel.mechanics import DONE, Equations, force_row, row_of
-from dashpot.kernel.passes import Arrays, Pass
-from dashpot.kernel.source import whole
-from dashpot.kernel.tiers import Program
-
-MOST_STEPS, MOST_STATIC_STEPS = 40, 400
-UNSOLVED, UNBALANCED = 1, 2
-THIRD = 0.3333333333333333
+from dashpot.kernel.ir.layout import LANES, Layout
+from dashpot.kernel.ir.system import MOST_STATIC_STEPS, MOST_STEPS, THIRD, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
+from dashpot.kernel.targets.llvm.passes import Arrays, Pass
+from dashpot.kernel.targets.llvm.source import whole
 
 ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples", "ptr %space", "ptr %status",
              "ptr %tables", "ptr %knots", "ptr %measured", "ptr %weight", "ptr %out", "ptr %miss",
@@ -27,25 +19,7 @@ ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
-class SystemLayouts:
-    """The passes of a network with the rows that they use."""
-
-    def __init__(self, program: Program, equations: Equations, shelves: Mapping[str, Shelf],
-                 passes: Mapping[str, Mapping[str, Node]]) -> None:  # fmt: skip
-        self.program, self.equations = program, equations
-        self.layouts = {name: Layout(program, rows, shelves=shelves) for name, rows in passes.items()}
-
-    @property
-    def rows(self) -> int:
-        """How many rows the workspace needs."""
-        return len(self.program.constants) + len(self.program.states)
-
-    def row(self, name: str) -> int:
-        """The number of a row."""
-        return next(iter(self.layouts.values())).states[name]
-
-
-def print_system(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequence[str], vectors: int) -> str:
+def print_system(system: SystemProgram, vectors: int) -> str:
     """The text for groups of so many ``vectors`` of lanes: the function ``run``.
 
     ``still`` (1, columns), ``coarse`` and ``fine`` (steps, columns) are what drives the steps, ``per`` is the number of
@@ -54,34 +28,33 @@ def print_system(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequenc
     it, it adds weight * (force - measured)^2 to the first of ``out``, the other two being (samples, driven nodes).
     ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses.
     """
-    return whole("run", ARGUMENTS, _run(layouts, driven, unknown, vectors)) + "".join(
-        _pass(layouts.layouts[name], name, vectors) for name in layouts.layouts
-    )
+    passes = (_pass(layout, name, vectors) for name, layout in system.passes.items())
+    return whole("run", ARGUMENTS, _run(system, vectors)) + "".join(passes)
 
 
-def _run(layouts: SystemLayouts, driven: Sequence[str], unknown: Sequence[str], vectors: int) -> Assembly:
-    a, width = Assembly(), LANES * vectors
+def _run(system: SystemProgram, vectors: int) -> Assembly:
+    a, width, done = Assembly(), LANES * vectors, system.row(system.done)
     a.do("%left = alloca i64")
-    halves = ["%space", a.address("%space", layouts.rows * width)]
+    halves = ["%space", a.address("%space", system.rows * width)]
     finer = a.new("mul i64 %per, 2")
     for space in halves:
         _call(a, "start", "%still", space)
-        _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, layouts.row(DONE), vectors)
+        _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, done, vectors)
         _call(a, "rest", "%still", space)
     with a.loop(0, "%samples") as k:
         with a.when(a.new(f"icmp sgt i64 {k}, 0")):
             for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):
                 first = a.product(a.new(f"sub i64 {k}, 1"), count)
                 with a.loop(first, a.new(f"add i64 {first}, {count}")) as j:
-                    row = a.address(columns, a.product(j, len(layouts.program.columns)))
+                    row = a.address(columns, a.product(j, len(system.program.columns)))
                     _call(a, "predict", row, space)
-                    _newton(a, "improve", row, space, MOST_STEPS, UNSOLVED, layouts.row(DONE), vectors)
+                    _newton(a, "improve", row, space, MOST_STEPS, UNSOLVED, done, vectors)
                     _call(a, "commit", row, space)
         writer = _Writer(a, halves, vectors, k)
-        forces = [layouts.row(force_row(joint)) for joint in driven]
-        places = [layouts.row(row_of(joint, "position")) for joint in unknown]
+        forces = [system.row(name) for name in system.forces]
+        places = [system.row(name) for name in system.places]
         with a.when(a.new("icmp eq i64 %scoring, 0")):
-            writer.store([*forces, *places], len(driven))
+            writer.store([*forces, *places], len(forces))
         with a.when(a.new("icmp ne i64 %scoring, 0")):
             writer.score(forces)
     a.do("ret void")
