@@ -19,7 +19,7 @@ from dashpot.kernel.compiler.compile import system_of
 from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
 from dashpot.kernel.ir.layout import LANES
-from dashpot.kernel.ir.system import UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
 from dashpot.kernel.scheme import PAIR, alternate
 from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.targets.choice import Code, target
@@ -31,7 +31,6 @@ Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
 PAIRS = 1  # coarse steps in a sample, in pairs
-TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3
 
 
 class Status(Enum):

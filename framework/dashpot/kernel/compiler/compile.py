@@ -23,13 +23,14 @@ from dashpot.kernel.compiler.mechanics import (
     write_equations,
 )
 from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
-from dashpot.kernel.compiler.trace import trace_network
+from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_network
 from dashpot.kernel.ir.layout import Layout, shelves_of
+from dashpot.kernel.ir.online import Online
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import SystemProgram
 from dashpot.model.element import Element
 from dashpot.model.network import Branch, NetworkSpec
-from dashpot.model.topology import Topology
+from dashpot.model.topology import Topology, topology_of
 
 KEPT = 512
 
@@ -53,6 +54,27 @@ def system_of(
     """The program of a network with unknown nodes; a ``meter`` goes along, and laws may refer to ``signals``."""
     build = _Build((_structure_of(topology), tuple(signals)), (spec, topology, tuple(signals)))
     return _balanced(build, meter) if meter else _shared(build)
+
+
+def online_of(spec: NetworkSpec) -> Online:
+    """The program of a network that somebody else steps. InputError for a curve that has no numbers yet."""
+    refuse_missing_numbers(spec)
+    topology = topology_of(spec)
+    system = None if topology.parallel else system_of(spec, topology)
+    program = system.program if system else program_of(spec)
+    tables = [curve for curve in spec.curves().values() if curve.form == "table"]
+    return Online(
+        program,
+        system,
+        topology.held("driven"),
+        topology.held("loaded"),
+        topology.unknown,
+        {inner: joint for joint, inner in topology.mounts.items()},
+        tuple(slot.path for slot in spec.slots()),
+        spec.gravity,
+        shelves_of(spec.curves()),
+        tuple(at for curve in tables for at in (curve.at[0], *curve.at)),
+    )
 
 
 @lru_cache(KEPT)

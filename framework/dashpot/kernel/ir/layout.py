@@ -30,11 +30,13 @@ def score_row(program: Program) -> int:
 class Shelf:
     """Where a curve begins in the tables, by segments, and how many knots it has.
 
-    A list of knots has the knot from which each segment is measured: the first one twice.
+    A list of knots has the knot from which each segment is measured: the first one twice. Outside its knots a curve
+    goes on straight, a ``level`` one stays as it is.
     """
 
     base: int
     count: int
+    level: bool = False
 
 
 def shelves_of(curves: Mapping[str, Characteristic]) -> dict[str, Shelf]:
@@ -42,7 +44,7 @@ def shelves_of(curves: Mapping[str, Characteristic]) -> dict[str, Shelf]:
     shelves, base = {}, 0
     for path, curve in curves.items():
         if curve.form == "table":
-            shelves[path] = Shelf(base, len(curve.at))
+            shelves[path] = Shelf(base, len(curve.at), curve.curve.value[1] == "1")
             base += len(curve.at) + 1
     return shelves
 

@@ -16,6 +16,7 @@ from dashpot.kernel.ir.program import Program
 MOST_STEPS, MOST_STATIC_STEPS = 40, 400
 UNSOLVED, UNBALANCED = 1, 2
 THIRD = 0.3333333333333333
+TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3  # of Newton's steps: shares of the span of the motion, and m
 
 
 @dataclass(frozen=True, eq=False)
