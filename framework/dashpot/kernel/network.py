@@ -65,7 +65,7 @@ class CompiledNetwork(Compiled[Rows]):
         code, width = self._group(lanes.shape[0])
         for block in self._blocks(run.drive.dt, lanes, width):
             buffer = np.empty((run.drive.samples, width))
-            code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer)
+            code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer, block.count)
             out[block.place] = buffer.T[: block.count]
         return out[0] if values is None or np.ndim(values) == 1 else out
 
@@ -87,7 +87,7 @@ class CompiledNetwork(Compiled[Rows]):
             aims = [np.ascontiguousarray(aim, dtype=float) for aim in (target, weight)]
             for block in blocks[_make(run)]:
                 workspace = block.fresh_workspace()
-                code(*_arguments(run, block, workspace), *aims, None)
+                code(*_arguments(run, block, workspace), *aims, None, block.count)
                 out[block.place] = workspace[-1, : block.count]
             return out
 

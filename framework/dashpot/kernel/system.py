@@ -198,7 +198,7 @@ class CompiledSystem(Compiled[SystemRows]):
         measured, weight = scoring or (None, None)
         self.native(
             run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, block.workspace, status,
-            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None),
+            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None), block.count,
         )  # fmt: skip
         return status[: block.count]
 

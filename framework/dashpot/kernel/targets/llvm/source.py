@@ -17,13 +17,13 @@ from dashpot.kernel.targets.llvm.passes import Arrays, Pass, library_functions
 # the machine's full width; without the word LLVM halves the vectors of many processors
 ATTRIBUTES = 'attributes #0 = { nounwind "prefer-vector-width"="512" }\n'
 ARGUMENTS = ("ptr %columns", "ptr %index", "ptr %local", "i64 %samples", "ptr %turn_at",
-             "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out")  # fmt: skip
+             "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out", "i64 %asked")  # fmt: skip
 
 
 def print_source(program: Program, vectors: int, alone: bool = False) -> str:
     """The text of a network for groups of so many ``vectors`` of lanes: the function ``run``.
 
-    With ``alone`` all lanes of a group are the same one.
+    With ``alone`` all lanes of a group are the same one. However many lanes are ``asked`` for, all are computed.
 
     It takes ``columns`` (samples, columns), ``index`` and ``local`` (samples, lookups), ``turn_at`` (turns + 1,),
     ``turn_columns`` (turns, columns), ``tables`` (segments, 4, lanes), the workspace ``w`` (rows, lanes), ``measured``

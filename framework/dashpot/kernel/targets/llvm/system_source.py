@@ -15,7 +15,7 @@ from dashpot.kernel.targets.llvm.source import whole
 
 ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples", "ptr %space", "ptr %status",
              "ptr %tables", "ptr %knots", "ptr %measured", "ptr %weight", "ptr %out", "ptr %miss",
-             "i64 %scoring")  # fmt: skip
+             "i64 %scoring", "i64 %asked")  # fmt: skip
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
