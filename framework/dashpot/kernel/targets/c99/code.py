@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
 from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
 
@@ -41,7 +43,19 @@ class CCode(Code):
         """A static function."""
         self.lines += ["", f"/* {about} */"]
         names = [f"double *{name}" if each == "array" else f"{TYPES[each]} {name}" for each, name in arguments]
-        return self.indented(f"static {TYPES[kind]} {name}({', '.join(names)})\n{{", "}")
+        return self._body(f"static inline {TYPES[kind]} {name}({', '.join(names)})", [name for _, name in arguments])
+
+    @contextmanager
+    def _body(self, head: str, arguments: Sequence[str]) -> Iterator[None]:
+        self.lines += [head, "{"]
+        first = len(self.lines)
+        self.depth += 1
+        yield
+        body = "\n".join(self.lines[first:])
+        idle = [f"    (void){name};" for name in arguments if not re.search(rf"\b{name}\b", body)]
+        self.lines[first:first] = idle
+        self.depth -= 1
+        self.lines.append("}")
 
     def when(self, condition: str) -> Block:
         """An if."""

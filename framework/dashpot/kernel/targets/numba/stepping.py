@@ -21,6 +21,7 @@ def print_solver(online: Online) -> str:
     _write_bend(code)
     if len(online.driven) == 1 and not online.loaded:
         _write_step(code, online)
+        _write_tangent(code, online)
         _write_record(code, online, ("x", "v", "a"), "simulate_path")
         _write_record(code, online, ("x", "v"), "simulate")
     _write_step_nodes(code, online)
@@ -42,6 +43,20 @@ def _write_step(code: PythonCode, online: Online) -> None:
         code.set(f"state[{INPUTS + 1}]", "v")
         code.do("advance(state, dt, numbers)")
         code.answer(f"state[{online.outputs}]")
+
+
+def _write_tangent(code: PythonCode, online: Online) -> None:
+    """Central differences of three copies of the memory: turning points and Newton's steps move along."""
+    about = "The force, and how it changes with the displacement and with the velocity."
+    with code.function("number", "tangent_step", ONE, about):
+        code.let("spread", "1e-6 * (fabs(x) + fabs(v) * dt + 1e-3)")
+        code.let("memory", "np.empty_like(state)", "array")
+        for name, moved in {"up": "x + spread, v", "down": "x - spread, v", "fast": "x, v + spread / dt",
+                            "slow": "x, v - spread / dt"}.items():  # fmt: skip
+            code.set("memory[:]", "state")
+            code.let(name, f"step(memory, {moved}, dt, numbers)")
+        force = "step(state, x, v, dt, numbers)"
+        code.answer(f"{force}, (up - down) / (2.0 * spread), (fast - slow) * dt / (2.0 * spread)")
 
 
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:

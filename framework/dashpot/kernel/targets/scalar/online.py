@@ -53,7 +53,8 @@ def write_common(code: Code, online: Online) -> None:
         write_tabulate(code)
     with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
         for course, start in enumerate(online.courses):
-            _write_constants(code, online, start, 2 ** (course + 1) if online.system else 1)
+            step = code.new(f"dt / {2 ** (course + 1)}.0") if online.system else "dt"
+            _write_constants(code, online, start, step)
         for path, shelf in online.shelves.items():
             first = online.numbers.index(f"{path}[0]")
             place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
@@ -80,8 +81,7 @@ def _roots(online: Online) -> list[Node]:
     return [program.force, *program.updates.values(), *program.corrections.values(), *program.events, *laws]
 
 
-def _write_constants(code: Code, online: Online, start: int, parts: int) -> None:
-    step = code.new(f"dt / {parts}.0")
+def _write_constants(code: Code, online: Online, start: int, step: str) -> None:
     known = {"dt": step, "gravity": code.number(online.gravity),
              **{path: f"p[{number}]" for number, path in enumerate(online.numbers)}}  # fmt: skip
     writer = Writer(code, online.program.constants, lambda node: _plain(code, node) or known.get(node.payload))

@@ -1,0 +1,111 @@
+"""The header of a network: its memory and the functions on it."""
+
+from __future__ import annotations
+
+import re
+
+from dashpot.kernel.ir.online import Online
+
+TEXT = """\
+/* {title}
+
+   Compression positive: a displacement x > 0 (m) squeezes, a force > 0 (N) presses apart. SI units throughout.
+   A step takes the motion at its end; dt is its length in s. The first step is the begin of the record, at rest. */
+#ifndef {guard}
+#define {guard}
+
+#define {guard}_NUMBERS {numbers}
+#define {guard}_INPUTS {inputs}
+#define {guard}_OUTPUTS {outputs}
+#define {guard}_STATE {size}
+
+/* Inputs: {input_names}
+   Outputs: {output_names} */
+typedef struct {{
+    double state[{guard}_STATE];
+    double numbers[{guard}_NUMBERS + 1];
+}} {name};
+
+typedef struct {{
+    const char *name;
+    const char *unit;
+    double value;
+}} {name}_number;
+
+/* The numbers of the network, as they were exported. */
+extern const {name}_number {name}_numbers[{guard}_NUMBERS + 1];
+
+/* The numbers of the export, at rest. span (m) is how far the motion will go: inner nodes are solved for to a millionth
+   of it. */
+void {name}_init({name} *network, double span);
+/* At rest again, with the numbers as they are. */
+void {name}_reset({name} *network);
+/* Another value of a number, by name, at any time; 0 where there is none of that name. */
+int {name}_set({name} *network, const char *number, double value);
+/* A step; see the lists above. */
+void {name}_advance({name} *network, const double *inputs, double dt, double *outputs);
+{step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite. */
+int {name}_status(const {name} *network);
+/* All that a run remembers, to go back to it. */
+void {name}_get_state(const {name} *network, double *state);
+void {name}_set_state({name} *network, const double *state);
+
+#endif
+"""
+STEP = """\
+/* The force after a step to a displacement and a velocity; the acceleration follows from the cubic through both. */
+double {name}_step({name} *network, double x, double v, double dt);
+"""
+RESERVED = frozenset(
+    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
+    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while".split()
+)
+
+
+def identifier(name: str) -> str:
+    """A name as C takes it."""
+    plain = re.sub(r"\W", "_", name, flags=re.ASCII)
+    return f"network_{plain}" if plain in RESERVED or not plain[:1].isalpha() else plain
+
+
+def single(online: Online) -> bool:
+    """Whether one motion drives the network and nothing else does."""
+    return len(online.driven) == 1 and not online.loaded
+
+
+def input_names(online: Online) -> list[str]:
+    """What the inputs are, in their order, e.g. ``displacement@wheel``."""
+    motions = [_at(quantity, joint) for joint in online.driven
+               for quantity in ("displacement", "velocity", "acceleration")]  # fmt: skip
+    return [*motions, *(_at("force", joint) for joint in online.loaded)]
+
+
+def output_names(online: Online) -> list[str]:
+    """What the outputs are, in their order: forces at driven nodes, displacements of free ones."""
+    return [*(_at("force", joint) for joint in online.driven), *(_at("displacement", joint) for joint in online.free)]
+
+
+def print_header(online: Online, name: str, title: str) -> str:
+    """The text of the header."""
+    own = identifier(name)
+    return TEXT.format(
+        title=comment(title),
+        name=own,
+        guard=own.upper(),
+        numbers=len(online.numbers),
+        inputs=online.inputs,
+        outputs=online.before - online.outputs,
+        size=online.size,
+        input_names=comment(", ".join(input_names(online))),
+        output_names=comment(", ".join(output_names(online))),
+        step=STEP.format(name=own) if single(online) else "",
+    )
+
+
+def comment(text: str) -> str:
+    """A text that does not end the comment that it stands in."""
+    return text.replace("*/", "* /").replace("/*", "/ *")
+
+
+def _at(quantity: str, joint: str) -> str:
+    return f"{quantity}@{joint}" if joint else quantity
