@@ -71,6 +71,15 @@ void {name}_advance({name} *network, const double *inputs, double dt, double *ou
         }}
     }}
 }}
+
+double {name}_acceleration(const {name} *network, int node, double x, double v, double dt)
+{{
+    const double *before = network->state + {before} + 3 * node;
+    if (network->state[{BEGUN}] == 0.0) {{
+        return 0.0;
+    }}
+    return (6.0 * (before[0] - x) / dt + 2.0 * before[1] + 4.0 * v) / dt;
+}}
 {step}
 int {name}_status(const {name} *network)
 {{
@@ -94,11 +103,7 @@ void {name}_set_state({name} *network, const double *state)
 STEP = """
 double {name}_step({name} *network, double x, double v, double dt)
 {{
-    const double *s = network->state;
-    double inputs[3] = {{x, v, 0.0}}, outputs[{answers}];
-    if (s[{BEGUN}] != 0.0) {{
-        inputs[2] = (6.0 * (s[{before}] - x) / dt + 2.0 * s[{before} + 1] + 4.0 * v) / dt;
-    }}
+    double inputs[3] = {{x, v, {name}_acceleration(network, 0, x, v, dt)}}, outputs[{answers}];
     {name}_advance(network, inputs, dt, outputs);
     return outputs[0];
 }}
