@@ -1,5 +1,5 @@
 /* What both versions of the interface share. Variables by number: inputs (displacement and velocity of each driven
-   node, then the forces of loaded ones), outputs, the status, the numbers of the network. The inputs that are set before
+   node, then the forces of loaded ones), outputs, the status, the numbers of the network, the time. The inputs that are set before
    a step are those of its end. */
 #ifndef COMPONENT_H
 #define COMPONENT_H
@@ -18,6 +18,7 @@ typedef struct {
     NETWORK network;
     double inputs[FIRST_OUTPUT];
     double outputs[OUTPUTS];
+    double time;
     int begun;
 } component;
 
@@ -67,6 +68,8 @@ static int component_get(const component *c, unsigned int variable, double *valu
         *value = c->outputs[variable - FIRST_OUTPUT];
     } else if (variable >= FIRST_NUMBER && variable < VARIABLES) {
         *value = c->network.numbers[variable - FIRST_NUMBER];
+    } else if (variable == VARIABLES) {
+        *value = c->time;
     } else {
         return 0;
     }

@@ -38,7 +38,8 @@ EXPORT void fmi2FreeInstance(instance c) { free(c); }
 
 EXPORT status fmi2SetupExperiment(instance c, int known, double tolerance, double start, int ends, double stop)
 {
-    (void)c, (void)known, (void)tolerance, (void)start, (void)ends, (void)stop;
+    (void)known, (void)tolerance, (void)ends, (void)stop;
+    ((component *)c)->time = start;
     return OK;
 }
 
@@ -182,11 +183,12 @@ EXPORT status fmi2GetRealOutputDerivatives(instance c, const reference which[], 
 
 EXPORT status fmi2DoStep(instance c, double now, double step, int final)
 {
-    (void)now, (void)final;
+    (void)final;
     if (!(step > 0.0)) {
         return ERROR;
     }
     component_step(c, step);
+    ((component *)c)->time = now + step;
     return STATUS(&((component *)c)->network) ? WARNING : OK;
 }
 

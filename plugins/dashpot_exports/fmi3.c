@@ -52,7 +52,8 @@ EXPORT void fmi3FreeInstance(instance c) { free(c); }
 
 EXPORT status fmi3EnterInitializationMode(instance c, bool known, double tolerance, double start, bool ends, double stop)
 {
-    (void)c, (void)known, (void)tolerance, (void)start, (void)ends, (void)stop;
+    (void)known, (void)tolerance, (void)ends, (void)stop;
+    ((component *)c)->time = start;
     return OK;
 }
 
@@ -212,7 +213,7 @@ EXPORT status fmi3DoStep(instance c, double now, double step, bool final, bool *
         return ERROR;
     }
     component_step(c, step);
-    *last = now + step;
+    ((component *)c)->time = *last = now + step;
     return STATUS(&((component *)c)->network) ? WARNING : OK;
 }
 

@@ -27,7 +27,12 @@ class Variable:
 
     def attributes(self) -> dict[str, str]:
         """What every version writes."""
-        variability = {"parameter": "tunable", "output": "continuous", "input": "continuous"}[self.causality]
+        variability = {
+            "parameter": "tunable",
+            "output": "continuous",
+            "input": "continuous",
+            "independent": "continuous",
+        }[self.causality]
         return {
             "name": self.name,
             "causality": self.causality,
@@ -48,7 +53,7 @@ def variables_of(found: Exported) -> list[Variable]:
     outputs = [Variable(name, "output", "at the end of a step", _unit(name)) for name in output_names(found.online)]
     about = "0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite"
     status = Variable("status", "output", about, kind="Integer")
-    return [*inputs, *outputs, status, *_numbers(found)]
+    return [*inputs, *outputs, status, *_numbers(found), Variable("time", "independent", "of the run", "s")]
 
 
 def _unit(name: str) -> str:
