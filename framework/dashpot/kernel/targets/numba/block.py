@@ -7,14 +7,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from dashpot.expr.node import Node, is_logical, walk
+from dashpot.expr.node import Node, walk
 from dashpot.kernel.ir.layout import Layout, Passes, score_row
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import MOST_STATIC_STEPS, MOST_STEPS, THIRD, UNBALANCED, UNSOLVED, SystemProgram
 from dashpot.kernel.targets.numba.code import PythonCode
 from dashpot.kernel.targets.scalar.code import Arguments
 from dashpot.kernel.targets.scalar.functions import write_functions
-from dashpot.kernel.targets.scalar.graph import Writer
+from dashpot.kernel.targets.scalar.graph import Writer, truth
 
 ARRAYS = ("columns", "index", "local", "tables", "w")
 PASS: Arguments = [*(("array", name) for name in ARRAYS), ("count", "c"), ("count", "i"), ("count", "n"),
@@ -33,7 +33,7 @@ SYSTEM: Arguments = [*(("array", name) for name in ("still", "coarse", "fine")),
 
 def print_network(program: Program) -> str:
     """The module of a network with two ends; ``n`` lanes lie side by side, the first ``asked`` are computed."""
-    code, passes = PythonCode(), Passes.of(program)
+    code, passes = PythonCode("run"), Passes.of(program)
     write_functions(code, _operations([*program.roots, *program.corrections.values()]))
     for name, layout in (("correct", passes.correct), ("turn", passes.turn), ("step", passes.step)):
         if layout:
@@ -52,9 +52,9 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
     def leaf(node: Node) -> str | None:
         kind = layout.kind(node)
         if kind == "drive":
-            return _truth(node, f"columns[c + {layout.columns[node.serial]}]")
+            return truth(node, f"columns[c + {layout.columns[node.serial]}]")
         if kind in ("lane", "state"):
-            return _truth(node, f"w[{layout.row(node)} * n + l]")
+            return truth(node, f"w[{layout.row(node)} * n + l]")
         return code.number(node.payload) if kind == "number" else None
 
     def look_up(node: Node, _: str) -> str:
@@ -69,10 +69,6 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
     force = code.new(writer.number(layout.force)) if layout.force is not None else "0.0"
     writer.store({f"w[{layout.states[name]} * n + l]": node for name, node in layout.updates.items()})
     return force
-
-
-def _truth(node: Node, place: str) -> str:
-    return f"({place} != 0.0)" if is_logical(node) else place
 
 
 def _cubic(array: str, c: str, u: str, order: int) -> str:
@@ -111,7 +107,7 @@ def _correct(code: PythonCode, program: Program, passes: Passes, columns: str, f
 
 def print_system(system: SystemProgram) -> str:
     """The module of a network with unknown nodes; as ``print_network``."""
-    code = PythonCode()
+    code = PythonCode("run")
     write_functions(code, _operations([node for layout in system.passes.values() for node in layout.updates.values()]))
     for name, layout in system.passes.items():
         with code.function("nothing", f"{name}_", SYSTEM_PASS, f"Pass '{name}'."):
@@ -127,9 +123,9 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
     def leaf(node: Node) -> str | None:
         kind = layout.kind(node)
         if kind == "drive":
-            return _truth(node, f"columns[c + {layout.columns[node.serial]}]")
+            return truth(node, f"columns[c + {layout.columns[node.serial]}]")
         if kind in ("lane", "state"):
-            return _truth(node, f"w[(o + {layout.row(node)}) * n + l]")
+            return truth(node, f"w[(o + {layout.row(node)}) * n + l]")
         return code.number(node.payload) if kind == "number" else None
 
     def look_up(node: Node, argument: str) -> str:

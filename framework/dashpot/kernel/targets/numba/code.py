@@ -15,6 +15,7 @@ from numba import njit
 
 """
 SETTINGS = 'cache=True, nogil=True, error_model="numpy"'
+INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
 
 
 class PythonCode(Code):
@@ -22,8 +23,10 @@ class PythonCode(Code):
 
     operations = {**COMMON, "logical_not": "(not {0})", "where": "({1} if {0} else {2})"}
 
-    def __init__(self) -> None:
+    def __init__(self, *called: str) -> None:
+        """Functions whose names are ``called`` can be called from Python, too."""
         super().__init__()
+        self.called = called
         self.lines += HEAD.splitlines()
 
     def let(self, name: str, value: str, kind: Kind = "number") -> None:
@@ -44,7 +47,8 @@ class PythonCode(Code):
 
     def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Block:
         """A compiled function."""
-        self.lines += ["", "", f"@njit({SETTINGS})"]
+        settings = SETTINGS if name in self.called else f"{SETTINGS}, {INNER}"
+        self.lines += ["", "", f"@njit({settings})"]
         return self.indented(f"def {name}({', '.join(name for _, name in arguments)}):")
 
     def when(self, condition: str) -> Block:

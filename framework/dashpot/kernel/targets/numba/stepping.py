@@ -16,7 +16,7 @@ MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array",
 
 def print_solver(online: Online) -> str:
     """The module of a network that somebody else steps."""
-    code = PythonCode()
+    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes")
     write_network(code, online)
     _write_bend(code)
     if len(online.driven) == 1 and not online.loaded:

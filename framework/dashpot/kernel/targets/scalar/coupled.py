@@ -22,6 +22,7 @@ from dashpot.kernel.ir.system import (
     SystemProgram,
 )
 from dashpot.kernel.targets.scalar.code import Arguments, Code
+from dashpot.kernel.targets.scalar.graph import truth
 from dashpot.kernel.targets.scalar.online import MEMORY, storing, write_common
 
 COURSE: Arguments = [("array", "s"), ("count", "w")]
@@ -63,7 +64,7 @@ def _leaf(code: Code, online: Online, layout: Layout) -> Callable[[Node], str | 
         if node.operation == "constant":
             return code.number(node.payload)
         if node.serial in layout.constants:
-            return f"s[w + {layout.constants[node.serial]}]"
+            return truth(node, f"s[w + {layout.constants[node.serial]}]")
         if node.operation != "symbol":
             return None
         return known[node.payload] if node.payload in known else f"s[w + {layout.states[node.payload]}]"

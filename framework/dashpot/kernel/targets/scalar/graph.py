@@ -11,6 +11,11 @@ from dashpot.kernel.targets.scalar.code import Code
 LONGEST = 90  # characters of an expression before it gets a variable of its own
 
 
+def truth(node: Node, place: str) -> str:
+    """A number at a place, or, for a node that is true or false, whether it is not zero."""
+    return f"({place} != 0.0)" if is_logical(node) else place
+
+
 class Writer:
     """Writes the expressions of some roots.
 

@@ -13,7 +13,7 @@ from dashpot.kernel.ir.layout import Layout, Passes
 from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, Online
 from dashpot.kernel.targets.scalar.code import Arguments, Code
 from dashpot.kernel.targets.scalar.functions import write_functions, write_tables, write_tabulate
-from dashpot.kernel.targets.scalar.graph import Writer
+from dashpot.kernel.targets.scalar.graph import Writer, truth
 
 MEMORY: Arguments = [("array", "s"), ("number", "dt"), ("array", "p")]
 STILL = {"old": "xo", "new": "x", "velocity_old": "vo", "velocity_new": "v", "acceleration": "a"}
@@ -51,10 +51,11 @@ def write_common(code: Code, online: Online) -> None:
         code.numbers("knots", online.knots)
         write_tables(code, {node.payload[1] for node in nodes if node.operation in ("table", "lookup")})
         write_tabulate(code)
+    _write_constants(code, online)
     with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
         for course, start in enumerate(online.courses):
-            step = code.new(f"dt / {2 ** (course + 1)}.0") if online.system else "dt"
-            _write_constants(code, online, start, step)
+            step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
+            code.do(f"constants(s, {start}, {step}, p)")
         for path, shelf in online.shelves.items():
             first = online.numbers.index(f"{path}[0]")
             place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
@@ -81,12 +82,14 @@ def _roots(online: Online) -> list[Node]:
     return [program.force, *program.updates.values(), *program.corrections.values(), *program.events, *laws]
 
 
-def _write_constants(code: Code, online: Online, start: int, step: str) -> None:
-    known = {"dt": step, "gravity": code.number(online.gravity),
+def _write_constants(code: Code, online: Online) -> None:
+    known = {"dt": "dt", "gravity": code.number(online.gravity),
              **{path: f"p[{number}]" for number, path in enumerate(online.numbers)}}  # fmt: skip
-    writer = Writer(code, online.program.constants, lambda node: _plain(code, node) or known.get(node.payload))
-    for number, node in enumerate(online.program.constants):
-        code.set(f"s[{start + number}]", writer.number(node))
+    arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"), ("array", "p")]
+    with code.function("nothing", "constants", arguments, "The first rows of the workspace that begins at w."):
+        writer = Writer(code, online.program.constants, lambda node: _plain(code, node) or known.get(node.payload))
+        for number, node in enumerate(online.program.constants):
+            code.set(f"s[w + {number}]", writer.number(node))
 
 
 def _plain(code: Code, node: Node) -> str | None:
@@ -101,7 +104,7 @@ def _leaf(code: Code, online: Online, layout: Layout, motion: Mapping[str, str])
         if node.operation == "constant":
             return code.number(node.payload)
         if node.serial in layout.constants:
-            return f"s[{start + layout.constants[node.serial]}]"
+            return truth(node, f"s[{start + layout.constants[node.serial]}]")
         if node.serial in layout.columns and not symbols_of(node) <= {*known}:
             return code.number(0.0)  # a column that is not known at a turning point
         if node.operation != "symbol":
@@ -182,7 +185,7 @@ def _write_turns(code: Code) -> None:
 def _read_motion(code: Code, online: Online, turning: bool) -> None:
     begin = {"x": INPUTS, "v": INPUTS + 1, "a": INPUTS + 2, "xo": online.before, "vo": online.before + 1}
     read = {SAMPLE[name] for root in _roots(online) for name in symbols_of(root) if name in SAMPLE}
-    needed = {"x", "v", "a"} | read | ({"since", "xo", "vo"} if turning else set())
+    needed = {"x", "v", "a"} | read | ({"xo", "vo"} if turning else set())
     needed |= {source for name, source in (("since", "xo"), ("wo", "vo")) if name in needed}
     for name, place in begin.items():
         if name in needed:
@@ -198,7 +201,11 @@ def _read_motion(code: Code, online: Online, turning: bool) -> None:
         code.set(f"s[{BEGUN}]", "1.0")
     if turning:
         with code.otherwise():
-            code.set("since", "turns(s, dt, xo, x, vo, v)")
+            turns = "turns(s, dt, xo, x, vo, v)"
+            if "since" in needed:
+                code.set("since", turns)
+            else:
+                code.do(turns)
 
 
 def _step(code: Code, online: Online, layout: Layout) -> None:
