@@ -44,6 +44,7 @@ def registry(monkeypatch: pytest.MonkeyPatch) -> Registry:
         causes=empty,
         specimens=empty,
         rigs=empty,
+        exports=empty,
         origins={("optimizers", "swarm"): BUILT_IN},
         plugins=(BUILT_IN, FOREIGN),
         faults=(PluginFault(FOREIGN, "cannot be loaded: ImportError: no"), PluginFault(FOREIGN, "gave 7")),
