@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from xml.etree.ElementTree import Element, SubElement
 
+from dashpot.kernel.export import Exported
 from dashpot_exports.unit import MockUpUnit
 from dashpot_exports.variables import Variable
-
-from dashpot.kernel.export import Exported
 
 KINDS = {"Real": "Float64", "Integer": "Int32"}
 

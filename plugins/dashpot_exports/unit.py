@@ -15,14 +15,13 @@ from typing import ClassVar
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from dashpot_exports.variables import Variable, add_unit, variables_of
-
 from dashpot.contract.export import Export
 from dashpot.kernel.export import Exported, digest_of, exported
 from dashpot.kernel.targets.c99.header import identifier, print_header
 from dashpot.kernel.targets.c99.source import print_source
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
+from dashpot_exports.variables import Variable, add_unit, variables_of
 
 SPAN, STEP = 0.05, 1e-3  # how far the motion is expected to go, m; the step of a default experiment, s
 LIBRARIES = {"linux": ".so", "darwin": ".dylib", "windows": ".dll"}
