@@ -23,8 +23,8 @@ fit
 # %% [markdown]
 # ## Its solver
 #
-# `step(state, x, v, dt, numbers)` takes the tire to a deflection `x` and its rate `v` and answers the force. All memory is
-# in the array `state`; all numbers of the model are in the array `numbers`, in the order of `names`.
+# `step(state, x, v, dt, numbers)` takes the tire to a deflection `x` and its rate `v` and answers the force. All
+# memory is in the array `state`; all numbers of the model are in the array `numbers`, in the order of `names`.
 
 # %%
 solver = tire.jit()
@@ -33,8 +33,8 @@ dict(zip(solver.names[-4:], solver.numbers[-4:], strict=True))
 # %% [markdown]
 # ## The car
 #
-# A wheel on the tire, a quarter of the body on a spring and a damper; the road is a bump of 30 mm. The loop is compiled with
-# the tire in it, and goes on in small steps.
+# A wheel on the tire, a quarter of the body on a spring and a damper; the road is a bump of 30 mm. The loop is compiled
+# with the tire in it, and goes on in small steps.
 
 # %%
 import numpy as np

@@ -4,8 +4,8 @@ In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, ``look`` at it
 ``diagnose``; all answers show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure``
 run a model. Studies are ``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
 
-Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig`` or ``Export`` and mark its hook with
-``hookimpl``.
+Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig`` or ``Export`` and mark its
+hook with ``hookimpl``.
 
 Everything is imported on first use: ``import dashpot`` costs nothing.
 """

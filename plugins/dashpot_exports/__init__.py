@@ -18,5 +18,6 @@ def dashpot_exports() -> list[type]:
     from dashpot_exports.c import C
     from dashpot_exports.fmu import Fmu
     from dashpot_exports.fmu2 import Fmu2
+    from dashpot_exports.modelica import Modelica
 
-    return [C, Fmu, Fmu2]
+    return [C, Fmu, Fmu2, Modelica]

@@ -18,7 +18,7 @@ from dashpot.model.network import NetworkSpec, Slot
 
 @dataclass(frozen=True, eq=False)
 class Exported:
-    """A network ready to be printed; ``values`` are those of its ``slots`` in SI, ``title`` says where it comes from."""
+    """A network ready to be printed; ``values`` are those of its ``slots`` in SI, ``title`` says where from."""
 
     spec: NetworkSpec
     online: Online

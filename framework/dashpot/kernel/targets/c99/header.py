@@ -46,7 +46,7 @@ int {name}_set({name} *network, const char *number, double value);
 void {name}_advance({name} *network, const double *inputs, double dt, double *outputs);
 /* The acceleration of a driven node at the end of a step, of the cubic through places and velocities. */
 double {name}_acceleration(const {name} *network, int node, double x, double v, double dt);
-{step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite. */
+{step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no equilibrium, 3 a force not finite. */
 int {name}_status(const {name} *network);
 /* All that a run remembers, to go back to it. */
 void {name}_get_state(const {name} *network, double *state);

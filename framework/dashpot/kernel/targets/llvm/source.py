@@ -17,7 +17,8 @@ from dashpot.kernel.targets.llvm.passes import Arrays, Pass, library_functions
 # the machine's full width; without the word LLVM halves the vectors of many processors
 ATTRIBUTES = 'attributes #0 = { nounwind "prefer-vector-width"="512" }\n'
 ARGUMENTS = ("ptr %columns", "ptr %index", "ptr %local", "i64 %samples", "ptr %turn_at",
-             "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out", "i64 %asked")  # fmt: skip
+             "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out",
+             "i64 %asked")  # fmt: skip
 
 
 def print_source(program: Program, vectors: int, alone: bool = False) -> str:

@@ -26,8 +26,8 @@ SYSTEM_PASS: Arguments = [*(("array", name) for name in ("columns", "w", "tables
                           ("count", "o")]  # fmt: skip
 NEWTON: Arguments = [*SYSTEM_PASS, ("array", "status"), ("count", "l")]
 SYSTEM: Arguments = [*(("array", name) for name in ("still", "coarse", "fine")), ("count", "per"), ("count", "samples"),
-                     *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight", "out",
-                                                    "miss")),
+                     *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight",
+                                                    "out", "miss")),
                      ("count", "scoring"), ("count", "asked"), ("count", "n")]  # fmt: skip
 
 

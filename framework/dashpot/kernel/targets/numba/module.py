@@ -1,4 +1,4 @@
-"""Modules of compiled functions, kept by what they are made of, so that numba can keep their machine code beside them."""
+"""Modules of compiled functions, kept by what they are made of, so that numba can keep machine code beside them."""
 
 from __future__ import annotations
 

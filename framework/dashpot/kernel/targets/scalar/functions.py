@@ -37,7 +37,7 @@ def _chosen(code: Code, name: str, how: str, about: str) -> None:
 
 
 def _sign(code: Code) -> None:
-    with code.function("number", "sign", X, "-1, 0, 1 or NaN."):
+    with code.function("number", "side", X, "-1, 0, 1 or NaN."):
         with code.when("x > 0.0"):
             code.answer("1.0")
         with code.when("x < 0.0"):
@@ -133,8 +133,16 @@ def _write_end_slope(code: Code) -> None:
 def _write_slope(code: Code) -> None:
     arguments: Arguments = [("array", "p"), ("count", "first"), ("count", "count"), ("count", "k")]
     with code.function("number", "slope", arguments, "The slope at a knot: Fritsch and Butland (1984)."):
-        _let_segment(code, "0", "j", "k - (k > 0) - (k == count - 1) * (count > 2)")
-        _let_segment(code, "1", "i", "j + (count > 2)")
+        code.let("j", "k", "count")
+        with code.when("j > 0"):
+            code.set("j", "j - 1")
+        code.let("i", "j + 1", "count")
+        with code.when("i > count - 2"):
+            code.set("i", "count - 2")
+            with code.when("j > 0"):
+                code.set("j", "i - 1")
+        _let_segment(code, "0", "j")
+        _let_segment(code, "1", "i")
         with code.when("count == 2"):
             code.answer("r0")
         with code.when("k == 0"):
@@ -148,7 +156,6 @@ def _write_slope(code: Code) -> None:
         code.answer("(left + right) / (left / r0 + right / r1)")
 
 
-def _let_segment(code: Code, number: str, name: str, place: str) -> None:
-    code.let(name, place, "count")
+def _let_segment(code: Code, number: str, name: str) -> None:
     code.let(f"w{number}", f"knots[first + {name} + 2] - knots[first + {name} + 1]")
     code.let(f"r{number}", f"(p[{name} + 1] - p[{name}]) / w{number}")

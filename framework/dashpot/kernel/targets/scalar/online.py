@@ -167,7 +167,9 @@ def _write_turns(code: Code) -> None:
             with code.when("b < 0.0"):
                 code.set("root", "-root")
             code.let("q", "-0.5 * (b + root)")
-            code.let("first", "q / c")
+            code.let("first", "-1.0")
+            with code.when("c != 0.0"):
+                code.set("first", "q / c")
             code.let("second", "vo / q")
             with code.when("second < first"):
                 code.set("root", "first")
