@@ -68,6 +68,7 @@ def notebooks_show_what_they_found(site: Path) -> None:
     assert "width at 1.5 mm: 120 N" in texts["declare_a_topology"]
     assert "identified:" in texts["identify_a_tire"]
     assert "+relaxation" in texts["find_a_hidden_effect"]
+    assert "of the wheel" in texts["quarter_car_in_numba"]
 
 
 def generated_pages_hold_what_is_installed(site: Path) -> None:
