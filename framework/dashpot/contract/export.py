@@ -14,13 +14,13 @@ class Export(ABC):
 
     Examples:
         >>> class Listed(dp.Export):
-        ...     '''The numbers of a network, a line each.'''
+        ...     '''The names of the numbers of a network.'''
         ...     word = "listed"
         ...     def files(self, network):
-        ...         lines = [f"{slot.path} {slot.value.number!r}" for slot in network.slots()]
-        ...         return {f"{network.name}.txt": "\\n".join(lines).encode()}
-        >>> Listed().files(dp.load("spring"))["spring.txt"].decode().splitlines()
-        ['spring.stiffness[0] 0.0', 'spring.stiffness[1] 200.0']
+        ...         paths = [slot.path for slot in network.slots()]
+        ...         return {f"{network.name}.txt": " ".join(paths).encode()}
+        >>> Listed().files(dp.load("gehmann"))
+        {'gehmann.txt': b'maxwell.stiffness maxwell.relaxation_time'}
     """
 
     word: ClassVar[str]
