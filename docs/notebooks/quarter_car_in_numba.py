@@ -18,6 +18,9 @@ path = dp.load_registry().specimens["test_tire"]().measure(Path("tire"), seed=1)
 data = dp.load_dataset(path).select(["qs", "a05_p17", "a2_p17", "a5_p10"])
 fit = dp.fit("tire_model_5", data, seed=1)
 tire = fit.model
+fit
+
+# %%
 fit.plot("stiffness")
 
 # %% [markdown]
