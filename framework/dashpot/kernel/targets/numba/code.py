@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 """
-SETTINGS = 'cache=True, nogil=True, error_model="numpy"'
+SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
 INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
 
 

@@ -161,27 +161,35 @@ def _write_turns(code: Code) -> None:
         code.let("rise", "(x - xo) / dt")
         code.let("c", "3.0 * (vo + v) - 6.0 * rise")
         code.let("b", "v - vo - c")
-        code.let("free", "b * b - 4.0 * vo * c")
-        with code.when("free > 0.0"):
-            code.let("root", "sqrt(free)")
-            with code.when("b < 0.0"):
-                code.set("root", "-root")
-            code.let("q", "-0.5 * (b + root)")
-            code.let("first", "-1.0")
-            with code.when("c != 0.0"):
-                code.set("first", "q / c")
-            code.let("second", "vo / q")
-            with code.when("second < first"):
-                code.set("root", "first")
-                code.set("first", "second")
-                code.set("second", "root")
-            with code.when("first != second"):
-                for place in ("first", "second"):
-                    with code.when(f"({place} > 0.0) & ({place} < 1.0)"):
-                        code.let("there", f"xo + dt * {place} * (vo + {place} * (b / 2.0 + {place} * c / 3.0))")
-                        code.do("turn(s, dt, since, there)")
-                        code.set("since", "there")
+        code.let("middle", "vo + 0.5 * b")
+        # the velocity lies between its control points: as long as these have one sign it turns nowhere
+        with code.when("(vo * middle <= 0.0) | (middle * v <= 0.0)"):
+            code.let("free", "b * b - 4.0 * vo * c")
+            with code.when("free > 0.0"):
+                _write_roots(code)
         code.answer("since")
+
+
+def _write_roots(code: Code) -> None:
+    """The roots of vo + b u + c u^2 between 0 and 1, the earlier one first."""
+    code.let("root", "sqrt(free)")
+    with code.when("b < 0.0"):
+        code.set("root", "-root")
+    code.let("q", "-0.5 * (b + root)")
+    code.let("first", "-1.0")
+    with code.when("c != 0.0"):
+        code.set("first", "q / c")
+    code.let("second", "vo / q")
+    with code.when("second < first"):
+        code.set("root", "first")
+        code.set("first", "second")
+        code.set("second", "root")
+    with code.when("first != second"):
+        for place in ("first", "second"):
+            with code.when(f"({place} > 0.0) & ({place} < 1.0)"):
+                code.let("there", f"xo + dt * {place} * (vo + {place} * (b / 2.0 + {place} * c / 3.0))")
+                code.do("turn(s, dt, since, there)")
+                code.set("since", "there")
 
 
 def _read_motion(code: Code, online: Online, turning: bool) -> None:
