@@ -34,7 +34,7 @@ MODEL = """\
 
 #include "{name}.h"
 
-#define NETWORK {name}
+#define NETWORK {name}_network
 #define INIT {name}_init
 #define ADVANCE {name}_advance
 #define ACCELERATION {name}_acceleration

@@ -7,7 +7,7 @@
 #define SAMPLES 400
 #define STEP 1e-3
 
-static mount network;
+static mount_network network;
 static double kept[MOUNT_STATE];
 
 static double force_at(int k)

@@ -63,3 +63,9 @@ def test_a_curve_without_numbers_is_refused_by_name():
 
     with pytest.raises(InputError, match="the curve 'stiffness.stiffness' is to come from data"):
         load_registry().exports["c"]().files(dp.load("tire_model_5"))
+
+
+@pytest.mark.parametrize("name", ["system", "double", "exp"])
+def test_a_name_of_the_language_or_its_library_gives_a_source_that_compiles(name, tmp_path):
+    export(replace(mount(), name=name), tmp_path)
+    subprocess.run(["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", f"{name}.c"], cwd=tmp_path, check=True)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from unit.exports.mounts import leg, mount, sine
 
-from dashpot import load_registry
+from dashpot import declare, load_registry
 from dashpot.kernel.network import compile_network
 
 fmpy = pytest.importorskip("fmpy")
@@ -135,3 +135,32 @@ def test_a_missing_compiler_is_told(word, monkeypatch):
     monkeypatch.setenv("PATH", "")
     with pytest.raises(InputError, match="needs the C compiler 'cc', which is not there"):
         load_registry().exports[word]().files(mount())
+
+
+LOADED = """
+format: dashpot-network/1
+name: system
+nodes: {block: {hold: loaded, mass: 5 kg}, wall: ground}
+branches:
+  spring: {element: spring, between: [block, wall], stiffness: 20 N/mm}
+  damping: {element: damper, between: [block, wall], damping: 100 N*s/m}
+"""
+
+
+def test_a_force_driven_network_answers_its_displacement(word, tmp_path):
+    unit = Unit(export(declare(LOADED), word, tmp_path))
+    inputs = {each.name for each in unit.about.modelVariables if each.causality == "input"}
+    assert inputs == {"force@block"}
+    number = unit.number
+    unit.unit.enterInitializationMode()
+    unit.set([number["force@block"]], [100.0])
+    unit.unit.exitInitializationMode()
+    # the record begins at rest in equilibrium
+    assert unit.get([number["displacement@block"]]) == pytest.approx([100.0 / 20e3], rel=1e-9)
+    for k in range(400):
+        unit.set([number["force@block"]], [50.0])
+        unit.unit.doStep(k * 1e-3, 1e-3)
+    time, rate, decay = 0.4, np.sqrt(20e3 / 5.0 - 100.0), 10.0
+    free = np.exp(-decay * time) * (np.cos(rate * time) + decay / rate * np.sin(rate * time))
+    assert unit.get([number["displacement@block"]])[0] == pytest.approx(2.5e-3 * (1.0 + free), rel=1e-2)
+    unit.close()

@@ -24,7 +24,7 @@ TEXT = """\
 typedef struct {{
     double state[{guard}_STATE];
     double numbers[{guard}_NUMBERS + 1];
-}} {name};
+}} {name}_network;
 
 typedef struct {{
     const char *name;
@@ -37,37 +37,33 @@ extern const {name}_number {name}_numbers[{guard}_NUMBERS + 1];
 
 /* The numbers of the export, at rest. span (m) is how far the motion will go: inner nodes are solved for to a millionth
    of it. */
-void {name}_init({name} *network, double span);
+void {name}_init({name}_network *network, double span);
 /* At rest again, with the numbers as they are. */
-void {name}_reset({name} *network);
+void {name}_reset({name}_network *network);
 /* Another value of a number, by name, at any time; 0 where there is none of that name. */
-int {name}_set({name} *network, const char *number, double value);
+int {name}_set({name}_network *network, const char *number, double value);
 /* A step; see the lists above. */
-void {name}_advance({name} *network, const double *inputs, double dt, double *outputs);
+void {name}_advance({name}_network *network, const double *inputs, double dt, double *outputs);
 /* The acceleration of a driven node at the end of a step, of the cubic through places and velocities. */
-double {name}_acceleration(const {name} *network, int node, double x, double v, double dt);
+double {name}_acceleration(const {name}_network *network, int node, double x, double v, double dt);
 {step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no equilibrium, 3 a force not finite. */
-int {name}_status(const {name} *network);
+int {name}_status(const {name}_network *network);
 /* All that a run remembers, to go back to it. */
-void {name}_get_state(const {name} *network, double *state);
-void {name}_set_state({name} *network, const double *state);
+void {name}_get_state(const {name}_network *network, double *state);
+void {name}_set_state({name}_network *network, const double *state);
 
 #endif
 """
 STEP = """\
 /* The force after a step to a displacement and a velocity; the acceleration follows from the cubic through both. */
-double {name}_step({name} *network, double x, double v, double dt);
+double {name}_step({name}_network *network, double x, double v, double dt);
 """
-RESERVED = frozenset(
-    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
-    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while".split()
-)
 
 
 def identifier(name: str) -> str:
-    """A name as C takes it."""
+    """A name as C takes it at the begin of others."""
     plain = re.sub(r"\W", "_", name, flags=re.ASCII)
-    return f"network_{plain}" if plain in RESERVED or not plain[:1].isalpha() else plain
+    return plain if plain[:1].isalpha() else f"network_{plain}"
 
 
 def single(online: Online) -> bool:

@@ -18,7 +18,7 @@ const {name}_number {name}_numbers[{count} + 1] = {{
     {{0, 0, 0.0}}
 }};
 
-void {name}_init({name} *network, double span)
+void {name}_init({name}_network *network, double span)
 {{
     for (int k = 0; k < {count}; ++k) {{
         network->numbers[k] = {name}_numbers[k].value;
@@ -27,7 +27,7 @@ void {name}_init({name} *network, double span)
     {name}_reset(network);
 }}
 
-void {name}_reset({name} *network)
+void {name}_reset({name}_network *network)
 {{
     const double span = network->state[{SPAN}];
     for (int k = 0; k < {size}; ++k) {{
@@ -45,7 +45,7 @@ static inline int same_name(const char *one, const char *other)
     return *one == *other;
 }}
 
-int {name}_set({name} *network, const char *number, double value)
+int {name}_set({name}_network *network, const char *number, double value)
 {{
     for (int k = 0; k < {count}; ++k) {{
         if (same_name(number, {name}_numbers[k].name)) {{
@@ -57,7 +57,7 @@ int {name}_set({name} *network, const char *number, double value)
     return 0;
 }}
 
-void {name}_advance({name} *network, const double *inputs, double dt, double *outputs)
+void {name}_advance({name}_network *network, const double *inputs, double dt, double *outputs)
 {{
     double *s = network->state;
     for (int k = 0; k < {inputs}; ++k) {{
@@ -72,7 +72,7 @@ void {name}_advance({name} *network, const double *inputs, double dt, double *ou
     }}
 }}
 
-double {name}_acceleration(const {name} *network, int node, double x, double v, double dt)
+double {name}_acceleration(const {name}_network *network, int node, double x, double v, double dt)
 {{
     const double *before = network->state + {before} + 3 * node;
     if (network->state[{BEGUN}] == 0.0) {{
@@ -81,19 +81,19 @@ double {name}_acceleration(const {name} *network, int node, double x, double v, 
     return (6.0 * (before[0] - x) / dt + 2.0 * before[1] + 4.0 * v) / dt;
 }}
 {step}
-int {name}_status(const {name} *network)
+int {name}_status(const {name}_network *network)
 {{
     return (int)network->state[{STATUS}];
 }}
 
-void {name}_get_state(const {name} *network, double *state)
+void {name}_get_state(const {name}_network *network, double *state)
 {{
     for (int k = 0; k < {size}; ++k) {{
         state[k] = network->state[k];
     }}
 }}
 
-void {name}_set_state({name} *network, const double *state)
+void {name}_set_state({name}_network *network, const double *state)
 {{
     for (int k = 0; k < {size}; ++k) {{
         network->state[k] = state[k];
@@ -101,7 +101,7 @@ void {name}_set_state({name} *network, const double *state)
 }}
 """
 STEP = """
-double {name}_step({name} *network, double x, double v, double dt)
+double {name}_step({name}_network *network, double x, double v, double dt)
 {{
     double inputs[3] = {{x, v, {name}_acceleration(network, 0, x, v, dt)}}, outputs[{answers}];
     {name}_advance(network, inputs, dt, outputs);

@@ -51,11 +51,13 @@ def write_common(code: Code, online: Online) -> None:
         code.numbers("knots", online.knots)
         write_tables(code, {node.payload[1] for node in nodes if node.operation in ("table", "lookup")})
         write_tabulate(code)
-    _write_constants(code, online)
+    if online.program.constants:
+        _write_constants(code, online)
     with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
         for course, start in enumerate(online.courses):
             step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
-            code.do(f"constants(s, {start}, {step}, p)")
+            if online.program.constants:
+                code.do(f"constants(s, {start}, {step}, p)")
         for path, shelf in online.shelves.items():
             first = online.numbers.index(f"{path}[0]")
             place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
