@@ -12,10 +12,10 @@ from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 KEYWORDS = frozenset(
-    "algorithm and annotation block break class connect connector constant constrainedby der discrete each else elseif "
-    "elsewhen encapsulated end enumeration equation expandable extends external false final flow for function if "
-    "import impure in initial inner input loop model not operator or outer output package parameter partial protected public "
-    "pure record redeclare replaceable return stream then true type when while within".split()
+    "algorithm and annotation block break class connect connector constant constrainedby der discrete each else "
+    "elseif elsewhen encapsulated end enumeration equation expandable extends external false final flow for "
+    "function if import impure in initial inner input loop model not operator or outer output package parameter "
+    "partial protected public pure record redeclare replaceable return stream then true type when while within".split()
 )
 
 
