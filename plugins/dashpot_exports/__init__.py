@@ -4,6 +4,7 @@
 - `fmu`      a functional mock-up unit by FMI 3.0, for co-simulation
 - `fmu2`     the same by FMI 2.0
 - `modelica` a sampled Modelica model with flanges of the standard library
+- `stiffness_table` dynamic stiffness and loss angle as CSV
 - `unit` `variables` what both versions of the mock-up units share; `component.h` `fmi2.c` `fmi3.c` their sources
 """
 
@@ -19,5 +20,6 @@ def dashpot_exports() -> list[type]:
     from dashpot_exports.fmu import Fmu
     from dashpot_exports.fmu2 import Fmu2
     from dashpot_exports.modelica import Modelica
+    from dashpot_exports.stiffness_table import StiffnessTable
 
-    return [C, Fmu, Fmu2, Modelica]
+    return [C, Fmu, Fmu2, Modelica, StiffnessTable]

@@ -88,10 +88,12 @@ def rigs() -> Iterator[str]:
 
 
 def exports() -> Iterator[str]:
-    """A section for each target that a network is written for."""
+    """A section for each target that a network is written for, with its options."""
     for word, made in things("exports").items():
         yield f"### `{word}`"
         yield from paragraphs(made)
+        if options_of(made):
+            yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
 
 
 def modules() -> Iterator[str]:
