@@ -35,7 +35,7 @@ class Fmu(MockUpUnit):
     def add_variable(self, parent: Element, number: int, variable: Variable) -> None:
         """A variable with its interval."""
         kind = KINDS[variable.kind]
-        element = SubElement(parent, kind, valueReference=str(number), **variable.attributes())
+        element = SubElement(parent, kind, {"valueReference": str(number), **variable.attributes()})
         if kind == "Float64":
             element.attrib |= variable.real_attributes()
         if variable.interval:

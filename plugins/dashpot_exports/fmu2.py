@@ -38,7 +38,7 @@ class Fmu2(MockUpUnit):
 
     def add_variable(self, parent: Element, number: int, variable: Variable) -> None:
         """A variable with its interval."""
-        element = SubElement(parent, "ScalarVariable", valueReference=str(number), **variable.attributes())
+        element = SubElement(parent, "ScalarVariable", {"valueReference": str(number), **variable.attributes()})
         SubElement(element, variable.kind, variable.real_attributes() if variable.kind == "Real" else {})
         if variable.interval:
             tool = SubElement(SubElement(element, "Annotations"), "Tool", name="dashpot")

@@ -58,7 +58,7 @@ class StiffnessTable(Export):
         for preload in self.preloads:
             for amplitude in self.amplitudes:
                 for frequency in self.frequencies:
-                    force = compiled.simulate(compiled.prepare(_sine(frequency, amplitude, preload)))
+                    force = compiled.along(_sine(frequency, amplitude, preload))()
                     found = _harmonic(force[-SAMPLES:]) / amplitude
                     size, angle = abs(found), np.degrees(np.angle(found))
                     yield (frequency, amplitude, preload, *map(float, (found.real, found.imag, size, angle)))

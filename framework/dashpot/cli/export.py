@@ -48,5 +48,5 @@ def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switch
     folder = session.claim(output, *map(escape, files))
     for name, content in files.items():
         folder.write_bytes(name, content)
-    content = {"format": "dashpot-export/1", "network": network.name, "target": target, "files": sorted(files)}
-    session.talk.result(f"exported: {', '.join(str(output / name) for name in sorted(files))}", content)
+    told = {"format": "dashpot-export/1", "network": network.name, "target": target, "files": sorted(files)}
+    session.talk.result(f"exported: {', '.join(str(output / name) for name in sorted(files))}", told)

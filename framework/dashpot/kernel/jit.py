@@ -74,6 +74,16 @@ def jit_network(spec: NetworkSpec, settings: Mapping[str, float] = MappingProxyT
 
 
 def _solver(online: Online, module: Any, numbers: Array) -> Solver:
-    single = (getattr(module, name, None) for name in ("step", "tangent_step", "simulate", "simulate_path"))
-    return Solver(*single, module.step_nodes, online.numbers, np.ascontiguousarray(numbers), online.driven,
-                  online.loaded, online.free, online.size)  # fmt: skip
+    return Solver(
+        getattr(module, "step", None),
+        getattr(module, "tangent_step", None),
+        getattr(module, "simulate", None),
+        getattr(module, "simulate_path", None),
+        module.step_nodes,
+        online.numbers,
+        np.ascontiguousarray(numbers),
+        online.driven,
+        online.loaded,
+        online.free,
+        online.size,
+    )

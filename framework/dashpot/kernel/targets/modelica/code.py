@@ -33,7 +33,7 @@ class ModelicaCode(Code):
     def __init__(self) -> None:
         super().__init__()
         self.locals: dict[str, str] = {}
-        self.changing: set[str] = set()
+        self.changing: dict[str, Kind] = {}  # what answers a changed memory, and what else
 
     def let(self, name: str, value: str, kind: Kind = "number") -> None:
         """A variable of the function, and an assignment."""
@@ -49,13 +49,8 @@ class ModelicaCode(Code):
 
     def do(self, call: str) -> None:
         """A call that changes the memory."""
-        answers = MEMORY if call.partition("(")[0] not in self.numeric else f"(, {MEMORY})"
+        answers = MEMORY if self.changing[call.partition("(")[0]] == "nothing" else f"(, {MEMORY})"
         self.write(f"{answers} := {_words(call)};")
-
-    @property
-    def numeric(self) -> set[str]:
-        """Functions that answer a number besides the memory."""
-        return {"turns"} & self.changing
 
     def answer(self, value: str) -> None:
         """A return."""
@@ -70,7 +65,7 @@ class ModelicaCode(Code):
         body = self.lines[head:]
         changes = any(re.match(rf"\s*(\(.*, )?{MEMORY}(\[.*\])?\)? := ", line) for line in body)
         if changes:
-            self.changing.add(name)
+            self.changing[name] = kind
         self.lines[head:] = [*self._declared(kind, name, arguments, about, changes), *body, f"    end {name};", ""]
 
     def _declared(self, kind: Kind, name: str, arguments: Arguments, about: str, changes: bool) -> list[str]:

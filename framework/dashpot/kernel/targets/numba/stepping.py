@@ -60,7 +60,7 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
 
 
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
-    arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]  # type: ignore[list-item]
+    arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
     with code.function("nothing", name, arguments, "The force along a whole record."):
         code.let("state", f"np.zeros({online.size})", "array")
         if online.system:

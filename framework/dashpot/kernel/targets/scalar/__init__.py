@@ -5,4 +5,5 @@ graph     - a graph becomes expressions
 functions - what mathematics libraries do not have
 online    - a network with two ends, sample by sample
 coupled   - the same for a network with unknown nodes
+whole     - whichever of the two a network needs
 """
