@@ -16,6 +16,7 @@ from numba import njit
 """
 SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
 INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
+AT_EVERY_SAMPLE = frozenset({"advance", "step_"})  # written into the loop that calls them
 
 
 class PythonCode(Code):
@@ -48,6 +49,7 @@ class PythonCode(Code):
     def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Block:
         """A compiled function."""
         settings = SETTINGS if name in self.called else f"{SETTINGS}, {INNER}"
+        settings += ", forceinline=True" if name in AT_EVERY_SAMPLE else ""
         self.lines += ["", "", f"@njit({settings})"]
         return self.indented(f"def {name}({', '.join(name for _, name in arguments)}):")
 
