@@ -58,6 +58,13 @@ def test_a_name_that_c_does_not_take_is_changed(tmp_path):
     assert b"3rd mount* /" in files["network_3rd_mount__.h"]
 
 
+def test_a_text_of_the_file_does_not_end_its_comment(tmp_path):
+    network = replace(mount(), source="*\\\n/ int injected; *\\\n/")
+    export(network, tmp_path)
+    (tmp_path / "it.c").write_text('#include "mount.h"\nint injected(void);\nint injected(void) { return 1; }\n')
+    subprocess.run(["cc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", "it.c"], cwd=tmp_path, check=True)
+
+
 def test_a_curve_without_numbers_is_refused_by_name():
     import dashpot as dp
 

@@ -47,7 +47,7 @@ def test_a_parser_takes_the_text(network):
 
 
 def test_numbers_are_parameters_with_units():
-    assert 'parameter Real friction_limit(unit = "N") = 60.0 "friction.limit";' in written(mount())
+    assert "parameter Real 'friction.limit'(unit = \"N\") = 60.0;" in written(mount())
 
 
 def test_a_network_with_inner_nodes_is_refused_by_name():

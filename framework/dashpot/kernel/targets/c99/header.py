@@ -101,8 +101,9 @@ def print_header(online: Online, name: str, title: str) -> str:
 
 
 def comment(text: str) -> str:
-    """A text that does not end the comment that it stands in."""
-    return text.replace("*/", "* /").replace("/*", "/ *")
+    """A text on one line that does not end the comment that it stands in."""
+    plain = re.sub(r"[\s\\]+", " ", text)
+    return plain.replace("*/", "* /").replace("/*", "/ *")
 
 
 def _at(quantity: str, joint: str) -> str:

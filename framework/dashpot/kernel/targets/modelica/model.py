@@ -59,7 +59,7 @@ def print_model(online: Online, name: str, title: str, values: Sequence[float], 
         code.set(f"s[{INPUTS}]", "x")
         code.set(f"s[{INPUTS + 1}]", "v")
         code.do("advance(s, dt, p)")
-    rows = [f'    parameter Real {parameter(path)}(unit = "{unit}") = {code.number(float(value))} "{path}";'
+    rows = [f'    parameter Real {parameter(path)}(unit = "{unit}") = {code.number(float(value))};'
             for path, value, unit in zip(online.numbers, values, units, strict=True)]  # fmt: skip
     return TEXT.format(name=name, title=title.replace("\\", "\\\\").replace('"', '\\"'), size=online.size,
                        parameters="\n".join(rows), names=", ".join(map(parameter, online.numbers)),
@@ -67,5 +67,5 @@ def print_model(online: Online, name: str, title: str, values: Sequence[float], 
 
 
 def parameter(path: str) -> str:
-    """The name of a parameter."""
-    return re.sub(r"\W+", "_", path).strip("_")
+    """The name of a parameter: that of the number, in quotes."""
+    return f"'{re.sub(r'[^!-&(-~]', '_', path)}'"
