@@ -349,6 +349,8 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
     "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run "
                         "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
     "rigs": _section("Rigs", "`dashpot simulate SPEC --rig WORD` or `dp.measure(model, \"WORD\", ...)`.", written.rigs),
+    "exports": _section("Exports", "`dashpot export SPEC --to WORD -o OUT`: a network [in other "
+                        "programs](../how-to/use-elsewhere.md).", written.exports),
     "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
                           written.specimens),
     "commands": commands,

@@ -41,6 +41,34 @@ def test_a_layer_imports_only_from_its_left(layer):
     assert not wrong, "\n".join(wrong)
 
 
+# inside the kernel: what a program is knows neither how it is made nor how it is printed
+SEALED = {"ir": ("compiler", "targets"), "compiler": ("targets",), "targets": ("compiler",)}
+
+
+@pytest.mark.parametrize("folder", sorted(SEALED))
+def test_compiler_and_targets_share_the_program_alone(folder):
+    wrong = [
+        f"{at(path, line)} imports {name}"
+        for path in modules(FRAMEWORK / "kernel" / folder)
+        for name, line in imports(path)
+        if name.startswith(tuple(f"dashpot.kernel.{other}" for other in SEALED[folder]))
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_no_target_knows_another():
+    folder = FRAMEWORK / "kernel" / "targets"
+    languages = {path.name for path in folder.iterdir() if path.is_dir() and path.name != "__pycache__"}
+    wrong = [
+        f"{at(path, line)} imports {name}"
+        for language in languages
+        for path in modules(folder / language)
+        for name, line in imports(path)
+        if name.startswith(tuple(f"dashpot.kernel.targets.{other}" for other in languages - {language, "scalar"}))
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
 def _may_import(layer: str, other: str) -> bool:
     # the package itself offers its version
     return other in (layer, "__version__") or RANK.get(other, len(LAYERS)) < RANK[layer]

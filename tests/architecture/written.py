@@ -87,6 +87,15 @@ def rigs() -> Iterator[str]:
         yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
 
 
+def exports() -> Iterator[str]:
+    """A section for each target that a network is written for, with its options."""
+    for word, made in things("exports").items():
+        yield f"### `{word}`"
+        yield from paragraphs(made)
+        if options_of(made):
+            yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
+
+
 def modules() -> Iterator[str]:
     """A list for each layer of the framework: its modules, each with what it says about itself."""
     layers = (
@@ -110,6 +119,7 @@ PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
         "causes": causes,
         "specimens": specimens,
         "rigs": rigs,
+        "exports": exports,
     },
     "framework/README.md": {"modules": modules},
 }

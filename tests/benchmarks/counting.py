@@ -21,9 +21,10 @@ import numpy as np
 from axle import AXLE, AxleTask, axle
 from workload import NETWORK, SWEEPS, Task, network
 
-from dashpot.kernel.native import machine_text
-from dashpot.kernel.source import print_source
-from dashpot.kernel.system_source import print_system
+from dashpot.kernel.targets.choice import backend
+from dashpot.kernel.targets.llvm.native import machine_text
+from dashpot.kernel.targets.llvm.source import print_source
+from dashpot.kernel.targets.llvm.system_source import print_system
 
 REGISTERS = ("zmm", "ymm", "xmm")
 PROCESSOR, SECONDS = "haswell", 0.5
@@ -31,7 +32,7 @@ PROCESSOR, SECONDS = "haswell", 0.5
 CALLS = {NETWORK: 200, f"{NETWORK}, 1 lane": 500, AXLE: 5}
 RUN = """
 import pickle, sys
-from dashpot.kernel.native import load_native
+from dashpot.kernel.targets.llvm.native import load_native
 with open(sys.argv[1], "rb") as file:
     text, arguments = pickle.load(file)
 code = load_native(text, len(arguments))
@@ -65,7 +66,7 @@ def texts() -> dict[str, str]:
     return {
         NETWORK: print_source(network().program, 2),
         f"{NETWORK}, 1 lane": print_source(network().program, 1, True),
-        AXLE: print_system(system.layouts, system.outputs, system.topology.unknown, 1),
+        AXLE: print_system(system.system, 1),
     }
 
 
@@ -91,7 +92,7 @@ def works() -> dict[str, Counted]:
     found = {}
     for name, count in ((NETWORK, 16), (f"{NETWORK}, 1 lane", 1)):
         recorder, task = Recorder(), Task.of(replace(network()), drives, count)
-        task.network._natives[(2, False) if count > 1 else (1, True)] = recorder
+        task.network._natives[backend(), *((2, False) if count > 1 else (1, True))] = recorder
         task.score()
         found[name] = Counted(texts()[name], recorder.calls[0], task.units)
     recorder, whole = Recorder(), AxleTask.of(SECONDS, 8)

@@ -40,7 +40,7 @@ from dashpot.data.drive import Drive
 from dashpot.fit.search import run_search
 from dashpot.kernel.network import CompiledNetwork
 from dashpot.kernel.parts import take_apart
-from dashpot.kernel.source import print_source
+from dashpot.kernel.targets.llvm.source import print_source
 
 LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
 ELEMENTS = {"maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms", "prandtl": "stiffness: 9 N/mm, limit: 20 N",

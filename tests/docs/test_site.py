@@ -68,12 +68,13 @@ def notebooks_show_what_they_found(site: Path) -> None:
     assert "width at 1.5 mm: 120 N" in texts["declare_a_topology"]
     assert "identified:" in texts["identify_a_tire"]
     assert "+relaxation" in texts["find_a_hidden_effect"]
+    assert "of the wheel" in texts["quarter_car_in_numba"]
 
 
 def generated_pages_hold_what_is_installed(site: Path) -> None:
     from architecture.written import things
 
-    for kind in ("elements", "causes", "optimizers", "formats", "rigs", "specimens"):
+    for kind in ("elements", "causes", "optimizers", "formats", "rigs", "specimens", "exports"):
         page = (site / "generated" / f"{kind}.html").read_text(encoding="utf-8")
         assert not [word for word in things(kind) if f">{word}</span>" not in page], kind
     assert (site / "generated" / "elements.html").read_text(encoding="utf-8").count('<math display="block">') > 20

@@ -72,7 +72,7 @@ def praise(spec: str, problems: tuple[Problem, ...]) -> str:
 def problems_of(spec: str, session: Session) -> tuple[Problem, ...]:
     """What is wrong or weak with one network: with its text, its laws, or its structure. Or with a dataset."""
     from dashpot.data.description import is_dataset
-    from dashpot.kernel.trace import trace_branch
+    from dashpot.kernel.compiler.trace import trace_branch
     from dashpot.model.lint import find_weaknesses
 
     try:

@@ -206,7 +206,7 @@ def compiler(text: str = PROBE) -> Iterator[Finding]:
     try:
         import numpy as np
 
-        from dashpot.kernel.native import load_native
+        from dashpot.kernel.targets.llvm.native import load_native
 
         answer = np.zeros(1)
         compiled = load_native(text, 1)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @click.option("--specimen", metavar="NAME", help="See `dashpot list specimens`.",
               shell_complete=complete.installed("specimens"))  # fmt: skip
 @output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
-@switches("seed", "jobs", "json", "quiet", "force")
+@switches("seed", "jobs", "json", "quiet", "force", "backend")
 def verb(specimen: str | None, output: Path, switches: Switches) -> None:
     """Measure a virtual specimen, compare the shipped networks on it, and find what the simplest one lacks.
 

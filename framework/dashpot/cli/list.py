@@ -32,7 +32,6 @@ KINDS = (
     "exports",
     "plugins",
 )
-NOT_YET = ("exports",)
 
 
 @dataclass(frozen=True)
@@ -72,8 +71,6 @@ def verb(kind: str | None, switches: Switches) -> None:
 
 def entries_of(kind: str, session: Session) -> list[Entry]:
     """The list of one kind."""
-    if kind in NOT_YET:
-        return []
     if kind == "networks":
         return networks(session)
     if kind == "rigs":
@@ -163,4 +160,4 @@ def as_text(shown: dict[str, list[Entry]]) -> str:
 
 def none_of(kind: str) -> str:
     """Why a list is empty."""
-    return f"There are no {kind}{' in this version of dashpot yet' if kind in NOT_YET else ': no plugin gives any'}."
+    return f"There are no {kind}: no plugin gives any."

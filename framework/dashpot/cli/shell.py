@@ -21,6 +21,7 @@ VERBS = (
     "look",
     "draw",
     "simulate",
+    "export",
     "fit",
     "compare",
     "diagnose",

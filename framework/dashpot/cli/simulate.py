@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
 @output_option("A folder; with --data also a file ending in .npz.")
-@switches("seed", "json", "quiet", "force")
+@switches("seed", "json", "quiet", "force", "backend")
 def verb(
     spec: str,
     dataset: str | None,

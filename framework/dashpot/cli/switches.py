@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,30 @@ class Switches:
     json: bool = False
     quiet: bool = False
     force: bool = False
+    backend: str | None = None
+
+
+BACKEND = "DASHPOT_BACKEND"
+
+
+def use_backend(context: click.Context, _: click.Parameter, word: str | None) -> str | None:
+    """Let this call, and the workers that it starts, run compiled networks on a backend."""
+    if word is not None:
+        context.with_resource(environment(BACKEND, word))
+    return word
+
+
+@contextmanager
+def environment(name: str, value: str) -> Iterator[None]:
+    """An environment variable that is as it was afterwards."""
+    before = os.environ.get(name)
+    os.environ[name] = value
+    try:
+        yield
+    finally:
+        del os.environ[name]
+        if before is not None:
+            os.environ[name] = before
 
 
 def available_cores() -> int:
@@ -48,6 +73,12 @@ SWITCHES = {
     ),
     "json": click.option("--json", is_flag=True, help="Result on standard output as JSON, talk on standard error."),
     "quiet": click.option("--quiet", is_flag=True, help="Say nothing but warnings and errors."),
+    "backend": click.option(
+        "--backend",
+        type=click.Choice(["llvm", "numba"]),
+        callback=use_backend,
+        help="What compiles networks; by default llvm, the faster one.",
+    ),
     "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
 }
 

@@ -23,7 +23,7 @@ def verb(specs: tuple[str, ...], switches: Switches) -> None:
       dashpot warm my_network.yaml
     """
     from dashpot.kernel.ahead import compile_ahead
-    from dashpot.kernel.native import cache_folder
+    from dashpot.kernel.targets.cache import cache_folder
     from dashpot.model.shipped import shipped_networks
 
     session = Session(switches)
@@ -41,6 +41,6 @@ def verb(specs: tuple[str, ...], switches: Switches) -> None:
 
 def compiled_files() -> set[str]:
     """The names of what is compiled."""
-    from dashpot.kernel.native import cache_folder
+    from dashpot.kernel.targets.cache import cache_folder
 
     return {path.name for path in (cache_folder() / "kernels").glob("*.o")}

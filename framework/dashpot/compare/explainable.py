@@ -110,9 +110,7 @@ def explainable_error(setting: Setting, seed: int = 0, trees: bool = True) -> Ex
 
 
 @single_threaded_algebra
-def explain(
-    train: Sequence[Record], held_out: Sequence[Record], seed: int = 0, trees: bool = True
-) -> Explainable:
+def explain(train: Sequence[Record], held_out: Sequence[Record], seed: int = 0, trees: bool = True) -> Explainable:
     """Train a general model on some runs and judge it on all; nothing is learned from the held-out ones."""
     if not any(np.ptp(each.run.drive.displacement) > 0.0 for each in train):
         return Explainable(reason="nothing moves in the training runs")

@@ -18,6 +18,7 @@ import pluggy
 
 if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
+    from dashpot.contract.export import Export
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
     from dashpot.contract.rig import Rig
@@ -72,3 +73,8 @@ def dashpot_specimens() -> list[type[Specimen]]:  # type: ignore[empty-body]
 @hookspec
 def dashpot_rigs() -> list[type[Rig]]:  # type: ignore[empty-body]
     """Test procedures: named runs with the motion that the rig prescribes."""
+
+
+@hookspec
+def dashpot_exports() -> list[type[Export]]:  # type: ignore[empty-body]
+    """Targets that a network is written for: languages, mock-up units, tables of other programs."""

@@ -45,6 +45,7 @@ KINDS = (
     Kind("causes", "dashpot.contract.cause", "Cause"),
     Kind("specimens", "dashpot.contract.specimen", "Specimen"),
     Kind("rigs", "dashpot.contract.rig", "Rig"),
+    Kind("exports", "dashpot.contract.export", "Export"),
 )
 
 

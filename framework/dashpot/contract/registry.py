@@ -16,6 +16,7 @@ from dashpot.text.problem import InputError, Place, nearest
 
 if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
+    from dashpot.contract.export import Export
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
     from dashpot.contract.rig import Rig
@@ -35,6 +36,7 @@ class Registry:
     causes: Mapping[str, type[Cause]]
     specimens: Mapping[str, type[Specimen]]
     rigs: Mapping[str, type[Rig]]
+    exports: Mapping[str, type[Export]]
     origins: Mapping[tuple[str, str], Origin]
     plugins: tuple[Origin, ...]
     faults: tuple[PluginFault, ...]

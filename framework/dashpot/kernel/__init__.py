@@ -1,28 +1,22 @@
 """From a declared network to running code.
 
-trace   - every element's law becomes a graph of its motion, states and parameters
-tiers   - what depends on the drive alone, or on a lane alone, leaves the inner loop
-events  - what a law with memory does at a few samples only leaves it too
-stages  - the rest is cut where long functions stand, such as the exponential
-layout  - every number of a lane gets a row in the workspace
-assembly - how instructions on vectors of lanes are written for the compiler
-functions - the long functions
-packing - one lane alone: several numbers share a vector
-passes  - a pass over a group of lanes is written node by node
-source  - all passes of a network become one self-contained text
-native  - the text is compiled once per machine, and kept by what it is made of
-columns - the drive of a run, as the kernel wants it
-block   - groups of lanes that run together, and their memory
-compiled - what every compiled network is
-network - CompiledNetwork: simulate and score blocks of lanes
+compiler - a network becomes a program: the stages, called in order
+ir       - what a program is, whatever the language
+targets  - languages that programs are printed in, and compiled
 
-Where a network has nodes whose motion is unknown, other stages take the place of the inner ones.
+The modules beside them run what is compiled:
 
-scheme        - the time scheme: how velocities follow from positions
-elimination   - solving a small symmetric system of equations, as a graph
-mechanics     - kinematics, balance of forces and Newton's step, as graphs
-system_source - the passes become one text
-system        - CompiledSystem: the same as CompiledNetwork, for several forces and with an estimate of the error
-ahead         - compiling before it is needed
-settings      - numbers of a network that a run gives by its settings
+columns   - the drive of a run, as the kernel wants it
+block     - groups of lanes that run together, and their memory
+compiled  - what every compiled network is
+network   - CompiledNetwork: simulate and score blocks of lanes
+scheme    - the time scheme of networks with unknown nodes: how velocities follow from positions
+system    - CompiledSystem: the same as CompiledNetwork, for several forces and with an estimate of the error
+parts     - a parallel network branch by branch
+eager     - the same in plain numpy: the reference
+ahead     - compiling before it is needed
+settings  - numbers of a network that a run gives by its settings
+observe   - how a load cell shows a force
+jit       - a network as functions for somebody else's compiled code
+export    - what exporters need of a network
 """

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
+from dashpot.kernel.compiler.events import after_the_one_before, follow
 from dashpot.kernel.curves import segment_of
-from dashpot.kernel.events import after_the_one_before, follow
-from dashpot.kernel.tiers import Program
+from dashpot.kernel.ir.program import Program
 from dashpot.model.network import Characteristic
 
 Array = NDArray[np.float64]

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
+from dashpot.kernel.compiler.compile import recipe_of
 from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.ir.program import Program
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.settings import with_settings
-from dashpot.kernel.structure import recipe_of
-from dashpot.kernel.tiers import Program
 from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]

@@ -17,8 +17,15 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive
 from dashpot.expr.interpret import Recipe
 from dashpot.kernel.columns import see_samples, see_turns
+from dashpot.kernel.compiler.trace import (
+    RATES,
+    Sight,
+    TracedBranch,
+    check_states,
+    refuse_missing_numbers,
+    trace_network,
+)
 from dashpot.kernel.curves import TableLaw, cubic_coefficients
-from dashpot.kernel.trace import RATES, Sight, TracedBranch, check_states, refuse_missing_numbers, trace_network
 from dashpot.model.element import Motion, Response
 from dashpot.model.network import Branch, Characteristic, NetworkSpec
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.mechanics import row_of
-from dashpot.kernel.meter import BEGIN, STORED, WORK, EnergyMeter, edge_row
+from dashpot.kernel.compiler.mechanics import row_of
+from dashpot.kernel.compiler.meter import BEGIN, STORED, WORK, EnergyMeter, edge_row
 from dashpot.kernel.system import CompiledSystem, Status, compile_system, status_of
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import topology_of

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.excitation import Excitation
 from dashpot.expr.node import symbol
-from dashpot.kernel.mechanics import driven_symbol
+from dashpot.kernel.compiler.mechanics import driven_symbol
 from dashpot.kernel.system import WIDTH, CompiledSystem, SystemRows, compile_system
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Ends, NetworkSpec, Value

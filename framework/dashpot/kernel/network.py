@@ -12,17 +12,15 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.assembly import LANES
 from dashpot.kernel.block import Block, blocks_of
 from dashpot.kernel.columns import Rows, prepare_rows
 from dashpot.kernel.compiled import Compiled
-from dashpot.kernel.layout import score_row
-from dashpot.kernel.native import Native, load_native
+from dashpot.kernel.compiler.compile import program_of
+from dashpot.kernel.compiler.trace import refuse_missing_numbers
+from dashpot.kernel.ir.layout import LANES, score_row
 from dashpot.kernel.settings import used_settings, with_settings
-from dashpot.kernel.source import ARGUMENTS
-from dashpot.kernel.structure import program_of, source_of
 from dashpot.kernel.system import CompiledSystem, compile_system
-from dashpot.kernel.trace import refuse_missing_numbers
+from dashpot.kernel.targets.choice import Code, backend, target
 from dashpot.kernel.workers import spread
 from dashpot.model.network import END, Characteristic, NetworkSpec
 from dashpot.model.topology import topology_of
@@ -42,15 +40,15 @@ class CompiledNetwork(Compiled[Rows]):
         """Every curve of the network by path."""
         return self.spec.curves()
 
-    def native(self, vectors: int, alone: bool = False) -> Native:
+    def native(self, vectors: int, alone: bool = False) -> Code:
         """The compiled code for groups of so many vectors of lanes, or for a single lane."""
-        group = vectors, alone
+        group = backend(), vectors, alone
         if group not in self._natives:
-            self._natives[group] = load_native(source_of(self.program, *group), len(ARGUMENTS))
+            self._natives[group] = target().network(self.program, vectors, alone)
         return self._natives[group]
 
     @cached_property
-    def _natives(self) -> dict[tuple[int, bool], Native]:
+    def _natives(self) -> dict[tuple[str, int, bool], Code]:
         return {}
 
     def prepare(self, motion: Drive | Excitation) -> Rows:
@@ -67,7 +65,7 @@ class CompiledNetwork(Compiled[Rows]):
         code, width = self._group(lanes.shape[0])
         for block in self._blocks(run.drive.dt, lanes, width):
             buffer = np.empty((run.drive.samples, width))
-            code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer)
+            code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer, block.count)
             out[block.place] = buffer.T[: block.count]
         return out[0] if values is None or np.ndim(values) == 1 else out
 
@@ -89,13 +87,13 @@ class CompiledNetwork(Compiled[Rows]):
             aims = [np.ascontiguousarray(aim, dtype=float) for aim in (target, weight)]
             for block in blocks[_make(run)]:
                 workspace = block.fresh_workspace()
-                code(*_arguments(run, block, workspace), *aims, None)
+                code(*_arguments(run, block, workspace), *aims, None, block.count)
                 out[block.place] = workspace[-1, : block.count]
             return out
 
         return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
-    def _group(self, count: int) -> tuple[Native, int]:
+    def _group(self, count: int) -> tuple[Code, int]:
         vectors, alone = ALONE if count == 1 else FEW if count <= LANES else MANY
         return self.native(vectors, alone), vectors * LANES
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,29 +13,24 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive, refined_path
 from dashpot.data.excitation import Excitation
 from dashpot.expr.interpret import interpret
-from dashpot.expr.node import constant
-from dashpot.kernel.assembly import LANES
 from dashpot.kernel.block import Block, blocks_of
 from dashpot.kernel.compiled import Compiled
-from dashpot.kernel.layout import Shelf
-from dashpot.kernel.mechanics import MOVED, Equations, Meter, driven_symbol, write_equations
-from dashpot.kernel.native import Native, load_native
+from dashpot.kernel.compiler.compile import system_of
+from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
+from dashpot.kernel.compiler.trace import refuse_missing_numbers
+from dashpot.kernel.ir.layout import LANES
+from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
 from dashpot.kernel.scheme import PAIR, alternate
 from dashpot.kernel.settings import used_settings, with_settings
-from dashpot.kernel.structure import KEPT, Build, structure_of
-from dashpot.kernel.system_source import ARGUMENTS, UNBALANCED, UNSOLVED, SystemLayouts, print_system
-from dashpot.kernel.tiers import Program, Regrouping, hoist, shared_nodes
-from dashpot.kernel.trace import refuse_missing_numbers
+from dashpot.kernel.targets.choice import Code, target
 from dashpot.kernel.workers import spread
 from dashpot.model.network import Characteristic, NetworkSpec
 from dashpot.model.topology import Topology, topology_of
 
 Array = NDArray[np.float64]
 
-VECTORS = 1  # of lanes in a group
-WIDTH = VECTORS * LANES
+WIDTH = LANES  # of a group
 PAIRS = 1  # coarse steps in a sample, in pairs
-TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3
 
 
 class Status(Enum):
@@ -87,8 +82,8 @@ class CompiledSystem(Compiled[SystemRows]):
     """A compiled network with unknown nodes; see ``Compiled``. ``signals`` are forces over time that laws refer to."""
 
     topology: Topology
-    layouts: SystemLayouts
-    native: Native
+    system: SystemProgram
+    native: Code
     signals: tuple[str, ...] = ()
 
     @cached_property
@@ -170,7 +165,7 @@ class CompiledSystem(Compiled[SystemRows]):
             codes.append(self._run(run, block, out, miss, (zeros, zeros)))
             spaces.append(block.workspace[..., : block.count])
         rows = np.concatenate(spaces, axis=2)
-        return {name: rows[:, self.layouts.row(name)] for name in self.layouts.equations.rows}, np.concatenate(codes)
+        return {name: rows[:, self.system.row(name)] for name in self.program.states}, np.concatenate(codes)
 
     def number_of(self, end: str) -> int:
         """The place of a driven node among all; a network with a single one has it under any name."""
@@ -203,13 +198,13 @@ class CompiledSystem(Compiled[SystemRows]):
         measured, weight = scoring or (None, None)
         self.native(
             run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, block.workspace, status,
-            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None),
+            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None), block.count,
         )  # fmt: skip
         return status[: block.count]
 
     def _blocks(self, run: SystemRows, lanes: Array) -> Iterator[Block]:
         step = run.excitation.dt / (PAIR * run.pairs)
-        workspace = np.stack([self._fill(self.layouts.rows, dt, lanes) for dt in (step, 0.5 * step)])
+        workspace = np.stack([self._fill(self.system.rows, dt, lanes) for dt in (step, 0.5 * step)])
         return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
@@ -264,56 +259,12 @@ def compile_system(
     """
     refuse_missing_numbers(spec)
     topology = topology or topology_of(spec)
-    build = Build((structure_of(topology), tuple(signals)), (spec, topology, tuple(signals)))
-    printed = _print(build, meter) if meter else _shared(build)
-    native = load_native(printed.text, len(ARGUMENTS))
-    return CompiledSystem(spec, printed.program, topology, printed.layouts, native, tuple(signals))
-
-
-@dataclass(frozen=True)
-class _Printed:
-    program: Program
-    layouts: SystemLayouts
-    text: str
-
-
-@lru_cache(KEPT)
-def _shared(build: Build) -> _Printed:
-    # networks that are built alike share what is printed
-    return _print(build, None)
-
-
-def _print(build: Build, meter: Meter | None) -> _Printed:
-    spec, topology, signals = build.parts
-    equations = write_equations(topology, meter)
-    known = {driven_symbol(signal, "load") for signal in signals}
-    equations = replace(equations, known=equations.known | known)
-    program, passes = _sort(equations)
-    layouts = SystemLayouts(program, equations, _shelves(spec), passes)
-    return _Printed(program, layouts, print_system(layouts, topology.held("driven"), topology.unknown, VECTORS))
-
-
-def _sort(equations: Equations) -> tuple[Program, dict[str, dict]]:
-    roots = [node for rows in equations.passes for node in rows.values()]
-    regroup = Regrouping(set(equations.rows), set(equations.known), shared_nodes(roots))
-    names = ("start", "settle", "rest", "predict", "improve", "commit")
-    passes = {name: {row: regroup(node) for row, node in rows.items()}
-              for name, rows in zip(names, equations.passes, strict=True)}  # fmt: skip
-    columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
-    zero = constant(0.0)
-    return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
+    system = system_of(spec, topology, meter, signals)
+    return CompiledSystem(spec, system.program, topology, system, target().system(system), tuple(signals))
 
 
 def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:
     return {path: curve for path, curve in spec.curves().items() if curve.form == "table"}
-
-
-def _shelves(spec: NetworkSpec) -> dict[str, Shelf]:
-    shelves, base = {}, 0
-    for path, curve in _tabulated(spec).items():
-        shelves[path] = Shelf(base, len(curve.at))
-        base += len(curve.at) + 1
-    return shelves
 
 
 def _by_sample(rows: Array) -> Array:

@@ -16,6 +16,8 @@ from dashpot.report.schematic.svg import svg
 if TYPE_CHECKING:
     from pandas import DataFrame
 
+    from dashpot.kernel.jit import Solver
+
 
 class Model(NetworkSpec):
     """A network. In a notebook it shows its schematic and its numbers.
@@ -46,6 +48,15 @@ class Model(NetworkSpec):
     def weaknesses(self) -> list[str]:
         """What is weak in the structure whatever the data, a sentence each."""
         return [str(problem) for problem in find_weaknesses(self)]
+
+    def jit(self, **settings: float) -> Solver:
+        """Functions compiled by numba, ``step`` and ``simulate``, for your own compiled code; see ``Solver``.
+
+        ``settings`` in SI give the numbers that depend on the settings of a run.
+        """
+        from dashpot.kernel.jit import jit_network
+
+        return jit_network(self, settings)
 
     def save(self, path: str | Path) -> Path:
         """Write the YAML text of the network; the path."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from dashpot.expr.node import TraceError
-from dashpot.kernel.trace import RATES, trace_network
+from dashpot.kernel.compiler.trace import RATES, trace_network
 from dashpot.model.branches import FOR_ALL, WAYS
 from dashpot.model.element import Curve, Element, Parameter, Scale
 from dashpot.testing.specimen import draw_sizes, draw_specimens

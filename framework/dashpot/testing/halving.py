@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dashpot.kernel.compiler.trace import Sight, trace_branch
 from dashpot.kernel.eager import EagerBranch
-from dashpot.kernel.trace import Sight, trace_branch
 from dashpot.model.element import Element, Motion
 from dashpot.testing.specimen import Sizes, Specimen, draw_sizes, draw_specimens
 from dashpot.testing.verdict import Examination

@@ -14,9 +14,9 @@ from dashpot.expr.derive import derive
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node
 from dashpot.kernel.columns import see_samples
+from dashpot.kernel.compiler.trace import TracedBranch, trace_branch
 from dashpot.kernel.curves import TableLaw
 from dashpot.kernel.eager import table_law
-from dashpot.kernel.trace import TracedBranch, trace_branch
 from dashpot.model.element import Element
 from dashpot.testing.motion import random_drive
 from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
+from dashpot.kernel.compiler.trace import Sight, trace_branch
 from dashpot.kernel.eager import EagerBranch, simulate_eagerly
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.trace import Sight, trace_branch
 from dashpot.model.element import Element, Motion
 from dashpot.testing.motion import random_drive
 from dashpot.testing.specimen import Specimen, draw_sizes, draw_specimens

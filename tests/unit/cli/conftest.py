@@ -44,6 +44,7 @@ def registry(monkeypatch: pytest.MonkeyPatch) -> Registry:
         causes=empty,
         specimens=empty,
         rigs=empty,
+        exports=empty,
         origins={("optimizers", "swarm"): BUILT_IN},
         plugins=(BUILT_IN, FOREIGN),
         faults=(PluginFault(FOREIGN, "cannot be loaded: ImportError: no"), PluginFault(FOREIGN, "gave 7")),
@@ -133,7 +134,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
     replaced = {
         "dashpot.model.reading": {"read_network": lambda name, elements: SimpleNamespace(name=name)},
         "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
-        "dashpot.kernel.trace": {"trace_network": lambda network: ()},
+        "dashpot.kernel.compiler.trace": {"trace_network": lambda network: ()},
         "dashpot.triage.examine": {"examined": lambda dataset: dataset},
         "dashpot.fit.api": {"fit_network": work("fit")},
         "dashpot.compare.comparison": {"compare": work("compare"), "comparison_of": lambda fit: fit},

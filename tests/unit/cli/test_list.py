@@ -38,14 +38,9 @@ def test_every_verb_warns_of_faulty_plugins_in_one_line(call):
     )
 
 
-@pytest.mark.parametrize("kind", ["elements", "causes", "formats", "specimens"])
+@pytest.mark.parametrize("kind", ["elements", "causes", "formats", "specimens", "exports"])
 def test_an_empty_list_says_that_no_plugin_gives_any(call, kind):
     assert call("list", kind)[1] == f"There are no {kind}: no plugin gives any.\n"
-
-
-@pytest.mark.parametrize("kind", ["exports"])
-def test_what_does_not_exist_yet_is_said(call, kind):
-    assert call("list", kind)[:2] == (0, f"There are no {kind} in this version of dashpot yet.\n")
 
 
 def test_a_network_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reason(call):

@@ -9,9 +9,9 @@ import pytest
 
 from dashpot import load_registry
 from dashpot.data.drive import drive_from_samples
-from dashpot.kernel import native
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.parts import take_apart
+from dashpot.kernel.targets.llvm import native
 from dashpot.model.reading import read_network
 
 NETWORK = """format: dashpot-network/1

@@ -8,7 +8,7 @@ from seeds import seed_of
 
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import constant, symbol, walk
-from dashpot.kernel.elimination import SMALLEST, solve_symmetric
+from dashpot.kernel.compiler.elimination import SMALLEST, solve_symmetric
 
 
 def sparse_positive(rng: np.random.Generator, count: int) -> np.ndarray:

@@ -10,11 +10,11 @@ from unit.kernel.networks import network
 from dashpot.data.drive import Drive
 from dashpot.expr.node import symbol, walk
 from dashpot.kernel.columns import see_samples, see_turns
+from dashpot.kernel.compiler.events import find_followers, follow, split_events
+from dashpot.kernel.compiler.tiers import Program, sort_tiers
+from dashpot.kernel.compiler.trace import trace_network
 from dashpot.kernel.eager import simulate_eagerly
-from dashpot.kernel.events import find_followers, follow, split_events
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.tiers import Program, sort_tiers
-from dashpot.kernel.trace import trace_network
 from dashpot.model.element import Element, Parameter, Response, State
 from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import MOTIONS, random_drive

@@ -9,10 +9,11 @@ import pytest
 from scipy.special import wrightomega
 from seeds import seed_of
 
-from dashpot.kernel import functions
-from dashpot.kernel.assembly import LANES, Assembly, Bundle
-from dashpot.kernel.native import load_native
-from dashpot.kernel.source import whole
+from dashpot.kernel.ir.layout import LANES
+from dashpot.kernel.targets.llvm import functions
+from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
+from dashpot.kernel.targets.llvm.native import load_native
+from dashpot.kernel.targets.llvm.source import whole
 
 VECTORS = 2
 

@@ -7,7 +7,7 @@ from unit.kernel.networks import ELEMENTS
 
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
-from dashpot.kernel.mechanics import DISTANCE, Equations, force_row, reached_row, row_of, write_equations
+from dashpot.kernel.compiler.mechanics import DISTANCE, Equations, force_row, reached_row, row_of, write_equations
 from dashpot.model.reading import parse_network
 from dashpot.model.topology import topology_of
 

@@ -11,9 +11,9 @@ import pytest
 from unit.kernel.networks import compiled
 
 from dashpot.data.drive import drive_from_samples
-from dashpot.kernel import native
-from dashpot.kernel.native import cache_folder
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.targets.cache import cache_folder
+from dashpot.kernel.targets.llvm import native
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import random_drive

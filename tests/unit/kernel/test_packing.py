@@ -9,10 +9,11 @@ import pytest
 from seeds import seed_of
 from unit.kernel.networks import compiled
 
-from dashpot.kernel.assembly import LANES, NUMBER, Assembly
-from dashpot.kernel.native import load_native
-from dashpot.kernel.packing import packed, unpacked
-from dashpot.kernel.source import ARGUMENTS, print_source
+from dashpot.kernel.ir.layout import LANES
+from dashpot.kernel.targets.llvm.assembly import NUMBER, Assembly
+from dashpot.kernel.targets.llvm.native import load_native
+from dashpot.kernel.targets.llvm.packing import packed, unpacked
+from dashpot.kernel.targets.llvm.source import ARGUMENTS, print_source
 from dashpot.testing import random_drive
 
 ATTRIBUTES = "attributes #0 = { nounwind }\n"

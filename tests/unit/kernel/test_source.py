@@ -11,11 +11,11 @@ import numpy as np
 from seeds import seed_of
 from unit.kernel.networks import network
 
+from dashpot.kernel.compiler.tiers import sort_tiers
+from dashpot.kernel.compiler.trace import trace_network
 from dashpot.kernel.eager import simulate_eagerly
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.source import print_source
-from dashpot.kernel.tiers import sort_tiers
-from dashpot.kernel.trace import trace_network
+from dashpot.kernel.targets.llvm.source import print_source
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import random_drive

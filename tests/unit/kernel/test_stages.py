@@ -8,8 +8,8 @@ from seeds import seed_of
 
 from dashpot.expr.node import symbol, walk
 from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.ir.stages import LONG, cut_stages
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.stages import LONG, cut_stages
 from dashpot.model.element import Element, Parameter, Response, State
 from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import random_drive

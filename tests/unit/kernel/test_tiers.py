@@ -9,8 +9,8 @@ from unit.kernel.networks import network
 
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import Node, symbol, symbols_of, walk
-from dashpot.kernel.tiers import Program, sort_tiers
-from dashpot.kernel.trace import TracedBranch, trace_network
+from dashpot.kernel.compiler.tiers import Program, sort_tiers
+from dashpot.kernel.compiler.trace import TracedBranch, trace_network
 
 MAXWELL = "it: {element: maxwell, stiffness: 5, relaxation_time: 5}"
 DAHL = "it: {element: dahl, stiffness: 5, limit: 5}"

@@ -7,8 +7,8 @@ import pytest
 from unit.kernel.networks import HEAD, network
 
 from dashpot.expr.node import TraceError, symbols_of
+from dashpot.kernel.compiler.trace import trace_branch, trace_network
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.trace import trace_branch, trace_network
 from dashpot.model.element import Curve, Element, Parameter, Response, State
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError

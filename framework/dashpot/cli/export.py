@@ -1,0 +1,52 @@
+"""``dashpot export``: a network for another program."""
+
+from __future__ import annotations
+
+from glob import escape
+from pathlib import Path
+
+import click
+
+from dashpot.cli import complete
+from dashpot.cli.session import Session, split_setting
+from dashpot.cli.switches import Switches, output_option, switches
+from dashpot.text.problem import nearest
+
+
+@click.command("export")
+@click.argument("spec", shell_complete=complete.networks)
+@click.option("--to", "target", metavar="TARGET", required=True, help="See `dashpot list exports`.",
+              shell_complete=complete.installed("exports"))  # fmt: skip
+@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the target.",
+              shell_complete=complete.settings)  # fmt: skip
+@output_option("A folder.")
+@switches("json", "quiet", "force")
+def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
+    """Write a network for another program, with the numbers of its file.
+
+    SPEC is a network file or a shipped name. What a target cannot express is refused before anything is written.
+
+    \b
+    Example:
+      dashpot export identified.yaml --to c -o my_controller
+      dashpot export identified.yaml --to fmu -o my_vehicle
+    """
+    from dashpot.contract.options import read_options
+
+    session = Session(switches)
+    exports = session.registry.exports
+    if target not in exports:
+        known = f"there are: {', '.join(exports)}" if exports else "no plugin gives any"
+        raise click.UsageError(f"No export to '{target}', {nearest(target, exports) or known}")
+    try:
+        export = exports[target](**read_options(exports[target], dict(map(split_setting, settings))))
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
+    network = session.network(spec)
+    with session.watch("exporting"):
+        files = export.files(network)
+    folder = session.claim(output, *map(escape, files))
+    for name, content in files.items():
+        folder.write_bytes(name, content)
+    told = {"format": "dashpot-export/1", "network": network.name, "target": target, "files": sorted(files)}
+    session.talk.result(f"exported: {', '.join(str(output / name) for name in sorted(files))}", told)

@@ -1,0 +1,11 @@
+"""From a declared network to its program; nothing in here knows a target language.
+
+trace       - every element's law becomes a graph of its motion, states and parameters
+events      - what a law with memory does at a few samples only
+tiers       - what depends on the drive alone, or on a lane alone, leaves the inner loop
+mechanics   - kinematics, balance of forces and Newton's step of networks with unknown nodes, as graphs
+elimination - solving a small symmetric system of equations, as a graph
+own_tables  - tables that each lane looks up by itself
+meter       - rows that follow the energy
+compile     - the stages, called in order; networks that are built alike share one program
+"""

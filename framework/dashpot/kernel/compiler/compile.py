@@ -1,0 +1,140 @@
+"""The stages that make the program of a network, called in order.
+
+A program depends on the laws of a network and on how its curves are written, on none of its numbers. Networks that are
+built alike share one program, so that moving a number, as every fit does, traces nothing again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import Any
+
+from dashpot.expr.interpret import Recipe
+from dashpot.expr.node import Node, constant
+from dashpot.kernel.compiler.mechanics import (
+    DONE,
+    Equations,
+    Meter,
+    driven_symbol,
+    force_row,
+    row_of,
+    write_equations,
+)
+from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
+from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_network
+from dashpot.kernel.ir.layout import Layout, shelves_of
+from dashpot.kernel.ir.online import Online
+from dashpot.kernel.ir.program import Program
+from dashpot.kernel.ir.system import SystemProgram
+from dashpot.model.element import Element
+from dashpot.model.network import Branch, NetworkSpec
+from dashpot.model.topology import Topology, topology_of
+
+KEPT = 512
+
+
+@dataclass(frozen=True)
+class _Build:
+    """A network by its structure; ``parts`` are there to build it once."""
+
+    structure: Hashable
+    parts: Any = field(compare=False)
+
+
+def program_of(spec: NetworkSpec) -> Program:
+    """The program of a network with two ends. Raises TraceError and InputError as tracing does."""
+    return _program(_Build(tuple(_structure(branch) for branch in spec.leaves()), spec))
+
+
+def system_of(
+    spec: NetworkSpec, topology: Topology, meter: Meter | None = None, signals: Sequence[str] = ()
+) -> SystemProgram:
+    """The program of a network with unknown nodes; a ``meter`` goes along, and laws may refer to ``signals``."""
+    build = _Build((_structure_of(topology), tuple(signals)), (spec, topology, tuple(signals)))
+    return _balanced(build, meter) if meter else _shared(build)
+
+
+def online_of(spec: NetworkSpec) -> Online:
+    """The program of a network that somebody else steps. InputError for a curve that has no numbers yet."""
+    refuse_missing_numbers(spec)
+    topology = topology_of(spec)
+    system = None if topology.parallel else system_of(spec, topology)
+    program = system.program if system else program_of(spec)
+    tables = [curve for curve in spec.curves().values() if curve.form == "table"]
+    return Online(
+        program,
+        system,
+        topology.held("driven"),
+        topology.held("loaded"),
+        topology.unknown,
+        {inner: joint for joint, inner in topology.mounts.items()},
+        tuple(slot.path for slot in spec.slots()),
+        spec.gravity,
+        shelves_of(spec.curves()),
+        tuple(at for curve in tables for at in (curve.at[0], *curve.at)),
+    )
+
+
+@lru_cache(KEPT)
+def recipe_of(program: Program) -> Recipe:
+    """How the constants of a program come from the numbers of a lane."""
+    return Recipe(program.constants)
+
+
+@lru_cache(KEPT)
+def _program(build: _Build) -> Program:
+    return sort_tiers(trace_network(build.parts))
+
+
+@lru_cache(KEPT)
+def _shared(build: _Build) -> SystemProgram:
+    return _balanced(build, None)
+
+
+def _balanced(build: _Build, meter: Meter | None) -> SystemProgram:
+    spec, topology, signals = build.parts
+    equations = write_equations(topology, meter)
+    known = equations.known | {driven_symbol(signal, "load") for signal in signals}
+    program, passes = _sort(equations, known)
+    shelves = shelves_of(spec.curves())
+    return SystemProgram(
+        program,
+        {name: Layout(program, rows, shelves=shelves) for name, rows in passes.items()},
+        [force_row(joint) for joint in topology.held("driven")],
+        [row_of(joint, "position") for joint in topology.unknown],
+        DONE,
+        known,
+    )
+
+
+def _sort(equations: Equations, known: frozenset[str]) -> tuple[Program, dict[str, dict[str, Node]]]:
+    roots = [node for rows in equations.passes for node in rows.values()]
+    regroup = Regrouping(set(equations.rows), set(known), shared_nodes(roots))
+    names = ("start", "settle", "rest", "predict", "improve", "commit")
+    passes = {name: {row: regroup(node) for row, node in rows.items()}
+              for name, rows in zip(names, equations.passes, strict=True)}  # fmt: skip
+    columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
+    zero = constant(0.0)
+    return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
+
+
+def _structure_of(topology: Topology) -> Hashable:
+    joints = tuple(
+        (joint.name, joint.hold, joint.numbers, tuple(joint.masses), joint.mounted)
+        for joint in topology.joints.values()
+    )
+    edges = tuple((_structure(edge.branch), edge.lower, edge.upper, edge.offset) for edge in topology.edges)
+    return joints, edges
+
+
+def _structure(branch: Branch) -> Hashable:
+    curves = tuple((key, curve.form, len(curve.values)) for key, curve in branch.characteristics().items())
+    return branch.name, branch.numbers, branch.element, _law(branch.element), tuple(branch.values), curves
+
+
+def _law(element: type[Element]) -> Hashable:
+    # a law may change with the methods and constants of its class
+    entries = [entry for base in element.__mro__ for entry in vars(base).items()]
+    return tuple((key, value) for key, value in entries if callable(value) or isinstance(value, float | int | str))

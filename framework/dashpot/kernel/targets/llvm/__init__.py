@@ -1,0 +1,42 @@
+"""Networks as LLVM assembly.
+
+assembly  - how instructions on vectors of lanes are written
+functions - the long functions, such as the exponential
+packing   - one lane alone: several numbers share a vector
+passes    - a pass over a group of lanes, node by node
+source    - all passes of a network with two ends as one self-contained text
+system_source - the same for a network with unknown nodes
+native    - the text is compiled once per machine, and kept by what it is made of
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from dashpot.kernel.ir.program import Program
+from dashpot.kernel.ir.system import SystemProgram
+from dashpot.kernel.targets.llvm import source, system_source
+from dashpot.kernel.targets.llvm.native import Native, load_native
+
+KEPT = 512
+VECTORS = 1  # of lanes in a group of a network with unknown nodes
+
+
+def network(program: Program, vectors: int, alone: bool) -> Native:
+    """The code of a network with two ends; see ``source``."""
+    return load_native(_text(program, vectors, alone), len(source.ARGUMENTS))
+
+
+def system(program: SystemProgram) -> Native:
+    """The code of a network with unknown nodes; see ``system_source``."""
+    return load_native(_system_text(program), len(system_source.ARGUMENTS))
+
+
+@lru_cache(KEPT)
+def _text(program: Program, vectors: int, alone: bool) -> str:
+    return source.print_source(program, vectors, alone)
+
+
+@lru_cache(KEPT)
+def _system_text(program: SystemProgram) -> str:
+    return system_source.print_system(program, VECTORS)

@@ -1,0 +1,5 @@
+"""Networks with two ends as Modelica.
+
+code  - statements of Modelica functions
+model - the model around them, with the flanges of the standard library
+"""

@@ -1,0 +1,84 @@
+"""Statements of Python as numba compiles it: numbers are 64 bits wide, division by zero gives infinity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
+
+HEAD = """\
+from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
+
+import numpy as np
+from numba import njit
+
+"""
+SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
+INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
+AT_EVERY_SAMPLE = frozenset({"advance", "step_"})  # written into the loop that calls them
+
+
+class PythonCode(Code):
+    """A module of compiled functions."""
+
+    operations = {**COMMON, "logical_not": "(not {0})", "where": "({1} if {0} else {2})"}
+
+    def __init__(self, *called: str) -> None:
+        """Functions whose names are ``called`` can be called from Python, too."""
+        super().__init__()
+        self.called = called
+        self.lines += HEAD.splitlines()
+
+    def let(self, name: str, value: str, kind: Kind = "number") -> None:
+        """An assignment."""
+        self.set(name, value)
+
+    def set(self, place: str, value: str) -> None:
+        """An assignment."""
+        self.write(f"{place} = {value}")
+
+    def do(self, call: str) -> None:
+        """A call."""
+        self.write(call)
+
+    def answer(self, value: str) -> None:
+        """A return."""
+        self.write(f"return {value}")
+
+    def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Block:
+        """A compiled function."""
+        settings = SETTINGS if name in self.called else f"{SETTINGS}, {INNER}"
+        settings += ", forceinline=True" if name in AT_EVERY_SAMPLE else ""
+        self.lines += ["", "", f"@njit({settings})"]
+        return self.indented(f"def {name}({', '.join(name for _, name in arguments)}):")
+
+    def when(self, condition: str) -> Block:
+        """An if."""
+        return self.indented(f"if {condition}:")
+
+    def otherwise(self) -> Block:
+        """An else."""
+        return self.indented("else:")
+
+    def repeat(self, condition: str) -> Block:
+        """A while."""
+        return self.indented(f"while {condition}:")
+
+    def loop(self, name: str, first: str | int, end: str | int) -> Block:
+        """A for."""
+        return self.indented(f"for {name} in range({first}, {end}):")
+
+    def part(self, array: str, first: int) -> str:
+        """A slice."""
+        return f"{array}[{first}:]"
+
+    def numbers(self, name: str, values: Sequence[float]) -> None:
+        """An array, which is a constant of the compiled functions."""
+        self.write(f"{name} = np.array([{', '.join(map(self.number, values))}])")
+
+    def number(self, value: float | bool) -> str:
+        """A literal."""
+        if isinstance(value, bool) or not math.isinf(value):
+            return repr(value) if isinstance(value, bool) or value >= 0.0 else f"({value!r})"
+        return "inf" if value > 0.0 else "(-inf)"

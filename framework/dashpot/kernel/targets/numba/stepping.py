@@ -1,0 +1,89 @@
+"""What a user's compiled code calls: ``step`` and ``simulate`` around ``advance``."""
+
+from __future__ import annotations
+
+from dashpot.kernel.ir.online import BEGUN, INPUTS, MOTION, SPAN, Online
+from dashpot.kernel.ir.system import SMALLEST_SPAN
+from dashpot.kernel.targets.numba.code import PythonCode
+from dashpot.kernel.targets.scalar.code import Arguments
+from dashpot.kernel.targets.scalar.whole import write_network
+
+ONE: Arguments = [("array", "state"), ("number", "x"), ("number", "v"), ("number", "dt"), ("array", "numbers")]
+ALL: Arguments = [("array", "x"), ("array", "v"), ("number", "dt"), ("array", "numbers"), ("array", "out")]
+MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array", "load"), ("number", "dt"),
+                   ("array", "numbers"), ("array", "out")]  # fmt: skip
+
+
+def print_solver(online: Online) -> str:
+    """The module of a network that somebody else steps."""
+    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes")
+    write_network(code, online)
+    _write_bend(code)
+    if len(online.driven) == 1 and not online.loaded:
+        _write_step(code, online)
+        _write_tangent(code, online)
+        _write_record(code, online, ("x", "v", "a"), "simulate_path")
+        _write_record(code, online, ("x", "v"), "simulate")
+    _write_step_nodes(code, online)
+    return code.text
+
+
+def _write_bend(code: PythonCode) -> None:
+    arguments: Arguments = [("array", "s"), ("count", "o"), ("number", "x"), ("number", "v"), ("number", "dt")]
+    with code.function("number", "bend", arguments, "The acceleration at the end of the cubic path since a sample."):
+        with code.when(f"s[{BEGUN}] == 0.0"):
+            code.answer("0.0")
+        code.answer("(6.0 * (s[o] - x) / dt + 2.0 * s[o + 1] + 4.0 * v) / dt")
+
+
+def _write_step(code: PythonCode, online: Online) -> None:
+    with code.function("number", "step", ONE, "The force after a step to a displacement and a velocity."):
+        code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x, v, dt)")
+        code.set(f"state[{INPUTS}]", "x")
+        code.set(f"state[{INPUTS + 1}]", "v")
+        code.do("advance(state, dt, numbers)")
+        code.answer(f"state[{online.outputs}]")
+
+
+def _write_tangent(code: PythonCode, online: Online) -> None:
+    """Central differences of three copies of the memory: turning points and Newton's steps move along."""
+    about = "The force, and how it changes with the displacement and with the velocity."
+    with code.function("number", "tangent_step", ONE, about):
+        code.let("spread", "1e-6 * (fabs(x) + fabs(v) * dt + 1e-3)")
+        code.let("memory", "np.empty_like(state)", "array")
+        for name, moved in {"up": "x + spread, v", "down": "x - spread, v", "fast": "x, v + spread / dt",
+                            "slow": "x, v - spread / dt"}.items():  # fmt: skip
+            code.set("memory[:]", "state")
+            code.let(name, f"step(memory, {moved}, dt, numbers)")
+        force = "step(state, x, v, dt, numbers)"
+        code.answer(f"{force}, (up - down) / (2.0 * spread), (fast - slow) * dt / (2.0 * spread)")
+
+
+def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
+    arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
+    with code.function("nothing", name, arguments, "The force along a whole record."):
+        code.let("state", f"np.zeros({online.size})", "array")
+        if online.system:
+            code.set(f"state[{SPAN}]", f"max({SMALLEST_SPAN}, np.max(x) - np.min(x))")
+        with code.loop("k", 0, "x.size"):
+            for number, each in enumerate(given):
+                code.set(f"state[{INPUTS + number}]", f"{each}[k]")
+            if len(given) < len(MOTION):
+                code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x[k], v[k], dt)")
+            code.do("advance(state, dt, numbers)")
+            code.set("out[k]", f"state[{online.outputs}]")
+
+
+def _write_step_nodes(code: PythonCode, online: Online) -> None:
+    answers = len(online.driven) + len(online.free)
+    with code.function("nothing", "step_nodes", MANY, "The same for any nodes: out are forces, then positions."):
+        with code.loop("k", 0, len(online.driven)):
+            code.let("i", f"{INPUTS} + {len(MOTION)} * k", "count")
+            code.set("state[i + 2]", f"bend(state, {online.before} + {len(MOTION)} * k, x[k], v[k], dt)")
+            code.set("state[i]", "x[k]")
+            code.set("state[i + 1]", "v[k]")
+        with code.loop("k", 0, len(online.loaded)):
+            code.set(f"state[{INPUTS + len(MOTION) * len(online.driven)} + k]", "load[k]")
+        code.do("advance(state, dt, numbers)")
+        with code.loop("k", 0, answers):
+            code.set("out[k]", f"state[{online.outputs} + k]")

@@ -1,0 +1,161 @@
+"""Functions that mathematics libraries do not have, and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import log
+
+from dashpot.kernel.targets.omega import OMEGA_BOTTOM, OMEGA_HIGH, OMEGA_LOW, OMEGA_TOP
+from dashpot.kernel.targets.scalar.code import Arguments, Code
+
+X: Arguments = [("number", "x")]
+PAIR: Arguments = [("number", "a"), ("number", "b")]
+TABLE: Arguments = [("array", "s"), ("count", "t"), ("count", "first"), ("count", "count"), ("number", "x")]
+STEEPER = 3.0
+
+
+def write_functions(code: Code, used: set[str]) -> None:
+    """Those of the functions that are ``used``."""
+    for name, write in (("minimum", _smaller), ("maximum", _larger), ("sign", _sign), ("wrightomega", _omega)):
+        if name in used:
+            write(code)
+
+
+def _smaller(code: Code) -> None:
+    _chosen(code, "smaller", "<", "The smaller one, NaN if one is.")
+
+
+def _larger(code: Code) -> None:
+    _chosen(code, "larger", ">", "The larger one, NaN if one is.")
+
+
+def _chosen(code: Code, name: str, how: str, about: str) -> None:
+    with code.function("number", name, PAIR, about):
+        with code.when(f"(a {how} b) | (a != a)"):
+            code.answer("a")
+        code.answer("b")
+
+
+def _sign(code: Code) -> None:
+    with code.function("number", "side", X, "-1, 0, 1 or NaN."):
+        with code.when("x > 0.0"):
+            code.answer("1.0")
+        with code.when("x < 0.0"):
+            code.answer("-1.0")
+        code.answer("x")
+
+
+def _omega(code: Code) -> None:
+    with code.function("number", "omega", X, "The solution y of y + log(y) = x."):
+        with code.when(f"x > {OMEGA_HIGH}"):
+            code.let("y", "x - log(x)")
+            with code.loop("k", 0, 3):
+                code.set("y", "y * (1.0 + x - log(y)) / (1.0 + y)")
+            with code.when("x > 1e300"):
+                code.set("y", "x")
+            code.answer("y")
+        code.let("low", "x")
+        with code.when(f"x < {OMEGA_LOW}"):
+            code.set("low", f"{OMEGA_LOW}")
+        part = f"{_polynomial(OMEGA_TOP, 'low')} / {_polynomial(OMEGA_BOTTOM, 'low')}"
+        code.let("start", f"{log(2.0)!r} * ({part}) + (x - low)")
+        code.let("y", "exp(start)")
+        code.let("b", "1.0 / (1.0 + y)")
+        code.let("m", "(x - start - y) * b")
+        code.answer("y * (1.0 + m * (1.0 + b * m * (0.5 + m * (0.5 * b - 1.0 / 3.0))))")
+
+
+def _polynomial(coefficients: Sequence[float], x: str) -> str:
+    *others, total = map(repr, coefficients)
+    for coefficient in reversed(others):
+        total = f"({coefficient} + {x} * {total})"
+    return total
+
+
+def write_tables(code: Code, orders: set[int]) -> None:
+    """Finding the place in a table, and its value or slopes there."""
+    with code.function("count", "segment", TABLE[2:], "The segment of a table that x lies in, among all segments."):
+        code.let("k", "first", "count")
+        with code.loop("j", "first + 1", "first + count + 1"), code.when("x >= knots[j]"):
+            code.set("k", "j")
+        code.answer("k")
+    for order, value in enumerate((
+        "s[c] + u * (s[c + 1] + u * (s[c + 2] + u * s[c + 3]))",
+        "s[c + 1] + u * (2.0 * s[c + 2] + 3.0 * u * s[c + 3])",
+        "2.0 * s[c + 2] + 6.0 * u * s[c + 3]",
+    )):  # fmt: skip
+        if order not in orders:
+            continue
+        with code.function("number", f"table{order}", TABLE, "A table at x, or its first or second derivative."):
+            code.let("k", "segment(first, count, x)", "count")
+            code.let("u", "x - knots[k]")
+            code.let("c", "t + 4 * k", "count")
+            code.answer(value)
+
+
+def write_tabulate(code: Code) -> None:
+    """The monotone cubic through the values of a table; see ``kernel.curves``."""
+    _write_end_slope(code)
+    _write_slope(code)
+    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "first"), ("count", "count"),
+                            ("number", "outside")]  # fmt: skip
+    with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[0]."):
+        for row, node in (("first", "0"), ("first + count", "count - 1")):
+            code.let(f"c{len(node)}", f"t + 4 * ({row})", "count")
+            place = f"c{len(node)}"
+            code.set(f"s[{place}]", f"p[{node}]")
+            code.set(f"s[{place} + 1]", f"outside * slope(p, first, count, {node})")
+            code.set(f"s[{place} + 2]", "0.0")
+            code.set(f"s[{place} + 3]", "0.0")
+        with code.loop("k", 0, "count - 1"):
+            code.let("c", "t + 4 * (first + 1 + k)", "count")
+            code.let("width", "knots[first + k + 2] - knots[first + k + 1]")
+            code.let("rise", "(p[k + 1] - p[k]) / width")
+            code.let("left", "slope(p, first, count, k)")
+            code.let("right", "slope(p, first, count, k + 1)")
+            code.set("s[c]", "p[k]")
+            code.set("s[c + 1]", "left")
+            code.set("s[c + 2]", "(3.0 * rise - 2.0 * left - right) / width")
+            code.set("s[c + 3]", "(left + right - 2.0 * rise) / (width * width)")
+
+
+def _write_end_slope(code: Code) -> None:
+    arguments: Arguments = [("number", "w0"), ("number", "w1"), ("number", "r0"), ("number", "r1")]
+    with code.function("number", "end_slope", arguments, "Through three points, as long as the curve stays monotone."):
+        code.let("m", "((2.0 * w0 + w1) * r0 - w0 * r1) / (w0 + w1)")
+        with code.when("m * r0 <= 0.0"):
+            code.set("m", "0.0")
+        with code.when(f"(r0 * r1 <= 0.0) & (fabs(m) > {STEEPER} * fabs(r0))"):
+            code.set("m", f"{STEEPER} * r0")
+        code.answer("m")
+
+
+def _write_slope(code: Code) -> None:
+    arguments: Arguments = [("array", "p"), ("count", "first"), ("count", "count"), ("count", "k")]
+    with code.function("number", "slope", arguments, "The slope at a knot: Fritsch and Butland (1984)."):
+        code.let("j", "k", "count")
+        with code.when("j > 0"):
+            code.set("j", "j - 1")
+        code.let("i", "j + 1", "count")
+        with code.when("i > count - 2"):
+            code.set("i", "count - 2")
+            with code.when("j > 0"):
+                code.set("j", "i - 1")
+        _let_segment(code, "0", "j")
+        _let_segment(code, "1", "i")
+        with code.when("count == 2"):
+            code.answer("r0")
+        with code.when("k == 0"):
+            code.answer("end_slope(w0, w1, r0, r1)")
+        with code.when("k == count - 1"):
+            code.answer("end_slope(w1, w0, r1, r0)")
+        with code.when("r0 * r1 <= 0.0"):
+            code.answer("0.0")
+        code.let("left", "2.0 * w1 + w0")
+        code.let("right", "w1 + 2.0 * w0")
+        code.answer("(left + right) / (left / r0 + right / r1)")
+
+
+def _let_segment(code: Code, number: str, name: str) -> None:
+    code.let(f"w{number}", f"knots[first + {name} + 2] - knots[first + {name} + 1]")
+    code.let(f"r{number}", f"(p[{name} + 1] - p[{name}]) / w{number}")

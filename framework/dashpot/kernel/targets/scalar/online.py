@@ -1,0 +1,228 @@
+"""A network with two ends, sample by sample: the function ``advance(s, dt, p)`` on the memory of ``Online``.
+
+It does what the kernel for whole records does. What that knows of a record beforehand, this finds at every sample: the
+turning points of the cubic path since the last one, the followers of the drive, the places in the tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from dashpot.expr.node import Node, symbols_of, walk
+from dashpot.kernel.ir.layout import Layout, Passes
+from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, Online
+from dashpot.kernel.targets.scalar.code import Arguments, Code
+from dashpot.kernel.targets.scalar.functions import write_functions, write_tables, write_tabulate
+from dashpot.kernel.targets.scalar.graph import Writer, truth
+
+MEMORY: Arguments = [("array", "s"), ("number", "dt"), ("array", "p")]
+STILL = {"old": "xo", "new": "x", "velocity_old": "vo", "velocity_new": "v", "acceleration": "a"}
+PATH = {"old": "xo", "new": "x", "velocity_old": "wo", "velocity_new": "w", "acceleration": "wa"}
+SAMPLE = {
+    **{f"still.{key}": name for key, name in STILL.items()},
+    **{f"path.{key}": name for key, name in PATH.items()},
+    "monotone.old": "since", "monotone.new": "x", "dt": "dt",
+}  # fmt: skip
+TURN = {"monotone.old": "since", "monotone.new": "x", "dt": "dt"}
+Leaf = Callable[[Node], str | None]
+
+
+def write_parallel(code: Code, online: Online) -> None:
+    """All functions of a network with two ends."""
+    write_common(code, online)
+    passes = Passes.of(online.program)
+    if passes.turn:
+        _write_turn(code, online, passes)
+        _write_turns(code)
+    with code.function("nothing", "advance", MEMORY, "The step to the inputs: fills the outputs."):
+        with code.when(f"s[{DT}] != dt"):
+            code.do("prepare(s, dt, p)")
+        _read_motion(code, online, bool(passes.turn))
+        _correct(code, online, passes, SAMPLE)
+        _step(code, online, passes.step)
+
+
+def write_common(code: Code, online: Online) -> None:
+    """Functions, tables, and what is made of the numbers."""
+    nodes = walk([*_roots(online), *online.program.constants])
+    write_functions(code, {node.operation for node in nodes})
+    if online.knots:
+        code.write("")
+        code.numbers("knots", online.knots)
+        write_tables(code, {node.payload[1] for node in nodes if node.operation in ("table", "lookup")})
+        write_tabulate(code)
+    if online.program.constants:
+        _write_constants(code, online)
+    with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
+        for course, start in enumerate(online.courses):
+            step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
+            if online.program.constants:
+                code.do(f"constants(s, {start}, {step}, p)")
+        for path, shelf in online.shelves.items():
+            first = online.numbers.index(f"{path}[0]")
+            place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
+            code.do(f"tabulate({place}, {code.number(0.0 if shelf.level else 1.0)})")
+        code.set(f"s[{DT}]", "dt")
+
+
+def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf) -> None:
+    """New values at some places of the memory."""
+
+    def look_up(node: Node, argument: str) -> str:
+        curve, order = node.payload
+        shelf = online.shelves[curve]
+        return f"table{order}(s, {online.tables}, {shelf.base}, {shelf.count}, {argument})"
+
+    Writer(code, moved.values(), leaf, look_up).store(moved)
+
+
+def _roots(online: Online) -> list[Node]:
+    program = online.program
+    if online.system:
+        return [node for layout in online.system.passes.values() for node in layout.updates.values()]
+    laws = [program.followers[name] for name in online.followers]
+    return [program.force, *program.updates.values(), *program.corrections.values(), *program.events, *laws]
+
+
+def _write_constants(code: Code, online: Online) -> None:
+    known = {"dt": "dt", "gravity": code.number(online.gravity),
+             **{path: f"p[{number}]" for number, path in enumerate(online.numbers)}}  # fmt: skip
+    arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"), ("array", "p")]
+    with code.function("nothing", "constants", arguments, "The first rows of the workspace that begins at w."):
+        writer = Writer(code, online.program.constants, lambda node: _plain(code, node) or known.get(node.payload))
+        for number, node in enumerate(online.program.constants):
+            code.set(f"s[w + {number}]", writer.number(node))
+
+
+def _plain(code: Code, node: Node) -> str | None:
+    return code.number(node.payload) if node.operation == "constant" else None
+
+
+def _leaf(code: Code, online: Online, layout: Layout, motion: Mapping[str, str]) -> Leaf:
+    start = online.courses[0]
+    known = {**motion, **_following(online, motion)}
+
+    def leaf(node: Node) -> str | None:
+        if node.operation == "constant":
+            return code.number(node.payload)
+        if node.serial in layout.constants:
+            return truth(node, f"s[{start + layout.constants[node.serial]}]")
+        if node.serial in layout.columns and not symbols_of(node) <= {*known}:
+            return code.number(0.0)  # a column that is not known at a turning point
+        if node.operation != "symbol":
+            return None
+        return known[node.payload] if node.payload in known else f"s[{start + layout.states[node.payload]}]"
+
+    return leaf
+
+
+def _moved(online: Online, layout: Layout) -> dict[str, Node]:
+    return {f"s[{online.courses[0] + layout.states[name]}]": node for name, node in layout.updates.items()}
+
+
+def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, str]) -> None:
+    if passes.correct is None:
+        return
+    known = {*motion, *_following(online, motion)}
+    due = [event for event in online.program.events if symbols_of(event) <= known]
+    if not due:
+        return
+    leaf = _leaf(code, online, passes.correct, motion)
+    writer = Writer(code, due, leaf)
+    condition = " | ".join(f"({writer.value(event)})" for event in due)
+    with code.when(condition):
+        storing(code, online, _moved(online, passes.correct), leaf)
+
+
+def _follow(code: Code, online: Online, motion: Mapping[str, str], layout: Layout) -> None:
+    laws = {place: online.program.followers[name] for name, place in _following(online, motion).items()}
+    storing(code, online, laws, _leaf(code, online, layout, motion))
+
+
+def _following(online: Online, motion: Mapping[str, str]) -> dict[str, str]:
+    # the followers whose laws can be told from this motion
+    return {name: f"s[{online.following + k}]" for k, name in enumerate(online.followers)
+            if symbols_of(online.program.followers[name]) <= set(motion)}  # fmt: skip
+
+
+def _write_turn(code: Code, online: Online, passes: Passes) -> None:
+    arguments: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
+    with code.function("nothing", "turn", arguments, "At a turning point only memories without rates move."):
+        assert passes.turn is not None
+        _correct(code, online, passes, TURN)
+        storing(code, online, _moved(online, passes.turn), _leaf(code, online, passes.turn, TURN))
+        _follow(code, online, TURN, passes.turn)
+
+
+def _write_turns(code: Code) -> None:
+    arguments: Arguments = [("array", "s"), ("number", "dt"), ("number", "xo"), ("number", "x"), ("number", "vo"),
+                            ("number", "v")]  # fmt: skip
+    about = "Turns wherever the cubic path does since the last sample; answers where it last did."
+    with code.function("number", "turns", arguments, about):
+        code.let("since", "xo")
+        code.let("rise", "(x - xo) / dt")
+        code.let("c", "3.0 * (vo + v) - 6.0 * rise")
+        code.let("b", "v - vo - c")
+        code.let("middle", "vo + 0.5 * b")
+        # the velocity lies between its control points: as long as these have one sign it turns nowhere
+        with code.when("(vo * middle <= 0.0) | (middle * v <= 0.0)"):
+            code.let("free", "b * b - 4.0 * vo * c")
+            with code.when("free > 0.0"):
+                _write_roots(code)
+        code.answer("since")
+
+
+def _write_roots(code: Code) -> None:
+    """The roots of vo + b u + c u^2 between 0 and 1, the earlier one first."""
+    code.let("root", "sqrt(free)")
+    with code.when("b < 0.0"):
+        code.set("root", "-root")
+    code.let("q", "-0.5 * (b + root)")
+    code.let("first", "-1.0")
+    with code.when("c != 0.0"):
+        code.set("first", "q / c")
+    code.let("second", "vo / q")
+    with code.when("second < first"):
+        code.set("root", "first")
+        code.set("first", "second")
+        code.set("second", "root")
+    with code.when("first != second"):
+        for place in ("first", "second"):
+            with code.when(f"({place} > 0.0) & ({place} < 1.0)"):
+                code.let("there", f"xo + dt * {place} * (vo + {place} * (b / 2.0 + {place} * c / 3.0))")
+                code.do("turn(s, dt, since, there)")
+                code.set("since", "there")
+
+
+def _read_motion(code: Code, online: Online, turning: bool) -> None:
+    begin = {"x": INPUTS, "v": INPUTS + 1, "a": INPUTS + 2, "xo": online.before, "vo": online.before + 1}
+    read = {SAMPLE[name] for root in _roots(online) for name in symbols_of(root) if name in SAMPLE}
+    needed = {"x", "v", "a"} | read | ({"xo", "vo"} if turning else set())
+    needed |= {source for name, source in (("since", "xo"), ("wo", "vo")) if name in needed}
+    for name, place in begin.items():
+        if name in needed:
+            code.let(name, f"s[{place}]")
+    for name, source in (("w", "v"), ("wo", "vo"), ("wa", "a"), ("since", "xo")):
+        if name in needed:
+            code.let(name, source)
+    with code.when(f"s[{BEGUN}] == 0.0"):
+        # a branch with memory has not moved when the record begins
+        for name, value in (("xo", "x"), ("vo", "v"), ("since", "x"), ("w", "0.0"), ("wo", "0.0"), ("wa", "0.0")):
+            if name in needed:
+                code.set(name, value)
+        code.set(f"s[{BEGUN}]", "1.0")
+    if turning:
+        with code.otherwise():
+            turns = "turns(s, dt, xo, x, vo, v)"
+            if "since" in needed:
+                code.set("since", turns)
+            else:
+                code.do(turns)
+
+
+def _step(code: Code, online: Online, layout: Layout) -> None:
+    moved = {f"s[{online.outputs}]": online.program.force, **_moved(online, layout)}
+    storing(code, online, moved, _leaf(code, online, layout, SAMPLE))
+    _follow(code, online, SAMPLE, layout)
+    for number, name in enumerate(("x", "v", "a")):
+        code.set(f"s[{online.before + number}]", name)

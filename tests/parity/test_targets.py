@@ -1,0 +1,151 @@
+"""Every target gives the force that the interpreted graph gives, and the same status."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from parity.c_library import Library
+from parity.random_networks import draw_network
+from seeds import seed_of
+from verification.shipped import NAMES, Dice, filled
+from verification.systems import shipped
+
+from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
+from dashpot.kernel.eager import simulate_interpreted
+from dashpot.kernel.jit import jit_network
+from dashpot.kernel.network import compile_network
+from dashpot.kernel.system import Status
+from dashpot.model.network import NetworkSpec
+from dashpot.testing import random_drive
+
+TOLERANCE = 1e-12
+RANDOM, JITTED = 50, 8
+SYSTEMS = ("quarter_car", "axle_model_1", "axle_model_3_top_mount")
+
+
+def error(found: np.ndarray, expected: np.ndarray) -> float:
+    """The largest difference, as a share of the root mean square."""
+    assert np.isfinite(expected).all() and np.isfinite(found).all()
+    return float(np.max(np.abs(found - expected)) / (np.sqrt(np.mean(expected**2)) + np.finfo(float).tiny))
+
+
+def jitted(spec: NetworkSpec, drive: Drive, values: np.ndarray) -> np.ndarray:
+    out = np.empty(drive.samples)
+    solver = jit_network(spec)
+    assert solver.simulate_path is not None
+    solver.simulate_path(drive.displacement, drive.velocity, drive.acceleration, drive.dt, values, out)
+    return out
+
+
+def on_numba(monkeypatch, spec: NetworkSpec, drive: Drive, values: np.ndarray) -> np.ndarray:
+    monkeypatch.setenv("DASHPOT_BACKEND", "numba")
+    network = compile_network(spec)
+    return network.simulate(network.prepare(drive), values)
+
+
+def fast(spec: NetworkSpec, drive: Drive, values: np.ndarray) -> np.ndarray:
+    network = compile_network(spec)
+    return network.simulate(network.prepare(drive), values)
+
+
+def shipped_case(name: str) -> tuple[NetworkSpec, Drive, np.ndarray]:
+    seed = seed_of(f"targets {name}")
+    rng = np.random.default_rng(seed)
+    spec = filled(name, Dice(seed))
+    drive = random_drive(rng, "multisine", 6e-3, 0.01, 400, 1e-3)
+    return spec, drive, compile_network(spec).start * np.exp(rng.uniform(-0.2, 0.2, len(spec.slots())))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_target_agrees_on_shipped_networks(name, tmp_path, monkeypatch):
+    spec, drive, values = shipped_case(name)
+    expected = simulate_interpreted(spec, drive, values)
+    outputs, status = Library.build(spec, tmp_path).along([drive], values)
+    assert status == 0 and error(outputs[:, 0], expected) <= TOLERANCE
+    assert error(fast(spec, drive, values), expected) <= TOLERANCE
+    assert error(jitted(spec, drive, values), expected) <= TOLERANCE
+    assert error(on_numba(monkeypatch, spec, drive, values), expected) <= TOLERANCE
+
+
+@pytest.mark.parametrize("number", range(RANDOM))
+def test_c_and_the_fast_target_agree_on_random_networks(number, tmp_path):
+    spec, drive, values = draw_network(seed_of(f"random network {number}"))
+    expected = simulate_interpreted(spec, drive, values)
+    outputs, status = Library.build(spec, tmp_path).along([drive], values)
+    assert status == 0 and error(outputs[:, 0], expected) <= TOLERANCE
+    assert error(fast(spec, drive, values), expected) <= TOLERANCE
+
+
+def agree_on_numba(number: int, monkeypatch) -> None:
+    spec, drive, values = draw_network(seed_of(f"random network {number}"))
+    expected = simulate_interpreted(spec, drive, values)
+    assert error(jitted(spec, drive, values), expected) <= TOLERANCE
+    assert error(on_numba(monkeypatch, spec, drive, values), expected) <= TOLERANCE
+
+
+@pytest.mark.parametrize("number", range(JITTED))
+def test_numba_agrees_on_random_networks(number, monkeypatch):
+    agree_on_numba(number, monkeypatch)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(JITTED, RANDOM))
+def test_numba_agrees_on_more_random_networks(number, monkeypatch):
+    agree_on_numba(number, monkeypatch)
+
+
+def system_case(name: str) -> tuple[NetworkSpec, Excitation]:
+    rng = np.random.default_rng(seed_of(f"system {name}"))
+    network = shipped(name)
+    motions = {node: random_drive(rng, "multisine", 4e-3, 0.02, 200, 1e-3) for node in network.outputs}
+    drive = next(iter(motions.values()))
+    return network.spec, Excitation(motions, {}, {"added_mass": 0.0}, drive.dt, drive.samples, "run")
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_c_agrees_on_networks_with_nodes(name, tmp_path):
+    spec, excitation = system_case(name)
+    network = shipped(name)
+    expected = network.solve(network.prepare(excitation))
+    outputs, status = Library.build(spec, tmp_path).along(list(excitation.motions.values()), network.start)
+    count = len(expected.driven)
+    assert status == 0 and expected.status == (Status.GOOD,)
+    # both end Newton's method at its tolerance
+    assert error(outputs[:, :count].T, expected.force[0]) <= 1e-10
+    assert error(outputs[:, count:].T, expected.motion[0]) <= 1e-10
+
+
+@pytest.mark.parametrize("name", SYSTEMS[:1])
+def test_numba_agrees_on_networks_with_nodes(name, monkeypatch):
+    spec, excitation = system_case(name)
+    network = shipped(name)
+    values = network.start * np.exp(np.random.default_rng(1).uniform(-0.1, 0.1, (3, network.start.size)))
+    values[1] = np.nan
+    expected = network.solve(network.prepare(excitation), values)
+    monkeypatch.setenv("DASHPOT_BACKEND", "numba")
+    other = compile_network(spec)
+    found = other.solve(other.prepare(excitation), values)
+    assert found.status == expected.status and Status.NOT_FINITE in found.status
+    assert error(found.force[[0, 2]], expected.force[[0, 2]]) <= 1e-10
+    drive = next(iter(excitation.motions.values()))
+    assert error(jitted(spec, drive, values[0]), expected.force[0, 0]) <= 1e-10
+
+
+def test_an_unknown_backend_is_told(monkeypatch):
+    from dashpot.kernel.targets.choice import backend
+    from dashpot.text.problem import InputError
+
+    monkeypatch.setenv("DASHPOT_BACKEND", "numpa")
+    with pytest.raises(InputError, match="expected one of llvm, numba, got 'numpa'"):
+        backend()
+
+
+def test_the_sources_are_the_same_each_time(tmp_path: Path):
+    first, second = tmp_path / "a", tmp_path / "b"
+    for folder in (first, second):
+        folder.mkdir()
+        Library.build(shipped_case("gehmann")[0], folder)
+    assert (first / "gehmann.c").read_bytes() == (second / "gehmann.c").read_bytes()

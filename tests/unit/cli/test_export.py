@@ -1,0 +1,54 @@
+"""``dashpot export`` and ``--backend``."""
+
+from __future__ import annotations
+
+import json
+import os
+
+import pytest
+
+from dashpot.cli import main
+
+MOUNT = "format: dashpot-network/1\nname: mount\nbranches: {rubber: {element: spring, stiffness: 220 N/mm}}\n"
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mount.yaml").write_text(MOUNT)
+    return tmp_path / "mount.yaml"
+
+
+def test_the_files_of_a_target_are_written_and_told(file, capsys):
+    assert main(["export", "mount.yaml", "--to", "c", "-o", "out", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told == {"format": "dashpot-export/1", "network": "mount", "target": "c", "files": ["mount.c", "mount.h"]}
+    assert sorted(path.name for path in (file.parent / "out").iterdir()) == told["files"]
+
+
+def test_nothing_is_overwritten_unasked(file, capsys):
+    command = ["export", "mount.yaml", "--to", "c", "-o", "out"]
+    assert main(command) == 0
+    assert main(command) == 1
+    assert "mount.h" in capsys.readouterr().err
+    assert main([*command, "--force"]) == 0
+
+
+def test_an_unknown_target_is_told_with_the_nearest(file, capsys):
+    assert main(["export", "mount.yaml", "--to", "modelika", "-o", "out"]) == 2
+    assert "modelica" in capsys.readouterr().err
+
+
+def test_nothing_is_written_for_a_network_that_cannot_be_exported(file, capsys):
+    assert main(["export", "gehmann", "--to", "c", "-o", "out"]) == 1
+    assert "is to come from data" in capsys.readouterr().err
+    assert not (file.parent / "out").exists()
+
+
+def test_a_backend_gives_the_same_files_and_is_forgotten(file, capsys):
+    for backend in ("llvm", "numba"):
+        command = ["simulate", "mount.yaml", "--rig", "triangle", "-o", backend, "--backend", backend]
+        assert main(command) == 0
+        assert "DASHPOT_BACKEND" not in os.environ
+    first, second = (sorted((file.parent / name).iterdir()) for name in ("llvm", "numba"))
+    assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
