@@ -3,7 +3,6 @@
 Bounds are binomial: an engine that is right in 95 % of the cases fails here less than once in 2 000 runs.
 """
 
-import pytest
 from run import Bench
 from score import NOTHING, Outcome
 
