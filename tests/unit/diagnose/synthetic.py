@@ -32,7 +32,8 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     model = SimpleNamespace(terms=(), coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing = np.zeros(0, dtype=int)
-    return Look(model, None, None, tuple(candidates), Layout(0, 0, bank), grams, grams[:, :1, :1], np.zeros((size, size)), 0.0,
+    prior = np.zeros((size, size))
+    return Look(model, None, None, tuple(candidates), Layout(0, 0, bank), grams, grams[:, :1, :1], prior, 0.0,
                 samples, tuple(rows), np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
 
 
