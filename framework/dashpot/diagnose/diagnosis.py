@@ -140,7 +140,6 @@ class Diagnosis(Findings):
             "rejected": self._rejected(),
             "limits": self.limits(),
             "leftover": vars(self.leftover),
-            "remarks": self.remarks,
             "seed": self.seed,
         }
 

@@ -52,32 +52,35 @@ def is_determined(scores: Scores, number: int) -> bool:
 def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether every number of the term is the same in each group of runs: at every amplitude, preload and speed.
 
-    One step of each group from what all share, in parts of the number itself, less what noise makes of it.
+    One step of each group from what all share, in parts of the number itself, less what noise makes of it; the laws
+    are taken as they are.
     """
     look = scores.look
-    paths = look.model.coordinates.paths
-    at, solution = scores.columns(Structure()), scores.strengths(Structure())
-    gram = scores.gram
-    target = np.zeros(look.layout.size)
-    target[0] = 1.0
-    rest = target.copy()
-    rest[at] -= solution * scores.scale[at] / scores.scale[0]
-    for column in at:
-        path = paths[look.own[column - 1]]
+    total = look.exact.sum(axis=0)
+    scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
+    grams, gram = look.exact / np.outer(scale, scale), total / np.outer(scale, scale)
+    alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
+    rest = _beside(gram, 0, alive)
+    squares = np.einsum("i,gij,j->g", rest, grams, rest) / look.samples
+    for column in alive:
+        path = look.model.coordinates.paths[look.own[column - 1]]
         if path not in look.model.owned[number]:
             continue
-        others = at[at != column]
-        along = np.zeros(look.layout.size)
-        along[column] = 1.0
-        along[others] -= np.linalg.lstsq(gram[np.ix_(others, others)], gram[others, column], rcond=1e-9)[0]
-        weights = np.einsum("i,gij,j->g", along, scores.grams, along)
-        pulls = np.einsum("i,gij,j->g", along, scores.grams, rest)
-        squares = np.einsum("i,gij,j->g", rest, scores.grams, rest) / look.samples
+        along = _beside(gram, column, alive[alive != column])
+        weights = np.einsum("i,gij,j->g", along, grams, along)
+        pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
-        scatter = np.sqrt(max(excess, 0.0)) * scores.scale[0] / scores.scale[column]
+        scatter = np.sqrt(max(excess, 0.0)) * scale[0] / scale[column]
         if scatter > AGREE * _size_in_steps(look.model, path):
             return False
     return True
+
+
+def _beside(gram: Array, column: int, others: NDArray[np.intp]) -> Array:
+    """A column as combination (c,) of all of them, with what others can make of it taken out."""
+    found = np.eye(len(gram))[column]
+    found[others] -= np.linalg.lstsq(gram[np.ix_(others, others)], gram[others, column], rcond=1e-9)[0]
+    return found
 
 
 def _size_in_steps(model: Model, path: str) -> float:

@@ -181,7 +181,7 @@ class Findings:
 
     @property
     def remarks(self) -> list[str]:
-        """What to say of the data and the search; a fault that only a held-out run has stands here and nowhere else."""
+        """What the report says of the data and the search; a fault that only a held-out run has stands here alone."""
         errors = self.after.per_run
         worst = max(errors[run] for run in self.setting.split.train)
         alone = [f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "

@@ -183,7 +183,7 @@ class Pursuer:
         except InputError as error:
             self.refused += [(term, str(error)) for term in terms if term not in look.model.terms]
             return None
-        if trial.outcome is Outcome.FAILED:
+        if trial.outcome is Outcome.FAILED or not trial.keeps_all:
             return None
         if not all(term.suspect.admits(trial.numbers_of(k)) for k, term in enumerate(trial.terms)):
             return None

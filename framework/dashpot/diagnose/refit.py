@@ -16,7 +16,7 @@ from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.objective import Objective
-from dashpot.fit.ranges import Sizes, natural_sizes
+from dashpot.fit.ranges import Sizes, natural_sizes, with_ranges
 from dashpot.fit.refine import linearise, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
@@ -56,8 +56,9 @@ class Refitter:
         """A model with other terms, all numbers fitted.
 
         It starts from the present numbers, those of new terms, and, with the natural steps ``change`` (p,) that the
-        linear step foresees, from places on the way there, whichever misses least. Raises InputError for a term that
-        cannot be written into the network.
+        linear step foresees, from places on the way there, whichever misses least; where numbers are at an end of
+        their range, once more from those of the file. Raises InputError for a term that cannot be written into the
+        network.
         """
         starts = [self._start(model, terms, model.fitted)]
         fresh = [term for term in terms if term not in model.terms]
@@ -72,8 +73,12 @@ class Refitter:
         places = np.array([each.to_values(each.start)[0] for each in points])
         losses = objective.losses(places)
         best = int(np.argmin(np.where(np.isfinite(losses), losses, np.inf)))
-        declared, owned, start = starts[best]
-        return self._fitted(model.base, tuple(terms), declared, owned, start, noise, TRIAL_STEPS, TRIAL_TOLERANCE)
+        chosen = [starts[best]]
+        if fresh and model.at_bound.any():
+            chosen.append(self._start(model, terms, self._freed(model)))
+        trials = [self._fitted(model.base, tuple(terms), *one, noise, TRIAL_STEPS, TRIAL_TOLERANCE) for one in chosen]
+        ends = objective.losses(np.array([trial.values for trial in trials]))
+        return trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
 
     def fit(self, model: Model, noise: Noise) -> Model:
         """The same structure, its numbers fitted under another noise."""
@@ -129,6 +134,14 @@ class Refitter:
                 self._written(model.base, (*found, term))
                 found = (*found, term)
         return found
+
+    def _freed(self, model: Model) -> NetworkSpec:
+        """The fitted network of a model; numbers at an end of their range, where little moves them, as in its file."""
+        stuck = {path for path, at in zip(model.coordinates.paths, model.at_bound, strict=True) if at}
+        declared = {slot.path: slot.value.number for slot in with_ranges(model.declared, self.sizes).slots()}
+        freed = stuck & set(declared)
+        return model.fitted.with_values({slot.path: replace(slot.value, number=declared[slot.path])
+                                         for slot in model.fitted.slots() if slot.path in freed})  # fmt: skip
 
     def _start(
         self, model: Model, terms: Sequence[Term], numbers: NetworkSpec

@@ -84,6 +84,12 @@ class Model:
         """The names and forms of all terms."""
         return frozenset((term.name, term.suspect.form) for term in self.terms)
 
+    @property
+    def keeps_all(self) -> bool:
+        """Whether no term has replaced a number that another one brought."""
+        known = {slot.path for slot in self.fitted.slots()}
+        return all(path in known for owned in self.owned for path in owned)
+
     def count(self, number: int) -> int:
         """How many numbers of a term are searched."""
         return len(set(self.owned[number]) & set(self.coordinates.paths))
