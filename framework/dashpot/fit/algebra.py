@@ -19,6 +19,7 @@ def single_threaded_algebra(work: Callable[Arguments, Result]) -> Callable[Argum
 
     @wraps(work)
     def limited(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:
+        import scipy.linalg  # noqa: F401 - only a library that is loaded can be limited
         from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
         with threadpool_limits(1, user_api="blas"):
