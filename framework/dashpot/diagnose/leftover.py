@@ -82,18 +82,20 @@ def _correlation(
 
 
 def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
-    """Whether a single run has a gain, an offset or a drift of its own."""
-    found = []
+    """Whether single runs have a gain, an offset or a drift of their own."""
+    found, count, samples = {}, 0, 0
     for run in refitter.runs:
-        functions, left = single_functions(look.view, run.name), residual[run.name]
+        functions = single_functions(look.view, run.name)
         rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
-        alone = (rows @ left) ** 2 / np.maximum(np.sum(rows**2, axis=1), 1e-300)
+        for name, row in zip(functions, rows, strict=True):
+            found[name] = float((row @ residual[run.name]) ** 2 / max(float(row @ row), 1e-300))
         directions = np.linalg.svd(rows, full_matrices=False)[2]
-        excess = float(np.sum((directions @ left) ** 2)) - len(rows)
-        size = float(np.sqrt(max(excess, 0.0) / left.size))
-        found.append(Leftover(excess / float(np.sqrt(2.0 * len(rows))), size,
-                              f"follows {list(functions)[int(np.argmax(alone))]}"))  # fmt: skip
-    return max(found, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
+        found[f"run '{run.name}' alone"] = float(np.sum((directions @ residual[run.name]) ** 2))
+        count, samples = count + len(rows), samples + residual[run.name].size
+    excess = sum(value for name, value in found.items() if name.startswith("run '")) - count
+    alone = {name: value for name, value in found.items() if not name.startswith("run '")}
+    score = excess / float(np.sqrt(2.0 * count))
+    return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {max(alone, key=lambda k: alone[k])}")
 
 
 def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> Leftover:

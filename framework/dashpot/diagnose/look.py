@@ -149,7 +149,7 @@ def look_at(
     rows = dict(zip((run.name for run in runs), spread(rows_of, runs, jobs=refitter.jobs), strict=True))
     alone, rich = noise, 0.0
     if noise is None:
-        noise, alone, rich = learn_noise(rows, first, plain, refitter, *_faults_of_runs(causes, view, runs, plain))
+        noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
     sizes = np.sqrt(np.mean([np.mean(found[first:] ** 2, axis=1) for found in rows.values()], axis=0))
     names = tuple(dict.fromkeys(groups[run.name] for run in runs))
     grams, samples = _grams(rows, noise, groups, names)
@@ -174,14 +174,11 @@ def _shapes(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noi
     return noise.reduce_shapes(run.name, np.concatenate([np.zeros((0, run.samples)), *shapes]))
 
 
-def _faults_of_runs(causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
-                    ) -> tuple[dict[str, Array], dict[str, Array]]:  # fmt: skip
-    """What faults of the force channel would add to each run (k, kept): those that show at rest, and the others."""
-    all_faults = [fault for cause in causes for fault in cause().channel_faults(view)]
-    still, moved = ([fault for fault in all_faults if (fault.evidence_of == "at_rest") == at_rest]
-                    for at_rest in (True, False))  # fmt: skip
-    return ({run.name: _shapes(still, view, run, noise) for run in runs},
-            {run.name: _shapes(moved, view, run, noise) for run in runs})  # fmt: skip
+def _shown_at_rest(causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
+                   ) -> dict[str, Array]:  # fmt: skip
+    """What faults that need no motion would add to each run (k, kept)."""
+    still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
+    return {run.name: _shapes(still, view, run, noise) for run in runs}
 
 
 def _grams(rows: dict[str, Array], noise: Noise, groups: Mapping[str, str], names: Sequence[str]
@@ -249,13 +246,13 @@ def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array
     return left, moves, prior, 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
 
 
-def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array],
-                faults: Mapping[str, Array]) -> tuple[Noise, Noise, float]:  # fmt: skip
+def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
+                ) -> tuple[Noise, Noise, float]:  # fmt: skip
     """The noise of each run from what all columns together leave, with the error of the model and without; its RMS, N.
 
-    The residual is row ``first``. ``lines`` (k, kept) that a run may show at rest are neither; other ``faults`` (k,
-    kept) of a run count as error of the model. What the columns take up of the noise itself is made up for by the
-    degrees of freedom, where more than half of them are left.
+    The residual is row ``first``. Errors of a sensor within its data sheet count as noise, ``lines`` (k, kept) that a
+    run may show at rest do not. What the columns take up of
+    the noise itself is made up for by the degrees of freedom, where more than half of them are left.
     """
     from scipy.linalg import cho_factor, cho_solve
 
@@ -273,9 +270,9 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
     filters, alone, shares, squares = {}, {}, {}, []
     for run in refitter.runs:
         found = rows[run.name]
-        rest, shapes = found[first] - strengths @ found, np.concatenate([lines[run.name], faults[run.name]])
-        sizes, count = np.linalg.lstsq(shapes.T, rest, rcond=1e-9)[0], len(lines[run.name])
-        residual, rest = found[first] - sizes[:count] @ shapes[:count], rest - sizes @ shapes
+        rest, shapes = found[first] - strengths @ found, lines[run.name]
+        line = np.linalg.lstsq(shapes.T, rest, rcond=1e-9)[0] @ shapes
+        residual, rest = found[first] - line, rest - line
         square = float(np.mean(rest**2))
         error = np.sqrt(max(float(np.mean(residual**2)) - square, 0.0))
         smallest = RESOLUTION * max(float(np.std(run.force)), 1e-12)
