@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.stats import binomtest
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from real.drawing import Panel, panels  # the small pictures of the measured sets
 
 Told = tuple[float, bool]  # the probability of a name, and whether it was hidden
 EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
@@ -65,8 +71,6 @@ def as_text(bins: Sequence[Bin]) -> str:
 
 def diagram(bins: Sequence[Bin]) -> str:
     """The reliability diagram as SVG: share right over mean probability with its interval, beside the diagonal."""
-    from real.drawing import Panel, panels
-
     ends = np.array([0.0, 1.0])
     told, share = (np.array([getattr(one, name) for one in bins]) for name in ("told", "share"))
     whiskers = [(FOUND_COLOR, np.full(2, one.told), np.array(one.interval)) for one in bins]

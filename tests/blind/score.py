@@ -16,10 +16,12 @@ LEAST_SHARE = 0.1  # of the strongest of two
 SURE = 0.9  # a probability from which on nine names in ten are to be right
 BINS = (0.03, 0.1, 0.3, 1.0, 3.0, 30.0)  # of the strength that a refit of the base leaves, over the noise
 
-# causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic
+# causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic,
+# one below one bends like a valve, which may be open to one side
 FAMILIES = (
     {"friction", "amplitude_softening", "load_dependent_friction", "velocity_dependent_friction"},
-    {"quadratic_damping", "power_law_damping", "viscous_damping"},
+    {"quadratic_damping", "power_law_damping", "viscous_damping", "valve"},
+    {"valve", "asymmetric_damping"},
     {"stiffness_curve", "end_stop"},
     {"softening", "bedding_in", "creep"},
     {"offset", "drift", "gain"},
@@ -195,7 +197,8 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
                       "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],
-                      "named": o.named, "told": o.told, "gains": o.gains, "over_oracle": o.over_oracle, "seconds": round(o.seconds, 1)}
+                      "named": o.named, "told": o.told, "gains": o.gains, "over_oracle": o.over_oracle,
+                      "seconds": round(o.seconds, 1), **({"design": o.scenario} if o.scenario else {})}
                      for o in outcomes],
     }  # fmt: skip
 

@@ -11,7 +11,6 @@ from .branches import Branch, Dahl, Damper, FadingDamper, Maxwell, Prandtl, Shoc
 from .form import log_uniform
 from .motion import Motion
 
-
 BRANCHES_OF_MODEL = {
     "spring": ("spring",),
     "kelvin_voigt": ("spring", "damper"),
