@@ -19,6 +19,8 @@ from typing import TYPE_CHECKING
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from reliability import diagram, reliability
+from scenarios import SCENARIOS
 from score import Outcome, print_table, summary
 from textbook import RIGS, draw_textbook
 from truth import KINDS_OF_BASE, Case, draw_case
@@ -43,10 +45,11 @@ class Bench:
     ``design``: which runs are driven; ``sensors``: the force channel errs within its data sheet; ``without``: the
     engine is robbed of the cause plugins that would name what is hidden; ``follow``: the runs that the engine asks for
     are driven on the same specimen, one after the other, and what it says then counts; ``double``: two effects are
-    hidden.
+    hidden; ``model``: the network that is diagnosed, where it is another than that of the specimen.
     """
 
     design: str = "full"
+    model: str | None = None
     sensors: bool = False
     without: bool = False
     follow: bool = False
@@ -60,16 +63,17 @@ class Bench:
         else:
             if kind is None and (self.without or self.double):
                 kind = "+".join(random.Random(seed).sample(KINDS_OF_BASE[base], 2 if self.double else 1))
-            draw = partial(draw_case, seed, base, kind, strength, design=self.design, sensors=self.sensors)
+            draw = partial(draw_case, seed, base, kind, strength, design=self.design, model=self.model,
+                           sensors=self.sensors)  # fmt: skip
             case, robbed = draw(), kind.split("+") if self.without and kind else []
-        began = time.perf_counter()
-        found = diagnose_folder(case.folder, base, self.jobs, robbed)
+        began, network = time.perf_counter(), self.model or base
+        found = diagnose_folder(case.folder, network, self.jobs, robbed)
         seconds, before, more = time.perf_counter() - began, None, ()
         while self.follow and found.next_runs and len(more) < MOST_FURTHER:
             asked = next(iter(found.next_runs.values())).proposal
             more = (*more, further(asked.displacement, asked.dt, len(more) + 1))
             before = before or found.as_dict()
-            found = diagnose_folder(draw(further=more).folder, base, self.jobs, robbed)
+            found = diagnose_folder(draw(further=more).folder, network, self.jobs, robbed)
         verdict = found.as_dict()
         named = [cause["cause"] for cause in verdict["causes"]]
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
@@ -84,7 +88,7 @@ class Bench:
 
     def textbook(self, seed: int, rig: str, kind: str | None, strength: float | None) -> Case:
         """A case of the second kind. ValueError for what only those of the first kind have."""
-        if self.design != "full" or self.sensors or self.without or self.follow:
+        if self.design != "full" or self.model or self.sensors or self.without or self.follow:
             raise ValueError(f"{rig}: expected no option but --kind, --strength and --double; take a base for others")
         return draw_textbook(seed, rig, kind, strength, double=self.double)
 
@@ -117,44 +121,89 @@ def _read(folder: Path, base: str) -> tuple[NetworkSpec, Dataset, Registry]:
     return read_network(own[0] if own else base, registry.elements), dataset, registry
 
 
+def run_scenario(name: str, seed: int, turn: int, bench: Bench, strength: float | None = None) -> Outcome:
+    """A case of a scenario, on the specimen whose turn it is."""
+    scenario = SCENARIOS[name]
+    base = scenario.specimens[turn % len(scenario.specimens)]
+    bench = replace(bench, design=scenario.design, model=scenario.model)
+    return replace(bench.run(seed, base, scenario.kind, strength), scenario=name)
+
+
 def command_of(options: argparse.Namespace, seed: int, cases: int) -> str:
     """What repeats the cases of a run."""
+    if options.scenario:
+        names = " ".join(f"'{name}'" for name in options.scenario)
+        strength = f" --strength {options.strength}" if options.strength is not None else ""
+        return f"python tests/blind/run.py --cases {cases} --seed {seed}{strength} --scenario {names}"
     words = ["python tests/blind/run.py", f"--cases {cases}", f"--seed {seed}", f"--base {' '.join(options.base)}"]
     words += [f"--{key} {value}" for key in ("kind", "strength") if (value := getattr(options, key)) is not None]
     words += [f"--design {options.design}"] if options.design != "full" else []
+    words += [f"--model {options.model}"] if options.model else []
     return " ".join(words + [f"--{flag}" for flag in FLAGS if getattr(options, flag)])
 
 
 def main() -> None:
     """Run the cases that were asked for."""
+    parser = parser_of_options()
+    options = parser.parse_args()
+    if options.scenario is not None:
+        options.scenario = options.scenario or list(SCENARIOS)
+        if options.design != "full" or options.model or options.kind or any(getattr(options, flag) for flag in FLAGS):
+            parser.error("--scenario: expected no option beside it but --cases, --seed, --strength, --jobs, --output "
+                         "and --diagram; a scenario has its own design, specimens and kinds")  # fmt: skip
+    first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
+    print(f"seed {first}: --seed {first} repeats this run")
+    bench = Bench(options.design, options.model, **{flag: getattr(options, flag) for flag in FLAGS}, jobs=options.jobs)
+    outcomes = []
+    for number in range(options.cases):
+        outcomes.append(case_of(options, bench, first, number))
+        print(outcomes[-1].line(), flush=True)
+        keep(options, first, outcomes)
+    print_table(outcomes)
+
+
+def case_of(options: argparse.Namespace, bench: Bench, first: int, number: int) -> Outcome:
+    """The case whose turn it is."""
+    if options.scenario:
+        turn, place = divmod(number, len(options.scenario))
+        return run_scenario(options.scenario[place], first + number, turn, bench, options.strength)
+    base = options.base[number % len(options.base)]
+    return bench.run(first + number, base, options.kind, options.strength)
+
+
+def keep(options: argparse.Namespace, first: int, outcomes: list[Outcome]) -> None:
+    """Write the files that were asked for; what was done stays when the run is interrupted."""
+    if options.output:
+        kept = {"seed": first, "command": command_of(options, first, len(outcomes)), **summary(outcomes)}
+        options.output.write_text(json.dumps(kept, indent=1) + "\n")
+    if options.diagram:
+        told = [one for outcome in outcomes if not outcome.without for one in outcome.told]
+        options.diagram.write_text(diagram(reliability(told)))
+
+
+def parser_of_options() -> argparse.ArgumentParser:
+    """The options of the command."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=30)
     parser.add_argument("--seed", type=int, default=None, help="repeats a run; drawn anew without it")
     parser.add_argument("--base", nargs="*", default=list(KINDS_OF_BASE), choices=[*KINDS_OF_BASE, *RIGS])
-    parser.add_argument("--kind", default=None, help="a cause word, 'null', or words joined by '+'")
+    parser.add_argument("--kind", default=None, help="a cause word, 'null', 'no_law', or words joined by '+'")
     parser.add_argument(
         "--strength", type=float, default=None, help="effect over noise; drawn from 0.1 to 10 without it"
     )
     parser.add_argument("--design", default="full")
+    parser.add_argument("--model", default=None, help="the network that is diagnosed, other than that of the specimen")
+    parser.add_argument(
+        "--scenario", nargs="*", default=None, choices=list(SCENARIOS), help="designs in turn, all without a name"
+    )
     parser.add_argument("--sensors", action="store_true", help="the force channel errs within its data sheet")
     parser.add_argument("--without", action="store_true", help="the engine lacks the plugin of what is hidden")
     parser.add_argument("--follow", action="store_true", help="drive the runs that the engine asks for, and ask again")
     parser.add_argument("--double", action="store_true", help="two effects are hidden, one up to ten times the other")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")
-    options = parser.parse_args()
-    first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
-    print(f"seed {first}: --seed {first} repeats this run")
-    bench = Bench(options.design, **{flag: getattr(options, flag) for flag in FLAGS}, jobs=options.jobs)
-    outcomes = []
-    for number in range(options.cases):
-        base = options.base[number % len(options.base)]
-        outcomes.append(bench.run(first + number, base, options.kind, options.strength))
-        print(outcomes[-1].line(), flush=True)
-        if options.output:  # what was done stays when the run is interrupted
-            kept = {"seed": first, "command": command_of(options, first, len(outcomes)), **summary(outcomes)}
-            options.output.write_text(json.dumps(kept, indent=1) + "\n")
-    print_table(outcomes)
+    parser.add_argument("--diagram", type=Path, default=None, help="an SVG file for the reliability diagram")
+    return parser
 
 
 if __name__ == "__main__":

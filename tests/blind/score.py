@@ -7,20 +7,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reliability import Told, as_text, brier, reliability
+from scenarios import NO_LAW
+
 NULL = "null"
 LEAST_STRENGTH = 0.1  # weaker effects a refit of the base absorbs
 LEAST_SHARE = 0.1  # of the strongest of two
+SURE = 0.9  # a probability from which on nine names in ten are to be right
 BINS = (0.03, 0.1, 0.3, 1.0, 3.0, 30.0)  # of the strength that a refit of the base leaves, over the noise
 
-# causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic
+# causes whose forms overlap: a spread of sliders is friction and softening with amplitude, a power near two quadratic,
+# one below one bends like a valve, which may be open to one side
 FAMILIES = (
     {"friction", "amplitude_softening", "load_dependent_friction", "velocity_dependent_friction"},
-    {"quadratic_damping", "power_law_damping", "viscous_damping"},
+    {"quadratic_damping", "power_law_damping", "viscous_damping", "valve"},
+    {"valve", "asymmetric_damping"},
     {"stiffness_curve", "end_stop"},
     {"softening", "bedding_in", "creep"},
     {"offset", "drift", "gain"},
 )
-NOTHING = "nothing_missing"
+NOTHING, UNEXPLAINED = "nothing_missing", "unexplained"
 
 
 @dataclass(frozen=True)
@@ -28,7 +34,8 @@ class Outcome:
     """One case after its label was opened.
 
     ``without``: the engine had no plugin for what is hidden; ``before``: its verdict before the runs that it asked for;
-    ``oracle``: the held-out error [N] that a refit reaches where nothing is hidden, None where that is the noise.
+    ``oracle``: the held-out error [N] that a refit reaches where nothing is hidden, None where that is the noise;
+    ``scenario``: the design that the case belongs to, in the table by designs.
     """
 
     seed: int
@@ -39,6 +46,7 @@ class Outcome:
     without: bool = False
     before: dict | None = None
     oracle: float | None = None
+    scenario: str = ""
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -62,7 +70,12 @@ class Outcome:
 
     @property
     def right(self) -> bool:
-        """Whether the first name is one of the hidden effects, or nothing was named where nothing is hidden."""
+        """Whether the first name is one of the hidden effects, or nothing was named where nothing is hidden.
+
+        Where no law fits, whether nothing is named and the verdict is that it is unexplained.
+        """
+        if NO_LAW in self.kinds:
+            return self.first == UNEXPLAINED
         return self.first == NOTHING if not self.kinds else self.first in self.kinds
 
     @property
@@ -113,9 +126,17 @@ class Outcome:
 
         Those may be missing that a refit of the base absorbs, and those of less than a tenth of the strongest.
         """
+        if NO_LAW in self.kinds:
+            return self.right
         least = max(LEAST_STRENGTH, LEAST_SHARE * self.strength)
         due = {effect.kind for effect in self.truth.effects if effect.strength_left >= least}
         return due <= set(self.named) <= set(self.kinds)
+
+    @property
+    def told(self) -> list[Told]:
+        """The probability of every name, and whether it is that of a hidden effect."""
+        return [(cause["probability"], cause["cause"] in self.kinds) for cause in self.verdict["causes"]
+                if cause.get("probability") is not None]  # fmt: skip
 
     @property
     def open_set(self) -> bool:
@@ -165,6 +186,8 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "beyond_confusions": [sum(o.beyond_confusions for o in found), len(found)],
         "by_strength": _by_strength(hidden),
         "over_oracle": _quantiles([o.over_oracle for o in found if o.over_oracle is not None]),
+        **_probabilities(outcomes),
+        **({"by_design": by_design} if (by_design := _by_design(outcomes)) else {}),
         "gain_calibration": _rank_correlation([pair for o in outcomes for pair in o.gains]),
         "named_or_rival": [sum(o.open_set for o in known), len(known)],
         "confusion": _confusion(outcomes),
@@ -174,7 +197,8 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
         "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
                       "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],
-                      "named": o.named, "gains": o.gains, "over_oracle": o.over_oracle, "seconds": round(o.seconds, 1)}
+                      "named": o.named, "told": o.told, "gains": o.gains, "over_oracle": o.over_oracle,
+                      "seconds": round(o.seconds, 1), **({"design": o.scenario} if o.scenario else {})}
                      for o in outcomes],
     }  # fmt: skip
 
@@ -205,9 +229,70 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
           f"expected and realised gain: {rates['gain_calibration']}")  # fmt: skip
     print(f"held-out error within 1.05 of an oracle's: {_of(rates['over_oracle_to_1.05'])}; a single name without a "
           f"rival is right: {_of(rates['lone_right'])}")  # fmt: skip
+    if rates["brier"] is not None:
+        print(f"\nBrier score of the probabilities: {rates['brier']:.3f}; told with 0.9 and more: "
+              f"{_of(rates['sure_right'])} right\n" + as_text(reliability(_told(outcomes))))  # fmt: skip
+    _print_designs(rates.get("by_design", {}))
     if rates["right_after_asking"][1]:
         print(f"first name right once the run that was asked for is there: {_of(rates['right_after_asking'])}")
     print(f"median time of a diagnosis: {rates['seconds']:.1f} s")
+
+
+def _told(outcomes: Sequence[Outcome]) -> list[Told]:
+    return [one for outcome in outcomes if not outcome.without for one in outcome.told]
+
+
+def _probabilities(outcomes: Sequence[Outcome]) -> dict:
+    """Brier score, the names told with 0.9 and more, and the bins of the reliability diagram."""
+    told = _told(outcomes)
+    return {
+        "brier": brier(told),
+        "sure_right": _share([right for probability, right in told if probability >= SURE]),
+        "reliability": [{"from": one.low, "to": one.high, "told": one.told, "right": [one.right, one.count]}
+                        for one in reliability(told)],
+    }  # fmt: skip
+
+
+def _by_design(outcomes: Sequence[Outcome]) -> dict[str, dict]:
+    """The rates of every scenario."""
+    found = {}
+    for name in dict.fromkeys(outcome.scenario for outcome in outcomes if outcome.scenario):
+        mine = [outcome for outcome in outcomes if outcome.scenario == name]
+        shown = [outcome for outcome in mine if not outcome.kinds or outcome.strength >= LEAST_STRENGTH]
+        found[name] = {
+            "cases": len(mine),
+            "right": _share([o.right for o in shown]),
+            "exact": _share([o.exact and o.right for o in shown]),
+            "family": _share([o.in_family for o in shown]),
+            "confidently_wrong": _share([o.confidently_wrong for o in shown]),
+            "names": sum(len(o.named) for o in mine),
+            "surplus": sum(not right for o in mine for _, right in o.told),
+            "brier": brier(_told(mine)),
+            "over_oracle": _quantiles([o.over_oracle for o in mine if o.over_oracle is not None]),
+            "seconds": round(sorted(o.seconds for o in mine)[len(mine) // 2], 1),
+        }
+    return found
+
+
+def _print_designs(designs: dict[str, dict]) -> None:
+    if not designs:
+        return
+    heads = ("cases", "right", "exact", "family", "confidently_wrong", "names", "surplus", "brier", "over_oracle",
+             "seconds")  # fmt: skip
+    width = max(map(len, designs)) + 2
+    print("\n" + "design".ljust(width) + "  ".join(head.rjust(8) for head in heads))
+    for name, row in designs.items():
+        print(name.ljust(width) + "  ".join(_cell(head, row[head]).rjust(max(8, len(head))) for head in heads))
+
+
+def _cell(head: str, value: Any) -> str:
+    if value is None:
+        return "-"
+    if head == "over_oracle":
+        return f"{value[0]:.2f}"
+    if isinstance(value, list):
+        return _of(value)
+    return f"{value:.3f}" if head == "brier" else f"{value:g}"
 
 
 def _confusion(outcomes: Sequence[Outcome]) -> dict[str, Counter]:

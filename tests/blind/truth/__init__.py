@@ -8,6 +8,7 @@ Nothing here imports dashpot. Motions, integrators and functional forms are its 
 - `base`        the specimens before anything is hidden in them
 - `form`        what a functional form of an effect has to offer
 - `friction`, `relaxation`, `damping`, `stiffness`, `inertia`, `channel`   the forms
+- `lawless`     forces that no cause describes
 - `effects`     all forms by the cause they stand for
 - `noise`       sensor noise of a given size and colour
 - `sensor`      a force channel that errs within its data sheet

@@ -11,6 +11,14 @@ from .branches import Branch, Dahl, Damper, FadingDamper, Maxwell, Prandtl, Shoc
 from .form import log_uniform
 from .motion import Motion
 
+BRANCHES_OF_MODEL = {
+    "spring": ("spring",),
+    "kelvin_voigt": ("spring", "damper"),
+    "ftire": ("spring", "damper", "maxwell", "prandtl"),
+    "tire_model_3": ("spring", "damper", "maxwell", "prandtl", "dahl"),
+}
+KIND_OF_BRANCH = {"damper": "viscous_damping", "maxwell": "relaxation", "prandtl": "friction"}
+
 
 @dataclass(frozen=True)
 class Base:
@@ -22,6 +30,10 @@ class Base:
     def force(self, motion: Motion) -> np.ndarray:
         """Force along a motion, shape (steps,)."""
         return sum((branch.force(motion) for branch in self.branches.values()), start=np.zeros(motion.time.size))
+
+    def known_to(self, model: str) -> Base:
+        """What a network of that name has of it. KeyError for a network whose branches are not listed."""
+        return Base(model, {word: branch for word, branch in self.branches.items() if word in BRANCHES_OF_MODEL[model]})
 
     def tangents(self, motion: Motion) -> np.ndarray:
         """What a refit of its numbers can follow, to first order, shape (samples, columns)."""

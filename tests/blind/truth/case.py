@@ -10,12 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from .axle_case import draw_axle
-from .base import Base, draw_base
+from .base import BRANCHES_OF_MODEL, KIND_OF_BRANCH, Base, draw_base
+from .branches import Branch
 from .design import DESIGNS, Plan
 from .effects import FAULTS, FORMS, KINDS_OF_BASE
 from .fault import Fault
 from .folder import write_dataset
-from .form import DoesNotShow, Forces, Form, log_uniform
+from .form import DoesNotShow, Forces, Form, alternating_rms, log_uniform
 from .label import Hidden, SealedLabel, Truth
 from .motion import Motion, at_samples
 from .noise import Noise
@@ -45,6 +46,7 @@ def draw_case(
     *,
     design: str = "full",
     form: str | None = None,
+    model: str | None = None,
     sensors: bool = False,
     further: tuple[Plan, ...] = (),
     folder: Path | None = None,
@@ -54,26 +56,31 @@ def draw_case(
     base: a key of KINDS_OF_BASE; kind: a cause word, several joined by "+", "null", or None (drawn, one in five null);
     strength: effect over noise (root mean squares), or None (log-uniform from 0.1 to 10; of two, one up to ten times
     the other); design: a key of DESIGNS;
-    form: class name of one functional form of the kind, or None (drawn); sensors: whether the force channel errs within
+    form: class name of one functional form of the kind, or None (drawn); model: the network that will be diagnosed, or
+    None (that of the base): branches of the base that it lacks are hidden, too; a kind is drawn from those of both;
+    sensors: whether the force channel errs within
     its data sheet, which the dataset then states; further: runs behind those of the design, the same specimen on them;
     folder: where to write, or None (temporary).
     An axle has one design and exact channels. Everything random comes from `seed`. Raises ValueError where a word is
     unknown, and where the runs of a design show no form of a kind; a form that they do not show is drawn again.
     """
-    _check(base, kind, form, design)
+    _check(base, kind, form, design, model)
     rng, place = np.random.default_rng([seed, 0]), folder or Path(tempfile.mkdtemp(prefix="blind-"))
     if base == "axle":
-        kinds = _draw_kinds(base, kind, rng)
+        kinds = _draw_kinds(KINDS_OF_BASE[base], kind, rng)
         truth = draw_axle(seed, kinds, _draw_strengths(kinds, strength, rng), rng, place)
         return Case(seed, place, SealedLabel(truth))
     specimen, noise, plans = draw_base(base, rng), Noise.draw(rng), DESIGNS[design]
-    runs = len(plans)
+    runs, kinds_of_both = len(plans), [word for word in KINDS_OF_BASE[base] if word in KINDS_OF_BASE[model or base]]
     plans = (*plans, *further)
     for _ in range(MOST_DRAWS):
-        forms = [_draw_form(word, form, rng, runs) for word in _draw_kinds(base, kind, rng)]
-        strengths, bench = _draw_strengths(forms, strength, rng), _Bench(plans, specimen)
+        forms = [_draw_form(word, form, rng, runs) for word in _draw_kinds(kinds_of_both, kind, rng)]
+        strengths, bench = _draw_strengths(forms, strength, rng), _Bench(plans, specimen, model)
         try:
-            effects = tuple(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True))
+            effects = (
+                *bench.branches_unknown(noise.rms),
+                *(bench.hide(form, value, noise.rms) for form, value in zip(forms, strengths, strict=True)),
+            )
             break
         except DoesNotShow:
             continue
@@ -89,15 +96,24 @@ def draw_case(
 class _Bench:
     """A specimen on the rig: the noise-free force of every path, to which effects are added in turn."""
 
-    def __init__(self, plans: tuple[Plan, ...], specimen: Base) -> None:
+    def __init__(self, plans: tuple[Plan, ...], specimen: Base, model: str | None = None) -> None:
         self.plans = plans
         self.specimen = specimen
+        self.known = specimen.known_to(model) if model else specimen
         driven = {plan.path: plan for plan in plans}
         self.paths = list(driven)
         self.motions = [plan.motion for plan in driven.values()]
         self.dynamic = [plan.dynamic for plan in driven.values()]
         self.forces: Forces = [specimen.force(motion) for motion in self.motions]
         self.faults: Forces = [np.zeros(at_samples(motion.time).size) for motion in map(self._motion, plans)]
+
+    def branches_unknown(self, noise_rms: float) -> list[Hidden]:
+        """What the label says of the branches that the diagnosed network lacks."""
+        return [
+            self._told(KIND_OF_BRANCH[word], branch, 1.0, [branch.force(motion) for motion in self.motions], noise_rms)
+            for word, branch in self.specimen.branches.items()
+            if word not in self.known.branches
+        ]
 
     def hide(self, form: Form | Fault, strength: float, noise_rms: float) -> Hidden:
         """Add an effect to the forces, or a fault to the channel; returns what the label says of it."""
@@ -117,7 +133,7 @@ class _Bench:
             unit=form.unit,
             parameters=asdict(form),
             strength=strength,
-            strength_left=_rms_left(self.specimen, motions, added) / noise_rms,
+            strength_left=_rms_left(self.known, motions, added) / noise_rms,
             rms={plan.name: _rms(more) for plan, more in zip(self.plans, added, strict=True)},
         )
 
@@ -127,15 +143,20 @@ class _Bench:
     def _hide(self, form: Form, strength: float, noise_rms: float) -> Hidden:
         size, added = form.at_rms(self.motions, self.forces, self.dynamic, strength * noise_rms)
         self.forces = [force + more for force, more in zip(self.forces, added, strict=True)]
+        return self._told(form.kind, form, size, added, noise_rms, form.unit)
+
+    def _told(self, kind: str, law: Form | Branch, size: float, added: Forces, noise_rms: float, unit="1") -> Hidden:
+        sampled = [at_samples(more) for more in added]
+        shown = alternating_rms([more for more, counts in zip(added, self.dynamic, strict=True) if counts])
         return Hidden(
-            kind=form.kind,
-            form=type(form).__name__,
+            kind=kind,
+            form=type(law).__name__,
             size=size,
-            unit=form.unit,
-            parameters=asdict(form),
-            strength=strength,
-            strength_left=_rms_left(self.specimen, self.motions, [at_samples(more) for more in added]) / noise_rms,
-            rms=self._per_run([_rms(at_samples(more)) for more in added]),
+            unit=unit,
+            parameters=asdict(law),
+            strength=shown / noise_rms,
+            strength_left=_rms_left(self.known, self.motions, sampled) / noise_rms,
+            rms=self._per_run([_rms(more) for more in sampled]),
         )
 
     def measure(
@@ -171,9 +192,9 @@ def _rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _draw_kinds(base: str, kind: str | None, rng: np.random.Generator) -> list[str]:
+def _draw_kinds(known: Sequence[str], kind: str | None, rng: np.random.Generator) -> list[str]:
     """The kinds to hide; a late channel comes last, it delays all the rest."""
-    drawn = NULL if rng.random() < NULL_SHARE else str(rng.choice(KINDS_OF_BASE[base]))
+    drawn = NULL if rng.random() < NULL_SHARE else str(rng.choice(known))
     asked = drawn if kind is None else kind
     return [] if asked == NULL else sorted(asked.split("+"), key=lambda word: word == "delay")
 
@@ -194,8 +215,11 @@ def _draw_form(kind: str, form: str | None, rng: np.random.Generator, runs: int)
     return chosen.draw(rng, runs) if kind in FAULTS else chosen.draw(rng)
 
 
-def _check(base: str, kind: str | None, form: str | None, design: str) -> None:
+def _check(base: str, kind: str | None, form: str | None, design: str, model: str | None) -> None:
     _expect("base", base, KINDS_OF_BASE)
+    if model is not None:
+        _expect("model", model, BRANCHES_OF_MODEL)
+        _expect("base of another model", base, BRANCHES_OF_MODEL)
     _expect("design", design, DESIGNS)
     kinds = [] if kind in (None, NULL) else kind.split("+")
     for word in kinds:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from math import pi
 
 import numpy as np
 
-from .motion import Motion, along, sweep, triangle
+from .motion import Motion, along, random_waves, sum_of_sines, sweep, triangle
 
 START, STOP = 1.0, 25.0
 SWEEP_DURATION, LOOP_DURATION = 5.0, 12.0
 LOOP_DEPTH = 36e-3
+SINE_DURATION, FEWEST_CYCLES, RANDOM_DURATION = 2.0, 4.0, 10.0
+SECOND_SHARE, SECOND_PHASE = 0.05, 1.0
 
 
 @dataclass(frozen=True)
@@ -25,12 +28,17 @@ class Plan:
     asked: Motion | None = field(default=None, compare=False, repr=False)
 
     @property
+    def kind(self) -> str:
+        """The word of the dataset for such a run."""
+        return "transient" if self.asked else "sweep" if self.dynamic else "quasi_static"
+
+    @property
     def dynamic(self) -> bool:
-        """Whether the run is a sweep, and not a quasi-static loop."""
+        """Whether the run is more than a quasi-static loop."""
         return self.amplitude > 0.0
 
     @property
-    def path(self) -> tuple[float, float] | tuple[str]:
+    def path(self) -> tuple:
         """What identifies the driven path."""
         return (self.name,) if self.asked else (self.amplitude, self.preload)
 
@@ -38,6 +46,66 @@ class Plan:
     def motion(self) -> Motion:
         """The driven path itself."""
         return self.asked or drive(self.path)
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """What the dataset says of the run, by quantity."""
+        if not self.dynamic:
+            return {}
+        return {**self._lengths, "start": f"{START:g} Hz", "stop": f"{STOP:g} Hz"}
+
+    @property
+    def _lengths(self) -> dict[str, str]:
+        return {"amplitude": f"{self.amplitude * 1e3:g} mm", "preload": f"{self.preload * 1e3:g} mm"}
+
+
+@dataclass(frozen=True)
+class SinePlan(Plan):
+    """A sine of one frequency [Hz]; `second` is the share of the second harmonic that the actuator adds."""
+
+    frequency: float = 1.0
+    second: float = 0.0
+
+    @property
+    def kind(self) -> str:
+        return "harmonic"
+
+    @property
+    def path(self) -> tuple:
+        return (self.amplitude, self.preload, self.frequency, self.second)
+
+    @property
+    def motion(self) -> Motion:
+        waves = [(self.amplitude, self.frequency, 0.0)]
+        waves += [(self.second * self.amplitude, 2.0 * self.frequency, SECOND_PHASE)] if self.second else []
+        return sum_of_sines(self.preload, waves, max(SINE_DURATION, FEWEST_CYCLES / self.frequency))
+
+    @property
+    def settings(self) -> dict[str, str]:
+        return {**self._lengths, "frequency": f"{self.frequency:g} Hz"}
+
+
+@dataclass(frozen=True)
+class RandomPlan(Plan):
+    """Random motion of the root mean square `amplitude`; the phases come from the number `draw`."""
+
+    draw: int = 0
+
+    @property
+    def kind(self) -> str:
+        return "random"
+
+    @property
+    def path(self) -> tuple:
+        return ("random", self.amplitude, self.preload, self.draw)
+
+    @property
+    def motion(self) -> Motion:
+        return sum_of_sines(self.preload, random_waves(self.amplitude, START, STOP, self.draw), RANDOM_DURATION)
+
+    @property
+    def settings(self) -> dict[str, str]:
+        return self._lengths
 
 
 @lru_cache(maxsize=32)
@@ -62,6 +130,23 @@ def _sweeps(amplitudes: tuple[float, ...], preloads: tuple[float, ...]) -> tuple
     )
 
 
+def _speeds(amplitude: float, preload: float, speeds: tuple[float, ...]) -> tuple[Plan, ...]:
+    """One stroke [m] at several peak velocities [m/s], as dampers are tested."""
+    return tuple(
+        SinePlan(f"v{number}", amplitude, preload, frequency=round(speed / (2.0 * pi * amplitude), 3))
+        for number, speed in enumerate(speeds, 1)
+    )
+
+
+def _sines(amplitudes: tuple[float, ...], preload: float, frequencies: tuple[float, ...]) -> tuple[SinePlan, ...]:
+    """Every amplitude [m] at every frequency [Hz], as bushings are tested."""
+    return tuple(
+        SinePlan(f"a{number}_f{frequency:g}", amplitude, preload, frequency=frequency)
+        for number, amplitude in enumerate(amplitudes, 1)
+        for frequency in frequencies
+    )
+
+
 def _again(plan: Plan) -> Plan:
     return Plan(f"{plan.name}_b", plan.amplitude, plan.preload, repeats=plan.name)
 
@@ -69,6 +154,7 @@ def _again(plan: Plan) -> Plan:
 _LOOP = Plan("qs")
 _GRID = _sweeps((0.5, 1.0, 2.0, 5.0), (10.0, 20.0, 30.0))
 _MIDDLE = Plan("a2_p20", 2e-3, 20e-3)
+_SINES = _sines((0.5e-3, 2e-3, 5e-3), 20e-3, (1.0, 4.0, 10.0, 25.0))
 
 # 12 sweeps, 3 of them again, two quasi-static loops: 17 runs, 99 000 samples.
 DESIGNS: dict[str, tuple[Plan, ...]] = {
@@ -78,4 +164,12 @@ DESIGNS: dict[str, tuple[Plan, ...]] = {
     "amplitudes": (_LOOP, *_sweeps((0.5, 1.0, 2.0, 5.0), (20.0,)), _again(_MIDDLE)),
     "preloads": (_LOOP, *_sweeps((2.0,), (10.0, 20.0, 30.0)), _again(_MIDDLE)),
     "one_sweep": (_LOOP, _MIDDLE, _again(_MIDDLE)),
+    "few": (Plan("a1_p10", 1e-3, 10e-3), _MIDDLE, Plan("a2_p30", 2e-3, 30e-3), Plan("a5_p20", 5e-3, 20e-3)),
+    "speeds": _speeds(10e-3, 20e-3, (0.05, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8)),
+    "sines": _SINES,
+    "second_harmonic": tuple(replace(plan, second=SECOND_SHARE) for plan in _SINES),
+    "random": tuple(
+        RandomPlan(f"random_{number}", amplitude, preload, draw=number)
+        for number, (amplitude, preload) in enumerate(((0.5e-3, 10e-3), (1e-3, 20e-3), (1.5e-3, 20e-3), (1e-3, 30e-3)))
+    ),
 }

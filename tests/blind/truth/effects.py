@@ -10,6 +10,7 @@ from . import (
     friction,
     history,
     inertia,
+    lawless,
     relaxation,
     resonator,
     sliding,
@@ -39,6 +40,7 @@ FORMS: dict[str, tuple[type[Form], ...]] = {
     "creep": history.CREEP_FORMS,
     "load_dependent_friction": sliding.LOADED_FORMS,
     "velocity_dependent_friction": sliding.FADING_FORMS,
+    "no_law": lawless.FORMS,
 }
 
 FAULTS = fault.FORMS

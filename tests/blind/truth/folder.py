@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .design import START, STOP, Plan
+from .design import Plan
 from .motion import SAMPLING
 
 _HEAD = """\
@@ -39,14 +39,8 @@ def write_dataset(
 
 
 def _entry(plan: Plan) -> str:
-    kind = "transient" if plan.asked else "sweep" if plan.dynamic else "quasi_static"
-    head = f"  - {{name: {plan.name}, file: {plan.name}.npz, kind: {kind}"
+    head = f"  - {{name: {plan.name}, file: {plan.name}.npz, kind: {plan.kind}"
+    listed = ", ".join(f"{key}: {value}" for key, value in plan.settings.items())
+    settings = f", settings: {{{listed}}}" if listed else ""
     again = f", repeats: {plan.repeats}" if plan.repeats else ""
-    return f"{head}{_settings(plan)}{again}}}\n"
-
-
-def _settings(plan: Plan) -> str:
-    if not plan.dynamic:
-        return ""
-    lengths = f"amplitude: {plan.amplitude * 1e3:g} mm, preload: {plan.preload * 1e3:g} mm"
-    return f", settings: {{{lengths}, start: {START:g} Hz, stop: {STOP:g} Hz}}"
+    return f"{head}{settings}{again}}}\n"

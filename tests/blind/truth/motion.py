@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy.interpolate import CubicSpline
 SAMPLING = 1000
 STEPS_PER_SAMPLE = 8
 STEP = 1.0 / (SAMPLING * STEPS_PER_SAMPLE)
+RANDOM_SPACING = 0.1 * np.sqrt(1.03)  # Hz; no period within a run
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,35 @@ def sweep(amplitude: float, preload: float, start: float, stop: float, duration:
 def harmonic(amplitude: float, preload: float, frequency: float, duration: float, fade: float = 0.25) -> Motion:
     """A sine of one frequency [Hz]."""
     return sweep(amplitude, preload, frequency, frequency, duration, fade)
+
+
+def sum_of_sines(
+    preload: float, waves: Sequence[tuple[float, float, float]], duration: float, fade: float = 0.25
+) -> Motion:
+    """Sines (amplitude [m], frequency [Hz], phase [rad]) around `preload` [m], faded in together over `fade` [s]."""
+    time = _grid(duration)
+    path, speed, bend = np.zeros((3, time.size))
+    for amplitude, frequency, phase in waves:
+        pulsation = 2 * np.pi * frequency
+        sine, cosine = np.sin(pulsation * time + phase), np.cos(pulsation * time + phase)
+        path += amplitude * sine
+        speed += amplitude * pulsation * cosine
+        bend -= amplitude * pulsation**2 * sine
+    level, slope, curve = _fade(time, fade)
+    return Motion(
+        time,
+        preload + level * path,
+        slope * path + level * speed,
+        curve * path + 2 * slope * speed + level * bend,
+    )
+
+
+def random_waves(rms: float, low: float, high: float, draw: int) -> list[tuple[float, float, float]]:
+    """Waves of one speed from `low` to `high` [Hz] with random phases, together of a root mean square [m]."""
+    frequencies = np.arange(low, high, RANDOM_SPACING)
+    phases = np.random.default_rng(draw).uniform(0.0, 2 * np.pi, frequencies.size)
+    amplitudes = rms * np.sqrt(2.0 / np.sum(frequencies**-2.0)) / frequencies
+    return list(zip(amplitudes.tolist(), frequencies.tolist(), phases.tolist(), strict=True))
 
 
 def triangle(depth: float, duration: float, corner: float = 0.1) -> Motion:
