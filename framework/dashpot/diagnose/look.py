@@ -250,9 +250,8 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
                 ) -> tuple[Noise, Noise, float]:  # fmt: skip
     """The noise of each run from what all columns together leave, with the error of the model and without; its RMS, N.
 
-    The residual is row ``first``. Errors of a sensor within its data sheet count as noise, ``lines`` (k, kept) that a
-    run may show at rest do not. What the columns take up of
-    the noise itself is made up for by the degrees of freedom, where more than half of them are left.
+    The residual is row ``first``; ``lines`` (k, kept) that a run may show at rest are neither. What the columns take up
+    of the noise itself is made up for by the degrees of freedom, where more than half of them are left.
     """
     from scipy.linalg import cho_factor, cho_solve
 
