@@ -139,7 +139,8 @@ def _distance(difference: Array, tangents: Array, directions: Array, deviation: 
     target = difference / deviation
     gram = rows @ rows.T + np.eye(rows.shape[0])
     right = rows @ target
-    return float(target @ target - right @ np.linalg.solve(gram, right)) if right.size else float(target @ target)
+    taken_up = right @ np.linalg.lstsq(gram, right, rcond=1e-12)[0] if right.size else 0.0
+    return float(target @ target - taken_up)
 
 
 def measurement_between(cause: type[Cause], rival: str, causes: Mapping[str, type[Cause]]) -> str:
