@@ -42,14 +42,27 @@ class Kind:
 
 @dataclass(frozen=True, eq=False)
 class Accused:
-    """A fault of one run: its ``strengths``, the nats that it explains, and its evidence."""
+    """A fault of one run: its ``strengths``, the nats that it explains, and its evidence.
+
+    ``explained`` is the share by which the square of the residual of all runs grows without it.
+    """
 
     run: str
     kind: Kind
     strengths: Array
     nats: float
+    explained: float
     evidence_of: str
     words: str
+    probability: float = 1.0
+
+    def judged(self, unexplained: float) -> Accused:
+        """The same with its probability, where a share ``unexplained`` of the square of the residual is no noise.
+
+        What the model leaves there may also be all that the fault explains; a repeat needs no model.
+        """
+        sure = self.words != NEIGHBOURS.partition("|")[2] or not unexplained > 0.0
+        return replace(self, probability=1.0 if sure else self.explained / (self.explained + unexplained))
 
     @property
     def correction(self) -> Correction:
@@ -200,7 +213,9 @@ def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) 
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
         evidence, _, told = words.partition("|")
-        found.append(Accused(key[0], kinds[key[1]], strengths[key], solver.gain(key, rest), evidence, told))
+        nats = solver.gain(key, rest)
+        explained = float(np.expm1(2.0 * nats / solver.samples))
+        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, explained, evidence, told))
     return found
 
 

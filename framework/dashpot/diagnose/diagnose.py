@@ -18,12 +18,15 @@ from dashpot.data.ends import one_force_each
 from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
+from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_at
+from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer, Pursuit
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -78,6 +81,7 @@ def diagnose(
     final = known(polished(model, runs, jobs), model, runs, groups, jobs, setting.floor.value)
     removals = [Removal(one.term.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
     last = replace(refitter, runs=runs)
+    spare = spare_branches(last, pursuit.look, pursuit.best.model)
     leftover = look_for_leftover(last, pursuit.look, repeats_of(last, groups))
     return Diagnosis(
         setting=setting,
@@ -89,6 +93,7 @@ def diagnose(
         final=final,
         removals=tuple(removals),
         leftover=leftover,
+        spare=tuple(spare),
         next_runs=next_runs(last, pursuit) if not spec.joints else {},
         causes={cause.word: cause for cause in causes},
         relevance=relevance,
@@ -113,17 +118,24 @@ def find_causes(
     fault in the end, causes are searched again on what is left.
     """
     model = first_model(fit.declared, fit.fitted)
-    first = look_at(refitter, model, causes, groups)
+    folds = folds_of(refitter.runs, groups)
+    first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)
     doubted = [kinds[number].fault for number in disagreeing(refitter, first, kinds, groups)]
-    pursuit = Pursuer(refitter, causes, groups, relevance, seed, watch, doubted).run(model, None if doubted else first)
+    pursuit = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted).run(model, None if doubted else first)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
     accused = accuse(refitter, pursuit.look, kinds, groups, measured, relevance)
     if accused:
-        runs = [_corrected(run, accused) for run in refitter.runs]
-        again = replace(refitter, runs=runs, reduced={})
-        pursuit = Pursuer(again, causes, groups, relevance, seed, watch).run(pursuit.best.model)
+        left = look_for_leftover(_put_right(refitter, accused), pursuit.look, repeats_of(refitter, groups))
+        accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
+    if accused:
+        again = _put_right(refitter, accused)
+        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(pursuit.best.model)
     return pursuit, accused
+
+
+def _put_right(refitter: Refitter, accused: Sequence[Accused]) -> Refitter:
+    return replace(refitter, runs=[_corrected(run, accused) for run in refitter.runs], reduced={})
 
 
 def _corrected(run: ScoredRun, accused: Sequence[Accused]) -> ScoredRun:

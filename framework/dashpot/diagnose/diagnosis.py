@@ -19,7 +19,6 @@ from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
 from dashpot.diagnose.named import NamedCause, slots_of
 from dashpot.diagnose.next_run import measurement_between
-from dashpot.diagnose.pursue import NAMED
 from dashpot.fit.api import measure_errors
 from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
@@ -32,23 +31,28 @@ FAR_ABOVE = 1.1  # times the explainable error: a model is not explained
 class Diagnosis(Findings):
     """What was found, told; ``as_dict`` is the result file, ``evidence`` what the report shows besides."""
 
-    @cached_property
+    @property
     def named(self) -> tuple[NamedCause, ...]:
-        """The accepted causes, one entry a word and place, that which predicts most first."""
+        """The accepted causes: those that are more likely than not."""
+        return tuple(cause for cause in self.terms if cause.accepted)
+
+    @cached_property
+    def terms(self) -> tuple[NamedCause, ...]:
+        """All that was added to the files, one entry a word and place: what is accepted first, by what it predicts."""
         names = dict.fromkeys(term.name for term in self.pursuit.best.model.terms)
         found = [self._named(name) for name in names] + self._faults_of_runs()
-        return tuple(sorted(found, key=lambda one: -one.nats))
+        return tuple(sorted(found, key=lambda one: (not one.accepted, -one.nats)))
 
     def _named(self, name: tuple[str, str]) -> NamedCause:
         pursuit, model = self.pursuit, self.pursuit.best.model
         mine = [number for number, term in enumerate(model.terms) if term.name == name]
         without = [one for one in pursuit.without if one.term.name == name]
         cost = sum((one.scored.exact - pursuit.best.exact for one in without), np.zeros(pursuit.best.exact.size))
-        cause, probability = model.terms[mine[0]].cause, pursuit.probability(name)
+        cause, probability = model.terms[mine[0]].cause, pursuit.probability(name, self.leftover.share)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         removals = [one.network for one in self.removals if one.name == name]
         gain, removal = self._worth(removals)
-        rivals = self._rivals(name, probability)
+        rivals = tuple(word for word, _ in pursuit.replacements(name, self.leftover.share))
         return NamedCause(
             cause, tuple(model.terms[number] for number in mine),
             slots_of(self.written, [path for number in mine for path in model.owned[number]]), (),
@@ -72,15 +76,6 @@ class Diagnosis(Findings):
         gain = measure_gain(before, after, groups, paths, "held-out runs", self.seed)
         return gain, (1.0 / (1.0 - gain.value) - 1.0 if gain else None)
 
-    def _rivals(self, name: tuple[str, str], probability: float) -> tuple[str, ...]:
-        """What may stand in the place of a cause that is not sure."""
-        if probability >= NAMED:
-            return ()
-        known = set(self.pursuit.best.model.names)
-        found = {rival for term, other in self.pursuit.rivals if term.name == name
-                 for rival in other.model.names if rival not in known}  # fmt: skip
-        return tuple(sorted({word for word, _ in found}))
-
     def _faults_of_runs(self) -> list[NamedCause]:
         words = dict.fromkeys(one.kind.cause.word for one in self.accused)
         found = []
@@ -88,8 +83,8 @@ class Diagnosis(Findings):
             mine = tuple(one for one in self.accused if one.kind.cause.word == word)
             proof = "; ".join(dict.fromkeys(one.words for one in mine))
             found.append(NamedCause(
-                mine[0].kind.cause, (), {}, mine, 1.0, sum(one.nats for one in mine), (0, 0), None, None, (),
-                mine[0].evidence_of, proof,
+                mine[0].kind.cause, (), {}, mine, max(one.probability for one in mine), sum(one.nats for one in mine),
+                (0, 0), None, None, (), mine[0].evidence_of, proof,
             ))  # fmt: skip
         return found
 
@@ -98,12 +93,12 @@ class Diagnosis(Findings):
         """One of the verdict words of the result file."""
         if self.triage.faults:
             return "bad_data"
+        open_ends = (self.leftover.notable() and not self._at_floor) or self._far_above_explainable
+        if open_ends:
+            return "partly_explained" if self.named else "unexplained"
         if any(named.rivals for named in self.named):
             return "ambiguous"
-        open_ends = self.leftover.notable() and not self._at_floor
-        if self.named:
-            return "partly_explained" if open_ends or self._far_above_explainable else "explained"
-        return "unexplained" if open_ends or self._far_above_explainable else "nothing_missing"
+        return "explained" if self.named else "nothing_missing"
 
     @property
     def _at_floor(self) -> bool:
@@ -140,6 +135,7 @@ class Diagnosis(Findings):
             "rejected": self._rejected(),
             "limits": self.limits(),
             "leftover": vars(self.leftover),
+            "may_go": list(self.spare),
             "seed": self.seed,
         }
 
@@ -151,7 +147,7 @@ class Diagnosis(Findings):
             if (faults := [fault for fault in self.triage.faults if fault.kind in cause.faults])
         ]
         found = [_cause_of_faults(rank, cause, faults) for rank, (cause, faults) in enumerate(groups, 1)]
-        return found + [self._cause(rank, named) for rank, named in enumerate(self.named, len(found) + 1)]
+        return found + [self._cause(rank, named) for rank, named in enumerate(self.terms, len(found) + 1)]
 
     def _cause(self, rank: int, named: NamedCause) -> dict[str, Any]:
         measurements = self._next_for(named)
@@ -161,7 +157,7 @@ class Diagnosis(Findings):
             "title": named.cause.about,
             "place": named.site.words if named.site else None,
             "rank": rank,
-            "accepted": True,
+            "accepted": named.accepted,
             "branch": named.branch,
             "evidence": named.evidence,
             "evidence_of": named.evidence_of,
@@ -219,7 +215,7 @@ class Diagnosis(Findings):
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report; see ``report.evidence.Evidence``."""
         residuals = {"before": self.residuals(self.written_before, self.setting)}
-        if self.named:
+        if self.terms:
             residuals["after"] = self.residuals(self.written, self.after_setting)
         triage = [*(fault.sentence for fault in self.triage.faults), *self.remarks]
         untried = [f"The cause '{word}' could not be tried: {reason}" for word, reason in self.pursuit.look.unavailable]

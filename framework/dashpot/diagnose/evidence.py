@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.term import Model, Term
@@ -23,18 +24,18 @@ FEWEST_PEAKS = 2  # excursions that end at the same value: it comes again
 def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether a term of a refitted model is a law of the specimen, or a fault of the measurement that shows as one."""
     term = scores.look.model.terms[number]
-    if term.cause.kind != "measurement":
-        return True
-    return is_determined(scores, number) and TESTS[term.cause.evidence_of](refitter, scores, number)
+    return term.cause.kind != "measurement" or TESTS[term.cause.evidence_of](refitter, scores, number)
 
 
 def is_determined(scores: Scores, number: int) -> bool:
-    """Whether no number of a term is at an end of its range, and no interval of one spans ``DECADES``.
+    """Whether no number of a fault of the measurement is at an end of its range or has an interval of ``DECADES``.
 
     The numbers of the other terms are free.
     """
     look = scores.look
     model, paths = look.model, look.model.coordinates.paths
+    if model.terms[number].cause.kind != "measurement":
+        return True
     if any(at and path in model.owned[number]
            for at, path in zip(model.at_bound, paths, strict=True)):  # fmt: skip
         return False
@@ -52,6 +53,9 @@ def is_determined(scores: Scores, number: int) -> bool:
 def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether every number of the term is the same in each group of runs: at every amplitude, preload and speed.
 
+    Most of what tells it has to come from runs whose force is in phase with the deflection: where losses prevail, a
+    shift of the phase is that of friction, relaxation or a spring in series as well.
+
     One step of each group from what all share, in parts of the number itself, less what noise makes of it; the laws
     are taken as they are.
     """
@@ -62,18 +66,37 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
     rest = _beside(gram, 0, alive)
     squares = np.einsum("i,gij,j->g", rest, grams, rest) / look.samples
+    in_phase = _in_phase(refitter, look)
     for column in alive:
         path = look.model.coordinates.paths[look.own[column - 1]]
         if path not in look.model.owned[number]:
             continue
         along = _beside(gram, column, alive[alive != column])
         weights = np.einsum("i,gij,j->g", along, grams, along)
+        if weights @ in_phase < 0.5 * weights.sum():
+            return False
         pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
         scatter = np.sqrt(max(excess, 0.0)) * scale[0] / scale[column]
         if scatter > AGREE * _size_in_steps(look.model, path):
             return False
     return True
+
+
+def _in_phase(refitter: Refitter, look: Look) -> Array:
+    """For each fold (folds,) the share of its runs whose loss angle is below 45 degrees.
+
+    Of a sweep or a random motion it is that of the least squares of the force over deflection and velocity.
+    """
+    found = np.zeros((2, len(look.folds.names)))
+    for run in refitter.runs:
+        motion = np.array([run.drive.displacement, run.drive.velocity])[:, run.first :]
+        motion = motion - motion.mean(axis=1, keepdims=True)
+        motion /= np.maximum(motion.std(axis=1, keepdims=True), 1e-300)
+        stiffness, damping = np.linalg.lstsq(motion.T, run.force[run.first :], rcond=None)[0]
+        at = list(look.folds.parts[run.name][1])
+        found[:, at] += np.array([[1.0], [float(abs(damping) < abs(stiffness))]])
+    return found[1] / np.maximum(found[0], 1.0)
 
 
 def _beside(gram: Array, column: int, others: NDArray[np.intp]) -> Array:
@@ -93,34 +116,37 @@ def _size_in_steps(model: Model, path: str) -> float:
 def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on.
 
-    It stays there while it should rise and while it should fall: that of a slider leaves its limit when the motion
-    turns back. A force that stays at zero is none either: a specimen that has lost contact does the same.
+    It stays there on the way out and on the way back: dry friction, which also ends at one value, leaves it when the
+    motion turns. A force that stays at zero is none either: a specimen that has lost contact does the same.
     """
     model = scores.look.model
     limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}
     term = model.terms[number]
     rest = [other for other in model.terms if other is not term]
     free = refitter.forces(refitter.without(model, rest))
-    found = []
     noise = np.sqrt(np.mean([np.mean((run.force - free[run.name]) ** 2) for run in refitter.runs]))
     if any(abs(level) < ZERO * noise for level in limits.values()):
         return False
+    found, peaks = [], 0
     for word, level in limits.items():
         side = 1.0 if word == "largest" else -1.0
         for run in refitter.runs:
             beyond = side * (free[run.name] - level) > 0.0
             beyond[: run.first] = False
-            starts = np.flatnonzero(beyond[1:] & ~beyond[:-1])
-            falls = side * np.gradient(free[run.name]) < 0.0
-            found += [(free[run.name][beyond], run.force[beyond], falls[beyond], starts.size)] if beyond.any() else []
-    if sum(one[-1] for one in found) < FEWEST_PEAKS:
-        return False
-    free_all, shown, falling = (np.concatenate([one[k] for one in found]) for k in range(3))
-    return all(_slope(free_all[part], shown[part]) < FLAT for part in (falling, ~falling))
+            peaks += int(np.sum(beyond[1:] & ~beyond[:-1]))
+            found.append(np.array([free[run.name], run.force, side * run.drive.velocity])[:, beyond])
+    seen, shown, outward = np.concatenate(found, axis=1)
+    ways = outward > 0.0, outward < 0.0
+    return peaks >= FEWEST_PEAKS and all(_slope(seen[way], shown[way], np.abs(outward[way])) < FLAT for way in ways)
 
 
-def _slope(x: Array, y: Array) -> float:
-    return float(np.polyfit(x, y, 1)[0]) if x.size > 1 and np.ptp(x) > 0.0 else 1.0
+def _slope(x: Array, y: Array, weights: Array) -> float:
+    """The slope of y over x; 1 where it is not determined."""
+    if not x.size or not weights.any():
+        return 1.0
+    away = x - np.average(x, weights=weights)
+    spread = float(weights @ away**2)
+    return float(weights @ (away * y)) / spread if spread > 0.0 else 1.0
 
 
 def _numbers(model: Model) -> Mapping[str, float]:

@@ -52,7 +52,8 @@ class Removal:
 class Findings:
     """Everything that was found, the files that are written of it, and what they give when they are read again.
 
-    ``corrected`` are the training runs with the faults of single runs put right.
+    ``corrected`` are the training runs with the faults of single runs put right, ``spare`` the branches of the
+    diagnosed network that may go.
     """
 
     setting: Setting
@@ -64,6 +65,7 @@ class Findings:
     final: NetworkSpec
     removals: tuple[Removal, ...]
     leftover: Leftover
+    spare: tuple[str, ...]
     next_runs: Mapping[tuple[str, str], NextRun]
     causes: Mapping[str, type[Cause]]
     relevance: float
@@ -187,7 +189,9 @@ class Findings:
         alone = [f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
                  "it has a fault, or was made under conditions that these do not have. It decided nothing."
                  for run in self.setting.split.held_out if errors[run] > ALONE * worst]  # fmt: skip
-        return [*self.triage.remarks, *alone]
+        names = " and ".join(f"'{name}'" for name in self.spare)
+        spare = [f"Of the diagnosed network {names} may go: without, all else refitted, nothing is predicted worse."]
+        return [*self.triage.remarks, *spare * bool(self.spare), *alone]
 
     def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
         """Measured minus simulated force (n,) of every run, warm-up included."""

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.diagnose.folds import FEWEST, whole_cycles
+
 Array = NDArray[np.float64]
 
-FEWEST = 6  # independent groups of runs from which whole groups are drawn; of fewer, pieces of whole cycles
 PIECES = 8  # of a run
 DRAWS = 1000
 
@@ -48,23 +49,13 @@ def measure_gain(
     else:
         draws = np.zeros((DRAWS, 2))
         for run in without:
-            edges = whole_cycles(displacement[run])
+            edges = whole_cycles(displacement[run], PIECES)
             means = np.array([[np.mean(of[run][first:last] ** 2) for first, last in zip(edges, edges[1:], strict=False)]
                               for of in (without, with_it)])  # fmt: skip
             draws += means[:, rng.integers(0, means.shape[1], (DRAWS, means.shape[1]))].mean(axis=2).T
     total = np.array([np.mean([np.mean(of[run] ** 2) for run in without]) for of in (without, with_it)])
     low, high = np.quantile([_gain(draw) for draw in draws], [0.025, 0.975])
     return Gain(_gain(total), (float(low), float(high)), runs)
-
-
-def whole_cycles(displacement: Array) -> Sequence[int]:
-    """Where a run may be cut into pieces (k + 1,): at upward crossings of the mean, into ``PIECES`` at the most."""
-    side = displacement > np.mean(displacement)
-    crossings = np.flatnonzero(~side[:-1] & side[1:]) + 1
-    if crossings.size < 3:
-        crossings = np.linspace(0, displacement.size, PIECES + 1).astype(int)[1:-1]
-    chosen = crossings[np.linspace(0, crossings.size - 1, min(PIECES, crossings.size) - 1).astype(int)]
-    return sorted({0, *chosen.tolist(), displacement.size})
 
 
 def _gain(squares: Array) -> float:

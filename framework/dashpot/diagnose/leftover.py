@@ -7,7 +7,7 @@ motion and of single runs, do repeated runs agree about it, and is there a line 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +29,13 @@ KEPT = 1e-8  # of the largest eigenvalue
 class Leftover:
     """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
 
-    ``what`` says how it shows.
+    ``what`` says how it shows, ``share`` how much of the square of the residual it is.
     """
 
     score: float
     size: float
     what: str
+    share: float = 0.0
 
     def notable(self) -> bool:
         """Whether something is left that is both certain and not negligible beside the noise."""
@@ -51,7 +52,10 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
         _agreement(residual, pairs),
         _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in refitter.runs}),
     ]
-    return max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
+    found = max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
+    square = np.concatenate(list(residual.values())) @ np.concatenate(list(residual.values()))
+    whole = float(square) / sum(values.size for values in residual.values())
+    return replace(found, share=min(found.size**2 / whole, 1.0)) if found.score > SIGNIFICANT else found
 
 
 def _correlation(

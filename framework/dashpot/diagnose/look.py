@@ -6,7 +6,7 @@ is worth, and what a structure predicts of runs that took no part in its fit.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
@@ -30,6 +31,7 @@ Array = NDArray[np.float64]
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
 RIDGE = 1e-9
 LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
+HELD_BYTES = 250e6  # of rows of a look
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
 
@@ -79,7 +81,7 @@ class Look:
     prior: Array
     occam: float
     samples: Array
-    groups: tuple[str, ...]
+    folds: Folds
     sizes: Array
     unavailable: tuple[tuple[str, str], ...]
     measured_noise: Noise
@@ -98,14 +100,14 @@ def look_at(
     refitter: Refitter,
     model: Model,
     causes: Sequence[type[Cause]],
-    groups: Mapping[str, str],
+    folds: Folds,
     noise: Noise | None = None,
     faults: Sequence[ChannelFault] = (),
     known: Sequence[Candidate] | None = None,
 ) -> Look:
     """Linearise a model on the training runs; without a ``noise`` that of each run is learnt.
 
-    ``groups`` names for every run the group in which it is left out. Without ``causes`` only the model itself is seen.
+    ``folds`` say which parts of the runs are left out together. Without ``causes`` only the model itself is seen.
     Each run may have each of the ``faults`` at any strength. The candidates may be ``known`` from an earlier look.
     """
     runs, view = refitter.runs, view_of(model.fitted, refitter.runs, refitter.elements, refitter.jobs)
@@ -146,19 +148,38 @@ def look_at(
             bank[places] = plain.reduce(name, values)
         return rows
 
-    rows = dict(zip((run.name for run in runs), spread(rows_of, runs, jobs=refitter.jobs), strict=True))
+    rows = Rows(runs, rows_of, lambda run: 8 * (first + layout.size) * plain.kept(run.name, run.samples), refitter.jobs)
     alone, rich = noise, 0.0
     if noise is None:
         noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
-    sizes = np.sqrt(np.mean([np.mean(found[first:] ** 2, axis=1) for found in rows.values()], axis=0))
-    names = tuple(dict.fromkeys(groups[run.name] for run in runs))
-    grams, samples = _grams(rows, noise, groups, names)
+    grams, samples, squares = _grams(rows, noise, folds)
+    sizes = np.sqrt(squares[first:])
     of_model = slice(first + 1 + own.size)
     exact = beside_base(grams[:, of_model, of_model], np.zeros(first), first)[0]
     grams, precision = with_form_errors(grams, first, layout, model, candidates)
     projected, moves, prior, occam = beside_base(grams, precision, first)
-    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, names, sizes,
+    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, folds, sizes,
                 unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
+
+
+class Rows(Mapping[str, Array]):
+    """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time."""
+
+    def __init__(self, runs: Sequence[ScoredRun], make: Callable[[ScoredRun], Array], size: Callable[[ScoredRun], int],
+                 jobs: int) -> None:  # fmt: skip
+        self._runs, self._make = {run.name: run for run in runs}, make
+        ends = np.cumsum([size(run) for run in runs])
+        held = [run for run, end in zip(runs, ends, strict=True) if end < HELD_BYTES]
+        self._held = dict(zip((run.name for run in held), spread(make, held, jobs=jobs), strict=True))
+
+    def __getitem__(self, name: str) -> Array:
+        return self._held[name] if name in self._held else self._make(self._runs[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._runs)
+
+    def __len__(self) -> int:
+        return len(self._runs)
 
 
 def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -181,19 +202,20 @@ def _shown_at_rest(causes: Sequence[type[Cause]], view: ModelView, runs: Sequenc
     return {run.name: _shapes(still, view, run, noise) for run in runs}
 
 
-def _grams(rows: dict[str, Array], noise: Noise, groups: Mapping[str, str], names: Sequence[str]
-           ) -> tuple[Array, Array]:  # fmt: skip
-    """Gram matrices (groups, c, c) of whitened rows and the number (groups,) of their samples; takes the rows.
+def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array, Array, Array]:
+    """Gram matrices (folds, c, c) of whitened rows, the number (folds,) of their samples, the mean squares (c,) in N^2.
 
     Samples that are not independent weigh less in both.
     """
     size = len(next(iter(rows.values())))
-    grams, samples = np.zeros((len(names), size, size)), np.zeros(len(names))
-    for run in list(rows):
-        white, share = noise.filter(run, rows.pop(run)), noise.independent.get(run, 1.0)
-        grams[names.index(groups[run])] += share * (white @ white.T)
-        samples[names.index(groups[run])] += share * white.shape[1]
-    return grams, samples
+    grams, samples, squares = np.zeros((len(folds.names), size, size)), np.zeros(len(folds.names)), np.zeros(size)
+    for run, found in rows.items():
+        squares += np.mean(found**2, axis=1) / len(rows)
+        white, share = noise.filter(run, found), noise.independent.get(run, 1.0)
+        for fold, part in folds.of_run(run, white.shape[1]):
+            grams[fold] += share * (white[:, part] @ white[:, part].T)
+            samples[fold] += share * (part.stop - part.start)
+    return grams, samples, squares
 
 
 def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
@@ -255,8 +277,10 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
     """
     from scipy.linalg import cho_factor, cho_solve
 
-    weights = {run: 1.0 / max(float(np.mean(found[first] ** 2)), 1e-300) for run, found in rows.items()}
-    gram = sum(weights[run] * (found @ found.T) for run, found in rows.items())
+    gram, count = np.zeros((0, 0)), 0
+    for found in rows.values():
+        weight = 1.0 / max(float(np.mean(found[first] ** 2)), 1e-300)
+        gram, count = weight * (found @ found.T) + (gram if count else 0.0), count + found.shape[1]
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     matrix, others = gram / np.outer(scale, scale), np.arange(len(scale)) != first
     steadied = matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1)
@@ -265,7 +289,7 @@ def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: R
     strengths[others] = cho_solve(factor, matrix[others, first])
     strengths *= scale[first] / scale
     used = len(steadied) - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(steadied)))))
-    left = 1.0 - used / sum(found.shape[1] for found in rows.values())
+    left = 1.0 - used / count
     filters, alone, shares, squares = {}, {}, {}, []
     for run in refitter.runs:
         found = rows[run.name]

@@ -15,6 +15,8 @@ from dashpot.diagnose.term import Term
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.sites import Site
 
+MORE_LIKELY = 0.5  # than not
+
 
 @dataclass(frozen=True, eq=False)
 class NamedCause:
@@ -37,6 +39,11 @@ class NamedCause:
     rivals: tuple[str, ...]
     evidence_of: str | None
     proof: str
+
+    @property
+    def accepted(self) -> bool:
+        """Whether it is more likely than not; what is not describes a part of the force, and its cause stays open."""
+        return self.probability > MORE_LIKELY
 
     @property
     def site(self) -> Site | None:

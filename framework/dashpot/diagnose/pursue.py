@@ -6,17 +6,19 @@ structure without it is refitted, and so are those with another cause in its pla
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
-from dashpot.diagnose.evidence import has_evidence
+from dashpot.diagnose.evidence import has_evidence, is_determined
+from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import Odds, Scores, Structure
+from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
 from dashpot.diagnose.term import Model, Term
 from dashpot.fit.refine import Outcome
@@ -35,9 +37,9 @@ NAMED = 0.9  # of the draws: probability from which on a cause is named
 class Scored:
     """A refitted structure and what it predicts.
 
-    ``nats`` (groups,) are minus the log likelihood of each group left out with errors of forms allowed for, ``errors``
-    the nats that these errors cost, ``exact`` (groups,) the same as ``nats`` with the laws as they are, ``price`` the
-    prior of the terms.
+    ``nats`` (folds,) are minus the log likelihood of each fold left out with errors of forms allowed for, ``errors``
+    the nats that these errors cost, ``exact`` (folds,) the same as ``nats`` with the laws as they are, ``price`` the
+    prior of the terms. ``evident`` says that every fault of the measurement in it has its evidence.
     """
 
     model: Model
@@ -46,15 +48,16 @@ class Scored:
     exact: Array
     samples: Array
     price: float
+    evident: bool = True
 
     @property
     def score(self) -> float:
         """Minus the log of likelihood and prior."""
         return float(self.nats.sum()) + self.errors + self.price
 
-    def drawn(self, weights: Array) -> Array:
-        """The score (draws,) under weights (draws, groups) of the groups."""
-        return weights @ self.nats + self.errors + self.price
+    def drawn(self, weights: Array, share: float = 1.0) -> Array:
+        """The score (draws,) under weights (draws, folds) of the folds, where a ``share`` of all nats is evidence."""
+        return share * (weights @ self.nats + self.errors) + self.price
 
     def drawn_exactly(self, weights: Array) -> Array:
         """The score (draws,) with the laws as they are."""
@@ -74,8 +77,9 @@ class Without:
 class Pursuit:
     """The best structure, the last look at it, and what was refitted beside it at the end.
 
-    ``without`` has the structures without each term, ``rivals`` those with another cause in its place. ``first`` is the
-    model that was diagnosed, ``ended`` whether the search came to its end, ``refused`` what could not be written.
+    ``without`` has the structures without each term, ``rivals`` those with another cause in its place, ``others`` what
+    else was refitted at the last look. ``first`` is the model that was diagnosed, ``ended`` whether the search came to
+    its end, ``refused`` what could not be written.
     """
 
     best: Scored
@@ -83,16 +87,44 @@ class Pursuit:
     first: Model
     without: tuple[Without, ...]
     rivals: tuple[tuple[Term, Scored], ...]
+    others: tuple[Scored, ...]
     weights: Array
     looks: int
     ended: bool
     refused: tuple[tuple[Term, str], ...] = ()
 
-    def probability(self, name: tuple[str, str]) -> float:
-        """The share of draws in which the best of all these structures has a cause."""
-        pool = [self.best, *(one.scored for one in self.without), *(one for _, one in self.rivals)]
-        best = np.argmin([one.drawn(self.weights) for one in pool], axis=0)
-        return float(np.mean([name in pool[number].model.names for number in best]))
+    def winners(self, unexplained: float = 0.0) -> Counter[tuple[tuple[str, str], ...]]:
+        """The names of the best of all these structures in each draw, and in how many.
+
+        Of the square of the residual the share ``unexplained`` is no noise: it comes again in every run and is no
+        independent evidence.
+        """
+        found = [self.best, *(one.scored for one in self.without), *(one for _, one in self.rivals), *self.others]
+        best = np.argmin([one.drawn(self.weights, 1.0 - unexplained) for one in found], axis=0)
+        return Counter(found[number].model.names for number in best)
+
+    def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
+        """How sure a cause is: the share of draws in which the best structure has it.
+
+        Times what the cause explains over that and what stays ``unexplained``, which might be its own.
+        """
+        draws = self.winners(unexplained)
+        stable = sum(count for names, count in draws.items() if name in names) / draws.total()
+        explained = self.explained(name)
+        return stable * explained / (explained + unexplained) if unexplained > 0.0 else stable
+
+    def replacements(self, name: tuple[str, str], unexplained: float = 0.0) -> tuple[tuple[str, str], ...]:
+        """The causes that stand in the place of one in more than one of ten draws."""
+        draws, found = self.winners(unexplained), Counter[tuple[str, str]]()
+        for names, count in draws.items():
+            if name not in names:
+                found.update({new: count for new in names if new not in self.best.model.names})
+        return tuple(sorted(new for new, count in found.items() if count > (1.0 - NAMED) * draws.total()))
+
+    def explained(self, name: tuple[str, str]) -> float:
+        """By what share the square of the residual grows without a cause, all else refitted."""
+        cost = sum(float(np.sum(one.scored.exact - self.best.exact)) for one in self.without if one.term.name == name)
+        return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
 
 
 @dataclass(eq=False)
@@ -101,7 +133,7 @@ class Pursuer:
 
     refitter: Refitter
     causes: Sequence[type[Cause]]
-    groups: Mapping[str, str]
+    folds: Folds
     relevance: float
     seed: int
     watch: Callable[[int, int], None] = lambda looks, terms: None
@@ -111,43 +143,53 @@ class Pursuer:
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
         first, look, ended, looks = model, look or self.look(model), False, 0
-        seen: set[frozenset[object]] = set()
         while True:
-            look, looks, ended = self.climbed(look, looks)
+            look, looks, ended, others = self.climbed(look, looks)
             fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
             present, without = self.pruned(look, self.scored(look, fitted, odds), odds)
             if present.model.names != look.model.names:
-                look = self.look(present.model)
-            rivals = tuple(self.rivals(Scores(look), search(Scores(look)))) if present.model.terms else ()
-            seen.add(present.model.forms)
-            fresh = (rival for _, rival in rivals if rival.model.forms not in seen)
-            better = min(fresh, key=lambda one: one.score, default=present)
-            if not ended or not better.score < present.score:
-                weights = self.weights(len(look.groups))
-                return Pursuit(present, look, first, without, rivals, weights, looks, ended, tuple(self.refused))
-            look = self.look(better.model)
+                look, others = self.look(present.model), []
+            scores = Scores(look)
+            rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
+            onward = self._next_look((rival for _, rival in rivals), present) if ended else None
+            if onward is None:
+                weights = self.weights(len(look.folds.names))
+                return Pursuit(present, look, first, without, rivals, tuple(others), weights, looks, ended,
+                               tuple(self.refused))  # fmt: skip
+            look = onward
 
-    def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool]:
-        """The look at a structure than which none of those refitted is better, and whether it was reached."""
+    def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool, list[Scored]]:
+        """The look at a structure than which none of those refitted is better, whether it was reached, and these."""
+        trials: list[Scored] = []
         while looks < MOST_LOOKS:
             looks += 1
             self.watch(looks, len(look.model.terms))
             scores = Scores(look)
             present = self.scored(look, look.model, scores.odds)
-            trials = (trial for trial in self.trials(scores, search(scores)) if self._surely(trial, present))
-            best = min(trials, key=lambda trial: trial.score, default=present)
-            if not best.score < present.score:
-                return look, looks, True
-            look = self.look(best.model)
-        return look, looks, False
+            trials = list(self.trials(scores, search(scores)))
+            onward = self._next_look(trials, present)
+            if onward is None:
+                return look, looks, True, trials
+            look = onward
+        return look, looks, False, trials
+
+    def _next_look(self, trials: Iterable[Scored], present: Scored) -> Look | None:
+        """The look at the best of some structures than the present one, under the noise of the look at either."""
+        for trial in sorted(trials, key=lambda trial: trial.score):
+            if self._better(trial, present):
+                look = self.look(trial.model)
+                odds = Odds(look.layout.bank)
+                if self._better(self.scored(look, trial.model, odds), self.scored(look, present.model, odds)):
+                    return look
+        return None
 
     def look(self, model: Model) -> Look:
         """All candidates beside a model."""
-        return look_at(self.refitter, model, self.causes, self.groups, faults=self.faults)
+        return look_at(self.refitter, model, self.causes, self.folds, faults=self.faults)
 
-    def weights(self, groups: int) -> Array:
-        """Random weights (draws, groups) of the groups, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
-        draws = np.random.default_rng(self.seed).exponential(size=(DRAWS, groups))
+    def weights(self, folds: int) -> Array:
+        """Random weights (draws, folds) of the folds, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
+        draws = np.random.default_rng(self.seed).exponential(size=(DRAWS, folds))
         return draws / draws.mean(axis=1, keepdims=True)
 
     def scored(self, look: Look, model: Model, odds: Odds) -> Scored:
@@ -158,7 +200,7 @@ class Pursuer:
         """A fitted model under the noise of a look, with the forms of its own causes only."""
         causes = list(dict.fromkeys(term.cause for term in model.terms))
         known = look.candidates
-        return Scores(look_at(self.refitter, model, causes, self.groups, look.noise, self.faults, known))
+        return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.faults, known))
 
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted."""
@@ -172,7 +214,7 @@ class Pursuer:
                 tried[single] += 1
                 trial = self.refitted(scores, structure)
                 if trial:
-                    many[single] += 1
+                    many[single] += trial.evident
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
@@ -188,9 +230,11 @@ class Pursuer:
         if not all(term.suspect.admits(trial.numbers_of(k)) for k, term in enumerate(trial.terms)):
             return None
         seen = self.scores_of(look, trial)
-        if not all(has_evidence(self.refitter, seen, number) for number in range(len(trial.terms))):
+        numbers = range(len(trial.terms))
+        if not all(is_determined(seen, number) for number in numbers):
             return None
-        return scored_by(seen, scores.odds)
+        evident = all(has_evidence(self.refitter, seen, number) for number in numbers)
+        return replace(scored_by(seen, scores.odds), evident=evident)
 
     def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
@@ -202,18 +246,25 @@ class Pursuer:
                 rest = self.refitter.writable(present.model, rest)
                 scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
                 share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
-                worth = self._matters(present, scored) and has_evidence(self.refitter, seen, number)
-                found.append(Without(term, scored, share if worth else 0.0))
+                certain = is_determined(seen, number) and has_evidence(self.refitter, seen, number)
+                found.append(Without(term, scored, share if certain and self._matters(present, scored) else 0.0))
             weakest = min(found, key=lambda one: (one.share, one.scored.score), default=None)
             if weakest is None or weakest.share >= NAMED:
                 return present, tuple(found)
             present = weakest.scored
 
-    def _surely(self, trial: Scored, present: Scored) -> bool:
-        """Whether a larger structure predicts more than its prior odds, by the draws, with the laws as they are."""
+    def _better(self, trial: Scored, present: Scored) -> bool:
+        """Whether a structure is more likely than the present one, and predicts better with the laws as they are.
+
+        This in more than half of the draws, in nine of ten if it is the larger one; another fit of the same terms has
+        to be more likely by the odds of a number.
+        """
+        least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
+        if not trial.evident or not trial.score < present.score - least:
+            return False
         weights = self.weights(present.exact.size)
-        better = trial.drawn_exactly(weights) < present.drawn_exactly(weights)
-        return trial.price <= present.price or float(np.mean(better)) >= NAMED
+        better = float(np.mean(trial.drawn_exactly(weights) < present.drawn_exactly(weights)))
+        return better > 0.5 if trial.price <= present.price else better >= NAMED
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""

@@ -84,6 +84,14 @@ class Refitter:
         """The same structure, its numbers fitted under another noise."""
         return self._fitted(model.base, model.terms, model.declared, model.owned, model.fitted, noise)
 
+    def refit_without(self, model: Model, branch: str, noise: Noise) -> Model:
+        """A model without a branch of its network, all else refitted. Raises InputError where another one needs it."""
+        root = model.fitted.root
+        kept = tuple(member for member in root.members if member.name != branch)
+        start = replace(model.fitted, root=replace(root, members=kept))
+        return self._fitted(model.base, model.terms, model.declared, model.owned, start, noise, TRIAL_STEPS,
+                            TRIAL_TOLERANCE)  # fmt: skip
+
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
         objective = self._objective(model.fitted, noise)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +47,9 @@ def moves_from(scores: Scores, structure: Structure) -> set[Structure]:
     for term in structure.added:
         less = Structure(structure.dropped, structure.added - {term})
         found |= {less} | {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
-    for number in set(range(len(scores.kinds))) - structure.dropped:
-        less = Structure(structure.dropped | {number}, structure.added)
+    stays = set(range(len(scores.kinds))) - structure.dropped
+    for gone in [*combinations(stays, 1), *combinations(stays, 2)]:  # exchanged, or merged into one law
+        less = Structure(structure.dropped | set(gone), structure.added)
         if len(structure.added) < MOST_ADDED:
             found |= {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
     return found

@@ -270,7 +270,7 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
 def _found(cause: Json) -> str:
     if cause.get("accepted"):
         return "accepted"
-    return "possible, not alone" if cause.get("indistinguishable_from") else "not supported by the data"
+    return "possible, not alone" if cause.get("indistinguishable_from") else "resembles it, less likely than not"
 
 
 def _title_of(word: str, diagnosis: Json) -> str:

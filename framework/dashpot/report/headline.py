@@ -145,7 +145,9 @@ def _stands_in(causes: list[Json]) -> str:
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
-    return f"{error_phrase(errors)}: {missing}{_leftover(diagnosis)}."
+    alike = [cause_title(cause) for cause in diagnosis["causes"] if not cause.get("accepted")]
+    resembled = f"; it resembles {join(alike)}" if alike else ""
+    return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
 
 
 def _leftover(diagnosis: Json) -> str:

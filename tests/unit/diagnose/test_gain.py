@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from dashpot.diagnose.gain import FEWEST, PIECES, measure_gain, whole_cycles
+from dashpot.diagnose.folds import FEWEST
+from dashpot.diagnose.gain import measure_gain
 
 SINE = np.sin(2.0 * np.pi * np.arange(4000) / 200.0 - 0.1)
 
@@ -53,17 +54,3 @@ def test_the_interval_covers_the_gain_of_noise(runs):
         low, high = gain(before, after, seed=draw).interval
         held += low <= 0.0 <= high
     assert held >= 30
-
-
-def test_pieces_are_whole_cycles():
-    edges = whole_cycles(SINE)
-    assert edges[0] == 0 and edges[-1] == SINE.size
-    inner = np.array(edges[1:-1])
-    assert 1 < inner.size <= PIECES
-    assert ((SINE[inner - 1] <= SINE.mean()) & (SINE[inner] > SINE.mean())).all()
-    assert set(np.diff(inner) % 200) == {0}
-
-
-def test_a_ramp_is_cut_evenly():
-    edges = whole_cycles(np.linspace(0.0, 1.0, 800))
-    assert edges[0] == 0 and edges[-1] == 800 and len(edges) <= PIECES + 1

@@ -5,6 +5,7 @@ import pytest
 from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dataset, friction, plain
 
 from dashpot.contract.cause import Suspect
+from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import beside_base, look_at
 from dashpot.diagnose.whitening import ORDER
 
@@ -29,7 +30,7 @@ def made():
 
 @pytest.fixture(scope="module")
 def look(made):
-    return look_at(made.refitter, made.model, [Closed], made.groups)
+    return look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
 
 
 def whitened(look, run, signal):
@@ -65,17 +66,19 @@ def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, column
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
     scale = np.sqrt(np.diag(look.total))
-    for number, group in enumerate(look.groups):
-        tangents, rows = columns[group]
-        left = rows - strengths.T @ tangents
-        assert look.grams[number] / np.outer(scale, scale) == pytest.approx(left @ left.T / np.outer(scale, scale),
-                                                                            abs=2e-6)  # fmt: skip
-        assert look.samples[number] == pytest.approx(look.noise.independent[group] * rows.shape[1])
-    assert look.groups == tuple(columns)
+    left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
+    seen = set()
+    for run, rows in left.items():
+        for number, part in look.folds.of_run(run, rows.shape[1]):
+            expected = rows[:, part] @ rows[:, part].T / np.outer(scale, scale)
+            assert look.grams[number] / np.outer(scale, scale) == pytest.approx(expected, abs=2e-6)
+            assert look.samples[number] == pytest.approx(look.noise.independent[run] * (part.stop - part.start))
+            seen.add(number)
+    assert seen == set(range(len(look.folds.names)))
 
 
 def test_held_out_runs_take_no_part(made, look):
-    assert "a3_p8" in MOTIONS and "a3_p8" not in look.groups
+    assert "a3_p8" in MOTIONS and "a3_p8" not in look.folds.parts
     assert "a3_p8" not in look.noise.steps
 
 
@@ -96,7 +99,7 @@ def test_sizes_are_those_of_the_columns_in_newton(look, made):
 def test_columns_do_not_make_the_noise_of_the_records_smaller():
     """Half a thousand of them take up a part of 1250 values of noise."""
     null = bench(dataset(held_out=("a3_p8",)))
-    look = look_at(null.refitter, null.model, causes(*REGISTRY.causes), null.groups)
+    look = look_at(null.refitter, null.model, causes(*REGISTRY.causes), folds_of(null.refitter.runs, null.groups))
     assert look.layout.bank > 300
     assert look.rich == pytest.approx(NOISE, rel=0.06)
 
@@ -108,7 +111,7 @@ def test_a_cause_that_cannot_be_tried_is_told(made):
         def suspects(self, view, network):
             yield Suspect("none", (1.0,), lambda view, run: view.respond(run, "no_such_element", [{}]), None)
 
-    look = look_at(made.refitter, made.model, [Missing, Closed], made.groups)
+    look = look_at(made.refitter, made.model, [Missing, Closed], folds_of(made.refitter.runs, made.groups))
     ((word, reason),) = look.unavailable
     assert word == "missing" and "no_such_element" in reason
     assert len(look.candidates) == 2
@@ -144,3 +147,10 @@ def test_errors_of_forms_are_marginalised(block):
     covariance = np.eye(whole.shape[1]) + forms.T @ (forms / precision[2:, None])
     assert left.sum(axis=0) + prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
     assert occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
+
+
+def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
+    """Large data: the same matrices, whatever is kept in memory."""
+    monkeypatch.setattr("dashpot.diagnose.look.HELD_BYTES", 0)
+    again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
+    assert (again.grams == look.grams).all() and (again.sizes == look.sizes).all()

@@ -50,10 +50,11 @@ def test_what_is_left_is_described():
         assert said.endswith("; of what is left, 0.21 × the noise is a line at 48.7 Hz.")
 
 
-def test_unexplained_does_not_guess():
-    said = headline(diagnosis(verdict="unexplained", causes=[relaxation()]))
+def test_unexplained_tells_what_it_resembles_and_does_not_guess():
+    said = headline(diagnosis(verdict="unexplained", causes=[]))
     assert said.endswith("something is missing in the model, and no known cause fits it.")
-    assert "relaxation" not in said
+    said = headline(diagnosis(verdict="unexplained", causes=[relaxation(accepted=False)]))
+    assert said.endswith("no known cause fits it; it resembles relaxation.")
 
 
 def test_ambiguous_names_all_rivals():

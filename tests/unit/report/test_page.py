@@ -261,5 +261,5 @@ def test_a_rival_cause_is_not_called_unsupported():
 
     causes = [friction(accepted=False, indistinguishable_from=["end_stop"]), friction(accepted=False)]
     grid = cause_grid(diagnosis(verdict="ambiguous", causes=causes))
-    assert [row["found"] for row in grid.rows] == ["possible, not alone", "not supported by the data"]
+    assert [row["found"] for row in grid.rows] == ["possible, not alone", "resembles it, less likely than not"]
     assert [row["confused"] for row in grid.rows] == ["end stop", None]
