@@ -8,11 +8,13 @@ whitening    the noise of each run, and signals in units of it
 term         a network with the terms that were added to it
 refit        fitting a structure to whitened misfits
 bends        what a table may do between its knots
+folds        what is left out at a time
 look         residual, terms and candidates as Gram matrices by group of runs
 score        what a structure predicts of runs left out, and its prior odds
 search       beam search over structures
 evidence     what has to show a fault of the measurement in all runs
 pursue       look, search and refit until no structure scores better
+spare        branches of the diagnosed network that may go
 channel      faults of the force channel in single runs
 polish       the numbers of the final files and their intervals
 lines        lines in spectra

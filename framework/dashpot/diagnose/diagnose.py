@@ -18,7 +18,7 @@ from dashpot.data.ends import one_force_each
 from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
-from dashpot.diagnose.folds import folds_of
+from dashpot.diagnose.folds import FEWEST, folds_of
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.named import MORE_LIKELY
@@ -205,6 +205,10 @@ def limits_of(spec: NetworkSpec) -> list[str]:
 def remarks_on(pursuit: Pursuit) -> list[str]:
     """What to say of the search."""
     found = [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
+    groups = pursuit.look.folds.groups
+    if groups < FEWEST:
+        found.append(f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
+                     "the names are of laws that are there; whether they hold under other conditions is not known.")  # fmt: skip
     refused = dict.fromkeys(f"'{term.cause.word}' could not be written into the network: {reason}"
                             for term, reason in pursuit.refused)  # fmt: skip
     return [*found, *refused]

@@ -22,11 +22,13 @@ FEWEST = 6  # parts that are left out in turn
 
 @dataclass(frozen=True)
 class Folds:
-    """``names`` of what is left out in turn; ``parts`` holds for each run the ends of its parts as shares of its length
-    (k + 1,), and the numbers of their folds (k,).
+    """``names`` of what is left out in turn, of so many ``groups`` of runs.
+
+    ``parts`` holds for each run the ends of its parts as shares of its length (k + 1,), and the numbers of their folds.
     """
 
     names: tuple[str, ...]
+    groups: int
     parts: Mapping[str, tuple[tuple[float, ...], tuple[int, ...]]]
 
     def of_run(self, run: str, kept: int) -> list[tuple[int, slice]]:
@@ -48,7 +50,7 @@ def folds_of(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> Folds:
         mine = [f"{groups[run.name]}, part {k + 1}" if pieces > 1 else groups[run.name] for k in range(len(edges) - 1)]
         numbers = tuple(names.setdefault(name, len(names)) for name in mine)
         parts[run.name] = tuple(edge / path.size for edge in edges), numbers
-    return Folds(tuple(names), parts)
+    return Folds(tuple(names), len(known), parts)
 
 
 def whole_cycles(displacement: Array, pieces: int) -> list[int]:

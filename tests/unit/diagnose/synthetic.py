@@ -35,7 +35,7 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     nothing = np.zeros(0, dtype=int)
     prior = np.zeros((size, size))
     return Look(model, None, None, tuple(candidates), Layout(0, 0, bank), grams, grams[:, :1, :1], prior, 0.0,
-                samples, Folds(tuple(rows), {}), np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
+                samples, Folds(tuple(rows), len(rows), {}), np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
 
 
 def random_rows(bank: int, strengths: Mapping[int, float], seed: int = 0) -> dict[str, np.ndarray]:
