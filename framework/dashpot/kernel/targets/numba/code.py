@@ -13,6 +13,8 @@ from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
 import numpy as np
 from numba import njit
 
+from dashpot.kernel.targets.numba.borrowed import borrowed
+
 """
 SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
 INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
@@ -76,6 +78,15 @@ class PythonCode(Code):
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """An array, which is a constant of the compiled functions."""
         self.write(f"{name} = np.array([{', '.join(map(self.number, values))}])")
+
+    def index(self, value: int) -> str:
+        """A count that is no literal: numba would compile a function anew for every literal."""
+        return f"np.int64({value})"
+
+    def borrow(self, *arrays: str) -> None:
+        """Arrays that the caller keeps."""
+        for array in arrays:
+            self.set(array, f"borrowed({array})")
 
     def number(self, value: float | bool) -> str:
         """A literal."""

@@ -38,6 +38,7 @@ def _write_bend(code: PythonCode) -> None:
 
 def _write_step(code: PythonCode, online: Online) -> None:
     with code.function("number", "step", ONE, "The force after a step to a displacement and a velocity."):
+        code.borrow("state", "numbers")
         code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x, v, dt)")
         code.set(f"state[{INPUTS}]", "x")
         code.set(f"state[{INPUTS + 1}]", "v")
@@ -62,7 +63,9 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
     arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
     with code.function("nothing", name, arguments, "The force along a whole record."):
-        code.let("state", f"np.zeros({online.size})", "array")
+        code.let("memory", f"np.zeros({online.size})", "array")
+        code.let("state", "borrowed(memory)", "array")
+        code.borrow("numbers")
         if online.system:
             code.set(f"state[{SPAN}]", f"max({SMALLEST_SPAN}, np.max(x) - np.min(x))")
         with code.loop("k", 0, "x.size"):
@@ -72,11 +75,13 @@ def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name
                 code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x[k], v[k], dt)")
             code.do("advance(state, dt, numbers)")
             code.set("out[k]", f"state[{online.outputs}]")
+        code.set("memory[0]", "0.0")  # it has to live until here
 
 
 def _write_step_nodes(code: PythonCode, online: Online) -> None:
     answers = len(online.driven) + len(online.free)
     with code.function("nothing", "step_nodes", MANY, "The same for any nodes: out are forces, then positions."):
+        code.borrow("state", "numbers")
         with code.loop("k", 0, len(online.driven)):
             code.let("i", f"{INPUTS} + {len(MOTION)} * k", "count")
             code.set("state[i + 2]", f"bend(state, {online.before} + {len(MOTION)} * k, x[k], v[k], dt)")

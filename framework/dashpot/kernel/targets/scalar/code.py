@@ -99,6 +99,10 @@ class Code(ABC):
     def number(self, value: float | bool) -> str:
         """A number or a truth."""
 
+    def index(self, value: int) -> str:
+        """A count that a function is called with."""
+        return str(value)
+
     @contextmanager
     def indented(self, head: str, end: str = "") -> Iterator[None]:
         """Deeper lines under a head."""

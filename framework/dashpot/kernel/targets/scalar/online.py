@@ -57,10 +57,10 @@ def write_common(code: Code, online: Online) -> None:
         for course, start in enumerate(online.courses):
             step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
             if online.program.constants:
-                code.do(f"constants(s, {start}, {step}, p)")
+                code.do(f"constants(s, {code.index(start)}, {step}, p)")
         for path, shelf in online.shelves.items():
             first = online.numbers.index(f"{path}[0]")
-            place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
+            place = f"s, {online.tables}, {code.part('p', first)}, {code.index(shelf.base)}, {code.index(shelf.count)}"
             code.do(f"tabulate({place}, {code.number(0.0 if shelf.level else 1.0)})")
         code.set(f"s[{DT}]", "dt")
 
