@@ -16,7 +16,7 @@ def seen_range(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> dict[str, tuple[
     topology = topology_of(spec)
     records = {run.record or run.name: run.excitation for run in runs}
     seen = [each.at(topology.held("driven"), topology.held("loaded")) for each in records.values()]
-    found = {}
+    found: dict[str, tuple[float, float]] = {}
     for node in topology.held("driven"):
         ranges = motion_range([each.motions[node] for each in seen])
         found |= {channel_at(quantity, node): ends for quantity, ends in ranges.items()}

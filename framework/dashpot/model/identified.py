@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 from dashpot.text.form import Form, read_items, read_quantity
 from dashpot.text.node import Mapping as MappingNode
@@ -43,7 +44,7 @@ def read_identified(form: Form) -> Identified:
     if "range" not in node.entries:
         return Identified(record)
     ranges = Form(node.entries["range"], form.problems, "the range of identification")
-    found = {key: ranges.take(key, lambda entry, key=key: _read_ends(entry, unit_of(key)), None)
+    found = {key: ranges.take(key, partial(_read_ends, unit=unit_of(key)), None)
              for key in ranges.keys if quantity_of(key) in QUANTITIES}  # fmt: skip
     for quantity in QUANTITIES:
         ranges.node(quantity)

@@ -86,6 +86,8 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
     skipped = {node.serial for node in given}
     roots = [*([layout.force] if layout.force is not None else []), *layout.updates.values()]
     writer = Writer(code, roots, lambda node: "0.0" if node.serial in skipped else leaf(node), look_up)
+    if layout.force is not None:
+        writer.compute_together()
     force = code.new(writer.number(layout.force)) if layout.force is not None else "0.0"
     writer.store({f"w[{layout.states[name]}]": node for name, node in layout.updates.items()})
     return force

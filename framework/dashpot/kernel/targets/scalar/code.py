@@ -103,6 +103,10 @@ class Code(ABC):
         """A count that a function is called with."""
         return str(value)
 
+    def together(self, calls: Sequence[tuple[str, str]]) -> list[str]:
+        """The names of functions, by operation, of arguments, computed side by side; none where a language cannot."""
+        return []
+
     @contextmanager
     def indented(self, head: str, end: str = "") -> Iterator[None]:
         """Deeper lines under a head."""
