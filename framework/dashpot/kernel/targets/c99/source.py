@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, SPAN, STATUS, Online
+from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, NOT_FINITE, SPAN, STATUS, Online
 from dashpot.kernel.ir.system import SMALLEST_SPAN
 from dashpot.kernel.targets.c99.code import CCode
 from dashpot.kernel.targets.c99.header import identifier, single
@@ -12,7 +12,6 @@ from dashpot.kernel.targets.c99.watch import flag_place, state_size, watch_call,
 from dashpot.kernel.targets.scalar.whole import write_network
 from dashpot.model.identified import Range
 
-NOT_FINITE = 3
 TEXT = """\
 
 const {name}_number {name}_numbers[{count} + 1] = {{

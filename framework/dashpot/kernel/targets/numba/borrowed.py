@@ -27,6 +27,9 @@ def _without_owner(typing: Any, array: Any) -> Any:
     return array(array), generate
 
 
+_ownerless: Any = _without_owner
+
+
 @overload(borrowed, strict=False)  # the lambda has no annotations
 def _borrowed(array: Any) -> Any:
-    return lambda array: _without_owner(array)
+    return lambda array: _ownerless(array)

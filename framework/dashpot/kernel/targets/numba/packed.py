@@ -96,12 +96,14 @@ def _packed(omegas: int) -> Callable[..., Any]:
 
         return types.UniTuple(types.float64, WIDTH)(a, b, c, d), generate
 
+    native: Any = compiled
+
     def plain(a: float, b: float, c: float, d: float) -> tuple[float, ...]:
         from dashpot.model.special import wrightomega
 
         return tuple(float(wrightomega(x)) if k < omegas else exp(x) for k, x in enumerate((a, b, c, d)))
 
-    overload(plain, strict=False)(lambda a, b, c, d: lambda a, b, c, d: compiled(a, b, c, d))
+    overload(plain, strict=False)(lambda a, b, c, d: lambda a, b, c, d: native(a, b, c, d))
     return plain
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dashpot.kernel.ir.online import BEGUN, INPUTS, MOTION, SPAN, Online
+from dashpot.kernel.ir.online import BEGUN, INPUTS, MOTION, NOT_FINITE, SPAN, STATUS, Online
 from dashpot.kernel.ir.system import SMALLEST_SPAN
 from dashpot.kernel.targets.numba.code import PythonCode
 from dashpot.kernel.targets.scalar.code import Arguments
@@ -16,7 +16,7 @@ MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array",
 
 def print_solver(online: Online) -> str:
     """The module of a network that somebody else steps."""
-    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes")
+    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")
     write_network(code, online)
     _write_bend(code)
     if len(online.driven) == 1 and not online.loaded:
@@ -25,6 +25,7 @@ def print_solver(online: Online) -> str:
         _write_record(code, online, ("x", "v", "a"), "simulate_path")
         _write_record(code, online, ("x", "v"), "simulate")
     _write_step_nodes(code, online)
+    _write_status(code, online)
     return code.text
 
 
@@ -78,6 +79,13 @@ def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name
             code.do("advance(state, dt, numbers)")
             code.set("out[k]", f"state[{online.outputs}]")
         code.set("memory[0]", "0.0")  # it has to live until here
+
+
+def _write_status(code: PythonCode, online: Online) -> None:
+    with code.function("count", "status", [("array", "state")], "How the steps went so far."):
+        with code.loop("k", online.outputs, online.before), code.when("not np.isfinite(state[k])"):
+            code.answer(f"{NOT_FINITE}")
+        code.answer(f"int(state[{STATUS}])")
 
 
 def _write_step_nodes(code: PythonCode, online: Online) -> None:
