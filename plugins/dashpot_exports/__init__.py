@@ -4,7 +4,9 @@
 - `fmu`      a functional mock-up unit by FMI 3.0, for co-simulation
 - `fmu2`     the same by FMI 2.0
 - `modelica` a sampled Modelica model with flanges of the standard library
+- `gbs`      a bushing property file with a static curve and a constant damping
 - `stiffness_table` dynamic stiffness and loss angle as CSV
+- `sines` what tables and conversions are made with
 - `unit` `variables` what both versions of the mock-up units share; `component.h` `fmi2.c` `fmi3.c` their sources
 """
 
@@ -19,7 +21,8 @@ def dashpot_exports() -> list[type]:
     from dashpot_exports.c import C
     from dashpot_exports.fmu import Fmu
     from dashpot_exports.fmu2 import Fmu2
+    from dashpot_exports.gbs import Gbs
     from dashpot_exports.modelica import Modelica
     from dashpot_exports.stiffness_table import StiffnessTable
 
-    return [C, Fmu, Fmu2, Modelica, StiffnessTable]
+    return [C, Fmu, Fmu2, Gbs, Modelica, StiffnessTable]

@@ -19,6 +19,7 @@ class C(Export):
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.h`` and ``NAME.c``."""
         found, name = exported(network), identifier(network.name)
-        header = print_header(found.online, network.name, found.title)
-        source = print_source(found.online, network.name, found.values, found.units)
+        header = print_header(found.online, network.name, found.title, network.identified)
+        source = print_source(found.online, network.name, found.values, found.units,
+                              network.identified.range)  # fmt: skip
         return {f"{name}.h": header.encode(), f"{name}.c": source.encode()}

@@ -1,6 +1,6 @@
 /* What both versions of the interface share. Variables by number: inputs (displacement and velocity of each driven
-   node, then the forces of loaded ones), outputs, the status, the numbers of the network, the time. The inputs that are set before
-   a step are those of its end. */
+   node, then the forces of loaded ones), outputs, the status, what was outside of the range of identification, the
+   numbers of the network, the time. The inputs that are set before a step are those of its end. */
 #ifndef COMPONENT_H
 #define COMPONENT_H
 
@@ -11,7 +11,8 @@
 
 #define FIRST_OUTPUT (2 * DRIVEN + LOADED)
 #define STATUS_NUMBER (FIRST_OUTPUT + OUTPUTS)
-#define FIRST_NUMBER (STATUS_NUMBER + 1)
+#define OUTSIDE_NUMBER (STATUS_NUMBER + 1)
+#define FIRST_NUMBER (OUTSIDE_NUMBER + 1)
 #define VARIABLES (FIRST_NUMBER + NUMBERS)
 
 typedef struct {
@@ -86,6 +87,18 @@ static int component_set(component *c, unsigned int variable, double value)
         return SET(&c->network, NAMES[variable - FIRST_NUMBER].name, value);
     }
     return 0;
+}
+
+static int component_get_integer(const component *c, unsigned int variable, int *value)
+{
+    if (variable == STATUS_NUMBER) {
+        *value = STATUS(&c->network);
+    } else if (variable == OUTSIDE_NUMBER) {
+        *value = OUTSIDE(&c->network);
+    } else {
+        return 0;
+    }
+    return 1;
 }
 
 static void *component_copy(const component *c)

@@ -90,10 +90,9 @@ EXPORT status fmi2SetReal(instance c, const reference which[], size_t n, const d
 EXPORT status fmi2GetInteger(instance c, const reference which[], size_t n, int value[])
 {
     for (size_t k = 0; k < n; ++k) {
-        if (which[k] != STATUS_NUMBER) {
+        if (!component_get_integer(c, which[k], value + k)) {
             return ERROR;
         }
-        value[k] = STATUS(&((component *)c)->network);
     }
     return OK;
 }

@@ -98,10 +98,11 @@ EXPORT status fmi3SetFloat64(instance c, const reference which[], size_t n, cons
 EXPORT status fmi3GetInt32(instance c, const reference which[], size_t n, int32_t value[], size_t values)
 {
     for (size_t k = 0; k < n; ++k) {
-        if (k >= values || which[k] != STATUS_NUMBER) {
+        int found;
+        if (k >= values || !component_get_integer(c, which[k], &found)) {
             return ERROR;
         }
-        value[k] = STATUS(&((component *)c)->network);
+        value[k] = found;
     }
     return OK;
 }

@@ -5,6 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element, SubElement
 
 from dashpot.kernel.export import Exported
+from dashpot.model.identified import Range
 from dashpot_exports.unit import MockUpUnit
 from dashpot_exports.variables import Variable
 
@@ -48,6 +49,12 @@ class Fmu(MockUpUnit):
         for name in ("Output", "InitialUnknown"):
             for number in outputs:
                 SubElement(structure, name, valueReference=str(number))
+
+    def add_range(self, root: Element, seen: Range) -> None:
+        """An annotation for each quantity."""
+        notes = SubElement(root, "Annotations") if seen else root
+        for name, (least, largest) in seen.items():
+            SubElement(notes, "Annotation", type=f"dashpot.identified.{name}").text = f"{least!r} {largest!r}"
 
     def build_description(self, name: str, sources: list[str]) -> bytes:
         """How to build the unit from its sources."""

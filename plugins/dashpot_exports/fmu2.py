@@ -5,6 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element, SubElement
 
 from dashpot.kernel.export import Exported
+from dashpot.model.identified import Range
 from dashpot_exports.unit import MockUpUnit
 from dashpot_exports.variables import Variable
 
@@ -51,6 +52,15 @@ class Fmu2(MockUpUnit):
             parent = SubElement(structure, name)
             for number in outputs:
                 SubElement(parent, "Unknown", index=str(number + 1))
+
+    def add_range(self, root: Element, seen: Range) -> None:
+        """Annotations of the vendor, which stand before the variables."""
+        if seen:
+            notes = Element("VendorAnnotations")
+            identified = SubElement(SubElement(notes, "Tool", name="dashpot"), "identified")
+            for name, (least, largest) in seen.items():
+                SubElement(identified, "range", quantity=name).text = f"{least!r} {largest!r}"
+            root.insert([part.tag for part in root].index("ModelVariables"), notes)
 
     def build_description(self, name: str, sources: list[str]) -> None:
         """FMI 2.0 has none."""

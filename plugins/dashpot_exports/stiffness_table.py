@@ -9,16 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.export import Export
-from dashpot.data.drive import Drive, drive_from_path
+from dashpot.kernel.export import exported
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.targets.c99.header import identifier
 from dashpot.model.network import NetworkSpec
-from dashpot.model.topology import topology_of
-from dashpot.text.problem import InputError, Place
+from dashpot_exports.sines import SAMPLES, require_one_end, sine
 
 Array = NDArray[np.float64]
 
-PERIODS, SAMPLES = 8, 200  # of a sine, and in one period; the last period counts
 HEAD = """\
 frequency,amplitude,preload,storage,loss,stiffness,loss_angle
 Hz,m,m,N/m,N/m,N/m,deg
@@ -45,31 +43,22 @@ class StiffnessTable(Export):
         self.frequencies, self.amplitudes, self.preloads = frequencies, amplitudes, preloads
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
-        """``NAME_stiffness.csv``."""
-        topology = topology_of(network)
-        if len(topology.held("driven")) != 1 or topology.held("loaded"):
-            raise InputError.at(Place(network.file), "a table of stiffness needs a network with one driven end, got "
-                                f"{len(topology.held('driven'))}", "export it with --to fmu")  # fmt: skip
+        """``NAME_stiffness.csv``, and beside it a text that says of which network."""
+        require_one_end(network, "a table of stiffness")
         rows = (",".join(f"{number!r}" for number in row) for row in self._rows(network))
-        return {f"{identifier(network.name)}_stiffness.csv": (HEAD + "\n".join(rows) + "\n").encode()}
+        name = f"{identifier(network.name)}_stiffness"
+        return {f"{name}.csv": (HEAD + "\n".join(rows) + "\n").encode(),
+                f"{name}.txt": (exported(network).title + "\n").encode()}  # fmt: skip
 
     def _rows(self, network: NetworkSpec) -> Iterator[tuple[float, ...]]:
         compiled = compile_network(network)
         for preload in self.preloads:
             for amplitude in self.amplitudes:
                 for frequency in self.frequencies:
-                    force = compiled.along(_sine(frequency, amplitude, preload))()
+                    force = compiled.along(sine(frequency, amplitude, preload))()
                     found = _harmonic(force[-SAMPLES:]) / amplitude
                     size, angle = abs(found), np.degrees(np.angle(found))
                     yield (frequency, amplitude, preload, *map(float, (found.real, found.imag, size, angle)))
-
-
-def _sine(frequency: float, amplitude: float, preload: float) -> Drive:
-    phase = 2.0 * np.pi * np.arange(PERIODS * SAMPLES + 1) / SAMPLES
-    rate = 2.0 * np.pi * frequency
-    x = preload + amplitude * np.sin(phase)
-    return drive_from_path(1.0 / (frequency * SAMPLES), x, amplitude * rate * np.cos(phase),
-                           -amplitude * rate**2 * np.sin(phase))  # fmt: skip
 
 
 def _harmonic(force: Array) -> complex:

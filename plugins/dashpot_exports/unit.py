@@ -19,6 +19,7 @@ from dashpot.contract.export import Export
 from dashpot.kernel.export import Exported, digest_of, exported
 from dashpot.kernel.targets.c99.header import identifier, print_header
 from dashpot.kernel.targets.c99.source import print_source
+from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 from dashpot_exports.variables import Variable, add_unit, variables_of
@@ -40,6 +41,7 @@ MODEL = """\
 #define ACCELERATION {name}_acceleration
 #define SET {name}_set
 #define STATUS {name}_status
+#define OUTSIDE {name}_outside
 #define NAMES {name}_numbers
 #define NUMBERS {guard}_NUMBERS
 #define OUTPUTS {guard}_OUTPUTS
@@ -80,10 +82,11 @@ class MockUpUnit(Export):
         online = found.online
         model = MODEL.format(name=name, guard=name.upper(), driven=len(online.driven), loaded=len(online.loaded),
                              span=SPAN, step=STEP, token=token)  # fmt: skip
-        own = resources(__package__)
+        own, spec = resources(__package__), found.spec
+        source = print_source(online, spec.name, found.values, found.units, spec.identified.range)
         return {
-            f"{name}.h": print_header(online, found.spec.name, found.title).encode(),
-            f"{name}.c": print_source(online, found.spec.name, found.values, found.units).encode(),
+            f"{name}.h": print_header(online, spec.name, found.title, spec.identified).encode(),
+            f"{name}.c": source.encode(),
             "model.h": model.encode(),
             **{file: (own / file).read_bytes() for file in ("component.h", self.wrapper)},
         }
@@ -101,6 +104,7 @@ class MockUpUnit(Export):
             self.add_variable(parent, number, variable)
         outputs = [number for number, each in enumerate(variables) if each.causality == "output"]
         self.add_structure(root, outputs)
+        self.add_range(root, found.spec.identified.range)
         return self.text_of(root)
 
     def text_of(self, root: Element) -> bytes:
@@ -127,6 +131,10 @@ class MockUpUnit(Export):
     @abstractmethod
     def add_structure(self, root: Element, outputs: list[int]) -> None:
         """Which variables are answers."""
+
+    @abstractmethod
+    def add_range(self, root: Element, seen: Range) -> None:
+        """The least and the largest of the motions with which the numbers were identified."""
 
     @abstractmethod
     def build_description(self, name: str, sources: list[str]) -> bytes | None:

@@ -13,6 +13,7 @@ from dashpot.data.drive import Drive
 from dashpot.kernel.export import Exported, exported
 from dashpot.kernel.targets.c99.header import identifier, print_header
 from dashpot.kernel.targets.c99.source import print_source
+from dashpot.kernel.targets.c99.watch import state_size
 from dashpot.model.network import NetworkSpec
 
 STRICT = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic")
@@ -22,8 +23,9 @@ DOUBLES = ctypes.POINTER(ctypes.c_double)
 def write_sources(spec: NetworkSpec, folder: Path) -> Exported:
     """The header and the source of a network in a folder."""
     found, name = exported(spec), identifier(spec.name)
-    (folder / f"{name}.h").write_text(print_header(found.online, spec.name, found.title))
-    (folder / f"{name}.c").write_text(print_source(found.online, spec.name, found.values, found.units))
+    (folder / f"{name}.h").write_text(print_header(found.online, spec.name, found.title, spec.identified))
+    source = print_source(found.online, spec.name, found.values, found.units, spec.identified.range)
+    (folder / f"{name}.c").write_text(source)
     return found
 
 
@@ -46,9 +48,10 @@ class Library:
     def along(self, drives: list[Drive], values: np.ndarray) -> tuple[np.ndarray, int]:
         """The outputs (samples, outputs) along motions of the driven nodes, and the status."""
         online, drive = self.found.online, drives[0]
-        memory = np.zeros(online.size + values.size + 1)
+        size = state_size(online, self.found.spec.identified.range)
+        memory = np.zeros(size + values.size + 1)
         self._call("init", memory, ctypes.c_double(max(np.ptp(each.displacement) for each in drives)))
-        memory[online.size : -1] = values
+        memory[size:-1] = values
         inputs = np.column_stack([column for each in drives
                                   for column in (each.displacement, each.velocity, each.acceleration)])  # fmt: skip
         outputs = np.empty((drive.samples, online.before - online.outputs))

@@ -20,6 +20,7 @@ from dashpot.cli.switches import Switches, output_option, switches
 if TYPE_CHECKING:
     import numpy as np
 
+    from dashpot.data.excitation import Excitation
     from dashpot.data.run import Run
     from dashpot.kernel.api import RunSolution
     from dashpot.model.network import NetworkSpec
@@ -83,7 +84,7 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     archive = output.suffix == ".npz"
     files = [output.name] if archive else [f"{name}.csv" for name in runs.names]
     folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
-    forces, names, error = ForceArchive(), [], 0.0
+    forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
     with session.watch("compiling") as progress:
         for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
             if archive:
@@ -91,14 +92,16 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
             else:
                 folder.write(f"{run.name}.csv", csv_text(run, solution))
             names.append(run.name)
+            beyond[run.name] = beyond_range(network, run)
             error = max(error, *solution.error.values())
     session.warn_of(runs.problems)
+    warn_of_range(beyond, session)
     if archive:
         folder.write_bytes(output.name, forces.content())
     if energy:
         write_energies(network, map(Excitation.of_run, runs), folder, session.talk)
     session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
-                        content_of(network, names, output, error))  # fmt: skip
+                        content_of(network, names, output, error, beyond))  # fmt: skip
 
 
 def measure_on(
@@ -125,17 +128,42 @@ def measure_on(
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     for name, text in files.items():
         folder.write(name, text)
+    beyond = {planned.name: beyond_range(network, planned.excitation()) for planned in bench.runs()}
+    warn_of_range(beyond, session)
     if energy:
         write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
-    session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset))
+    session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset, None, beyond))
 
 
-def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None = None) -> dict[str, Any]:
-    """What ``--json`` tells: the network, its runs and where they are; ``error`` is the numerical one in N."""
+def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
+    """What of a run lies outside the motions with which the numbers were identified, in words."""
+    from dashpot.data.excitation import Excitation
+    from dashpot.fit.seen_range import covered
+    from dashpot.model.identified import outside
+
+    recorded = network.identified.range
+    if not recorded:
+        return []
+    return outside(covered(network, run if isinstance(run, Excitation) else Excitation.of_run(run)), recorded)
+
+
+def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
+    """Tell which runs go beyond what the numbers were identified with."""
+    for name, words in beyond.items():
+        if words:
+            session.talk.warn(f"run '{name}' lies outside of what the numbers were identified with: {'; '.join(words)}")
+
+
+def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None,
+               beyond: Mapping[str, list[str]]) -> dict[str, Any]:  # fmt: skip
+    """What ``--json`` tells: the network, its runs and where they are, the numerical ``error`` in N, and the runs that
+    go ``beyond`` the range of identification.
+    """
     return {"format": "dashpot-simulation/1", "network": network.name, "runs": runs, "output": str(output),
-            "numerical_error": error}  # fmt: skip
+            "numerical_error": error,
+            "outside_of_identification": {name: words for name, words in beyond.items() if words}}  # fmt: skip
 
 
 def csv_text(run: Run, solution: RunSolution) -> str:

@@ -118,7 +118,7 @@ class Findings:
         terms = dict.fromkeys(term.title for term in self.pursuit.best.model.terms)
         what = "extended by a diagnosis" if terms else "fitted to corrected runs"
         head = [f"{self.model.name}, {what}.", *(f"cause: {title}" for title in terms)]
-        text = fill_numbers(self.pursuit.best.model.declared, self.final, record)
+        text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
 
     @property

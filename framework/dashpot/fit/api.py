@@ -32,6 +32,7 @@ from dashpot.fit.refine import refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun, score_run
 from dashpot.fit.search import run_search
+from dashpot.fit.seen_range import seen_range
 from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
@@ -157,6 +158,7 @@ def fit_prepared(
         idle=known.idle,
         spread=best.spread,
         history=best.history,
+        seen=seen_range(spec, setting.train),
     )
 
 

@@ -10,6 +10,7 @@ import dashpot
 from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
 from dashpot.fit.holdout import Split
+from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
 from dashpot.text.quantity import pretty
@@ -30,7 +31,8 @@ class FitResult:
     """A network with fitted numbers and how good it is.
 
     ``declared`` is the network as its file has it; ``fitted`` has numbers, intervals and tables. ``spread`` holds the
-    losses that different starts ended at, best first: near one another they are evidence of convergence.
+    losses that different starts ended at, best first: near one another they are evidence of convergence. ``seen`` is
+    the range of the motions of the training runs.
     """
 
     declared: NetworkSpec
@@ -47,6 +49,7 @@ class FitResult:
     idle: tuple[str, ...] = ()
     spread: tuple[float, ...] = ()
     history: tuple[tuple[int, float], ...] = field(default=(), repr=False)
+    seen: Range = field(default_factory=dict, repr=False)
 
     @property
     def identified_text(self) -> str:
@@ -58,7 +61,7 @@ class FitResult:
             "version": dashpot.__version__,
             "rmse": pretty(self.errors.train, "N", 4),
         }
-        return fill_numbers(self.declared, self.fitted, record)
+        return fill_numbers(self.declared, self.fitted, record, self.seen)
 
     def as_dict(self) -> dict[str, Any]:
         """The result in plain values, SI."""

@@ -48,7 +48,11 @@ def digest_of(spec: NetworkSpec) -> str:
 
 
 def _about(spec: NetworkSpec) -> str:
-    identified = sum(slot.value.role == "identified" for slot in spec.slots())
-    origin = f"{identified} of {len(spec.slots())} numbers identified" if spec.slots() else "without numbers"
+    found = sum(slot.value.role == "identified" for slot in spec.slots())
+    origin = f"{found} of {len(spec.slots())} numbers identified" if spec.slots() else "without numbers"
+    record = spec.identified.record
+    by = f" ({', '.join(f'{key} {word}' for key, word in record.items())})" if record else ""
+    told = spec.identified.told()
+    seen = f" with {told}" if told else ""
     source = f", source: {spec.source}" if spec.source else ""
-    return f"network {digest_of(spec)}, {origin}{source}; written by dashpot {__version__}"
+    return f"network {digest_of(spec)}, {origin}{by}{seen}{source}; written by dashpot {__version__}"

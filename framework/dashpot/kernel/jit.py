@@ -36,6 +36,8 @@ class Solver:
     ``step_nodes(state, x, v, load, dt, numbers, out)``: ``x``, ``v`` of the nodes ``driven``, ``load`` in N of those
     ``loaded``; ``out`` gets the forces of the driven nodes, then the positions of the nodes ``free``.
 
+    ``status(state)``: 0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite.
+
     The first step from a fresh ``state`` is the begin of the record, at rest. A state belongs to its ``numbers`` (in
     the order of ``names``): other numbers need a fresh one.
     """
@@ -45,6 +47,7 @@ class Solver:
     simulate: Callable[..., None] | None
     simulate_path: Callable[..., None] | None
     step_nodes: Callable[..., None]
+    status: Callable[..., int]
     names: tuple[str, ...]
     numbers: Array
     driven: tuple[str, ...]
@@ -80,6 +83,7 @@ def _solver(online: Online, module: Any, numbers: Array) -> Solver:
         getattr(module, "simulate", None),
         getattr(module, "simulate_path", None),
         module.step_nodes,
+        module.status,
         online.numbers,
         np.ascontiguousarray(numbers),
         online.driven,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from dashpot.model.element import Curve, Element, Scale
+from dashpot.model.identified import Identified
 from dashpot.text.document import Document
 from dashpot.text.node import Node
 from dashpot.text.problem import Place
@@ -193,7 +194,8 @@ class NetworkSpec:
     """A network, one to one with its text. ``measurement`` says how the load cell sees it (gain, offset and so on).
 
     A network without ``joints`` has two ends: one is driven, the other held. With joints, ``ends`` says for every
-    member of ``root`` what it connects; ``gravity`` in m/s^2 pulls at the masses.
+    member of ``root`` what it connects; ``gravity`` in m/s^2 pulls at the masses. ``identified`` tells where
+    its numbers came from.
     """
 
     name: str
@@ -205,6 +207,7 @@ class NetworkSpec:
     about: str = ""
     source: str = ""
     document: Document | None = field(default=None, compare=False, repr=False)
+    identified: Identified = field(default_factory=Identified, compare=False, repr=False)
 
     @property
     def text(self) -> str:

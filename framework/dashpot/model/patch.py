@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from dashpot.model.identified import Range, range_text
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.written_out import write_out_uses
 from dashpot.text.document import Document
@@ -17,18 +18,21 @@ DIGITS = 8
 INTERVAL_DIGITS = (4, 8, 17)  # as many as tell its two ends apart
 
 
-def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, str]) -> str:
+def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, str], seen: Range | None = None) -> str:
     """The text of ``spec`` with the numbers of ``fitted``: ``start`` becomes ``value``, with its interval.
 
     ``fitted`` is the same network with other values; curves from data become tables, and a network that is used and
     has searched numbers is written out. ``record`` is written at the end under ``identified:`` and says where the
-    numbers came from. ValueError for a network that was not read from a text.
+    numbers came from, and with it the range of the motions that were ``seen``. ValueError for a network that was not
+    read from a text.
     """
     document, spec = write_out_uses(spec)
     edits = [_curve_edit(curve, fitted.curves()[path]) for path, curve in spec.data_curves().items()]
     for old, new in _pair_up(spec, fitted):
         edits += _number_edits(document, old, new)
-    return _with_record(apply_edits(document.text, edits), record, document.file)
+    entries = [f"{key}: {plain_or_quoted(value)}" for key, value in record.items()]
+    entries += [f"range: {range_text(seen)}"] if seen else []
+    return _with_record(apply_edits(document.text, edits), entries, document.file)
 
 
 def add_branch(text: str, lines: str) -> str:
@@ -178,10 +182,9 @@ def _curve_edit(curve: Characteristic, found: Characteristic) -> Edit:
     return Edit(curve.node.start, curve.node.end, text)
 
 
-def _with_record(text: str, record: Mapping[str, str], file: str | None) -> str:
+def _with_record(text: str, entries: Sequence[str], file: str | None) -> str:
     document = Document.parse(text, file)
     root = _mapping(document.root)
-    entries = [f"{key}: {plain_or_quoted(value)}" for key, value in record.items()]
     known = "identified" in root.entries
     if is_flow(document, root):
         flow = f"{{{', '.join(entries)}}}"

@@ -9,6 +9,7 @@ from pathlib import Path
 from dashpot.model.branches import BranchReader
 from dashpot.model.clashes import find_clashes
 from dashpot.model.element import Element
+from dashpot.model.identified import read_identified
 from dashpot.model.joints import read_joints
 from dashpot.model.network import Group, NetworkSpec, Value
 from dashpot.model.shipped import find_network, find_used_network
@@ -69,13 +70,12 @@ def build_network(document: Document, elements: Elements, trail: tuple[Path, ...
     reader = BranchReader(elements, problems, _Uses(document.file, elements, trail, beside or {}).network, joints)
     members = reader.outermost(form)
     measurement = _read_measurement(form, problems)
-    # where the numbers of an identified model came from: written for people, read by nobody
-    form.node("identified")
+    identified = read_identified(form)
     form.close()
     if not problems and not members:
         form.complain("branches", "the network has no branch", "add a branch, e.g. 'stiffness: {element: spring, ...}'")
     root = Group("", "parallel", members)
-    spec = NetworkSpec(name, root, measurement, joints, reader.ends, gravity, about, source, document)
+    spec = NetworkSpec(name, root, measurement, joints, reader.ends, gravity, about, source, document, identified)
     problems.extend(find_clashes(spec))
     if problems:
         raise InputError(problems)

@@ -8,6 +8,7 @@ from typing import get_args
 from dashpot.model.branches import FOR_ALL, MAXIMUM_COPIES, NAME, WAYS
 from dashpot.model.curves import FACTOR, FEWEST_KNOTS, MOST_KNOTS, SOURCES
 from dashpot.model.element import Curve, Element, Parameter, Scale
+from dashpot.model.identified import QUANTITIES
 from dashpot.model.joints import HOLDS, WEIGHTS
 from dashpot.model.reading import FORMAT, MEASUREMENT
 from dashpot.model.values import Kind
@@ -36,7 +37,7 @@ def network_schema(elements: Mapping[str, type[Element]]) -> Schema:
                              propertyNames=NAMES, minProperties=1),
             "branches": {"type": "object", "minProperties": 1, "propertyNames": NAMES},
             "measurement": _measurement(),
-            "identified": {"description": "where the numbers come from: written by a fit, read by nobody"},
+            "identified": _identified(),
         },
         required=("format", "name", "branches"),
         dependencies={"gravity": ["nodes"]},
@@ -202,6 +203,13 @@ def _node() -> Schema:
 
 def _weight(key: str, kind: Kind) -> str:
     return s.in_unit(key.replace("_", " "), kind.unit)
+
+
+def _identified() -> Schema:
+    names = {"pattern": f"^({'|'.join(QUANTITIES)})(@.+)?$"}
+    seen = s.named(s.pair(s.quantity()), "the least and the largest of the motions that were seen, e.g. speed@wheel",
+                   propertyNames=names)  # fmt: skip
+    return {"properties": {"range": seen}, "description": "where the numbers come from: written by a fit"}
 
 
 def _measurement() -> Schema:

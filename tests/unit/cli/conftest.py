@@ -13,6 +13,7 @@ from dashpot.cli import main
 from dashpot.contract import registry as registry_module
 from dashpot.contract.origin import Origin, PluginFault
 from dashpot.contract.registry import Registry
+from dashpot.model.identified import Identified
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.document import Document
 
@@ -131,8 +132,12 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
         return done
 
     dataset = SimpleNamespace(problems=("a.csv: set aside",), runs=())
+
+    def read(name, elements):
+        return SimpleNamespace(name=name, identified=Identified())
+
     replaced = {
-        "dashpot.model.reading": {"read_network": lambda name, elements: SimpleNamespace(name=name)},
+        "dashpot.model.reading": {"read_network": read},
         "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
         "dashpot.kernel.compiler.trace": {"trace_network": lambda network: ()},
         "dashpot.triage.examine": {"examined": lambda dataset: dataset},

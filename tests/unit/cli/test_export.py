@@ -52,3 +52,18 @@ def test_a_backend_gives_the_same_files_and_is_forgotten(file, capsys):
         assert "DASHPOT_BACKEND" not in os.environ
     first, second = (sorted((file.parent / name).iterdir()) for name in ("llvm", "numba"))
     assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+
+
+SEEN = "identified:\n  range: {displacement: [-20 mm, 40 mm], speed: [0 m/s, 0.1 mm/s]}\n"
+
+
+@pytest.mark.parametrize("seen", ["", SEEN], ids=["unknown", "known"])
+def test_a_simulation_beyond_the_range_of_identification_is_warned_of(seen, file, capsys):
+    file.write_text(MOUNT + seen)
+    assert main(["simulate", "mount.yaml", "--rig", "triangle", "-o", "out", "--json"]) == 0
+    out, err = capsys.readouterr()
+    told = json.loads(out)["outside_of_identification"]
+    assert set(told) == ({"quasi_static"} if seen else set())
+    assert ("identified in 0 m/s to 0.1 mm/s" in err) is bool(seen)
+    assert main(["simulate", "mount.yaml", "--data", "out", "-o", "again"]) == 0
+    assert ("identified in 0 m/s to 0.1 mm/s" in capsys.readouterr().err) is bool(seen)

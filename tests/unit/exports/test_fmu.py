@@ -164,3 +164,21 @@ def test_a_force_driven_network_answers_its_displacement(word, tmp_path):
     free = np.exp(-decay * time) * (np.cos(rate * time) + decay / rate * np.sin(rate * time))
     assert unit.get([number["displacement@block"]])[0] == pytest.approx(2.5e-3 * (1.0 + free), rel=1e-2)
     unit.close()
+
+
+IDENTIFIED = """
+format: dashpot-network/1
+name: known
+branches:
+  rubber: {element: spring, stiffness: {value: 200 N/mm, interval: [190 N/mm, 215 N/mm]}}
+  damping: {element: damper, damping: 300 N*s/m}
+"""
+
+
+def test_the_interval_of_an_identified_number_stands_in_its_annotation(word, tmp_path):
+    path = export(declare(IDENTIFIED), word, tmp_path)
+    shutil.unpack_archive(path, tmp_path / "unit", "zip")
+    text = (tmp_path / "unit" / "modelDescription.xml").read_text()
+    stiffness, damping = text.partition('name="rubber.')[2].split('name="damping.')
+    assert ">190000.0 215000.0</" in stiffness and 'description="identified number"' in stiffness
+    assert ">190000.0 215000.0</" not in damping and 'description="fixed number"' in damping

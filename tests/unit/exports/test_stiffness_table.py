@@ -32,7 +32,9 @@ branches: {rubber: {element: spring, between: [left, right], stiffness: 220 N/mm
 
 
 def rows(text: str, **options) -> np.ndarray:
-    [content] = load_registry().exports["stiffness_table"](**options).files(declare(text)).values()
+    files = load_registry().exports["stiffness_table"](**options).files(declare(text))
+    assert files["mount_stiffness.txt"].startswith(b"mount: network ")
+    content = files["mount_stiffness.csv"]
     head, units, *lines = csv.reader(content.decode().splitlines())
     assert head[:3] == ["frequency", "amplitude", "preload"] and units[:3] == ["Hz", "m", "m"]
     return np.array(lines, dtype=float)

@@ -25,6 +25,7 @@ from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.seen_range import seen_range
 from dashpot.fit.study.allowance import Owed, OwedToKnown, allowance, effect, force_error
 from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
@@ -189,6 +190,7 @@ class _Conduct:
             idle=known.idle,
             spread=next((stage.spread for stage in stages if len(stage.spread) > 1), ()),
             history=_joined(stages),
+            seen=seen_range(plan.network, train),
         )
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)

@@ -18,6 +18,7 @@ from dashpot.kernel.ir.system import SystemProgram
 
 DT, BEGUN, STATUS, SPAN, INPUTS = range(5)
 MOTION = ("x", "v", "a")
+NOT_FINITE = 3  # as a status: a force that is no finite number
 POWERS = 4  # coefficients of a cubic
 
 

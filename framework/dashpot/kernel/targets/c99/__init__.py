@@ -3,4 +3,5 @@
 code   - statements of C
 header - what a program includes
 source - the functions behind it
+watch  - whether the motion leaves the range of identification
 """

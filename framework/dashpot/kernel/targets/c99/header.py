@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 
 from dashpot.kernel.ir.online import Online
+from dashpot.kernel.targets.c99.watch import state_size
+from dashpot.model.identified import Identified
 
 TEXT = """\
 /* {title}
@@ -48,6 +50,10 @@ void {name}_advance({name}_network *network, const double *inputs, double dt, do
 double {name}_acceleration(const {name}_network *network, int node, double x, double v, double dt);
 {step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no equilibrium, 3 a force not finite. */
 int {name}_status(const {name}_network *network);
+/* What of the motion has left the range in which the numbers were identified, since the begin, as a sum:
+   1 displacement, 2 speed, 4 amplitude, 8 preload, 16 frequency; the last three are known when the motion turns.
+   {range} */
+int {name}_outside(const {name}_network *network);
 /* All that a run remembers, to go back to it. */
 void {name}_get_state(const {name}_network *network, double *state);
 void {name}_set_state({name}_network *network, const double *state);
@@ -83,8 +89,9 @@ def output_names(online: Online) -> list[str]:
     return [*(_at("force", joint) for joint in online.driven), *(_at("displacement", joint) for joint in online.free)]
 
 
-def print_header(online: Online, name: str, title: str) -> str:
+def print_header(online: Online, name: str, title: str, identified: Identified) -> str:
     """The text of the header."""
+    told = f"Identified with {identified.told()}." if identified.range else "The range is not known: always 0."
     own = identifier(name)
     return TEXT.format(
         title=comment(title),
@@ -93,9 +100,10 @@ def print_header(online: Online, name: str, title: str) -> str:
         numbers=len(online.numbers),
         inputs=online.inputs,
         outputs=online.before - online.outputs,
-        size=online.size,
+        size=state_size(online, identified.range),
         input_names=comment(", ".join(input_names(online))),
         output_names=comment(", ".join(output_names(online))),
+        range=comment(told),
         step=STEP.format(name=own) if single(online) else "",
     )
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, SPAN, STATUS, Online
+from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, NOT_FINITE, SPAN, STATUS, Online
 from dashpot.kernel.ir.system import SMALLEST_SPAN
 from dashpot.kernel.targets.c99.code import CCode
 from dashpot.kernel.targets.c99.header import identifier, single
+from dashpot.kernel.targets.c99.watch import flag_place, state_size, watch_call, watch_text
 from dashpot.kernel.targets.scalar.whole import write_network
+from dashpot.model.identified import Range
 
-NOT_FINITE = 3
 TEXT = """\
 
 const {name}_number {name}_numbers[{count} + 1] = {{
@@ -60,11 +61,11 @@ int {name}_set({name}_network *network, const char *number, double value)
 void {name}_advance({name}_network *network, const double *inputs, double dt, double *outputs)
 {{
     double *s = network->state;
-    for (int k = 0; k < {inputs}; ++k) {{
+{begun}    for (int k = 0; k < {inputs}; ++k) {{
         s[{INPUTS} + k] = inputs[k];
     }}
     advance(s, dt, network->numbers);
-    for (int k = 0; k < {answers}; ++k) {{
+{watching}    for (int k = 0; k < {answers}; ++k) {{
         outputs[k] = s[{outputs} + k];
         if (!isfinite(outputs[k])) {{
             s[{STATUS}] = {NOT_FINITE}.0;
@@ -84,6 +85,11 @@ double {name}_acceleration(const {name}_network *network, int node, double x, do
 int {name}_status(const {name}_network *network)
 {{
     return (int)network->state[{STATUS}];
+}}
+
+int {name}_outside(const {name}_network *network)
+{{
+    return (int)network->state[{flag}];
 }}
 
 void {name}_get_state(const {name}_network *network, double *state)
@@ -110,16 +116,20 @@ double {name}_step({name}_network *network, double x, double v, double dt)
 """
 
 
-def print_source(online: Online, name: str, values: Sequence[float], units: Sequence[str]) -> str:
-    """The text of the source, with the ``values`` and ``units`` of its numbers."""
+def print_source(online: Online, name: str, values: Sequence[float], units: Sequence[str], seen: Range) -> str:
+    """The text of the source, with the ``values`` and ``units`` of its numbers and the range that was ``seen``."""
     code, own = CCode(), identifier(name)
     code.lines += [f'#include "{own}.h"', "", "#include <math.h>"]
     write_network(code, online)
     rows = [f'    {{"{path}", "{unit}", {code.number(float(value))}}},'
             for path, value, unit in zip(online.numbers, values, units, strict=True)]  # fmt: skip
-    places = {"name": own, "count": len(online.numbers), "size": online.size, "inputs": online.inputs,
+    places = {"name": own, "count": len(online.numbers), "size": state_size(online, seen), "inputs": online.inputs,
               "answers": online.before - online.outputs, "outputs": online.outputs, "before": online.before,
               "DT": DT, "SPAN": SPAN, "STATUS": STATUS, "BEGUN": BEGUN, "INPUTS": INPUTS,
               "NOT_FINITE": NOT_FINITE, "smallest": SMALLEST_SPAN}  # fmt: skip
     step = STEP.format(**places) if single(online) else ""
-    return code.text + TEXT.format(numbers="\n".join(rows), step=step, **places)
+    watching = watch_call(online, seen, "begun")
+    begun = f"    const int begun = s[{BEGUN}] != 0.0;\n" if watching else ""
+    rest = TEXT.format(numbers="\n".join(rows), step=step, begun=begun, watching=watching, flag=flag_place(online),
+                       **places)  # fmt: skip
+    return code.text + watch_text(online, seen) + rest

@@ -1,4 +1,4 @@
-"""Networks with two ends as Modelica.
+"""Networks as Modelica.
 
 code  - statements of Modelica functions
 model - the model around them, with the flanges of the standard library

@@ -120,6 +120,7 @@ def _words(text: str) -> str:
     """An expression in the words of Modelica."""
     for common, own in ((" & ", " and "), (" | ", " or "), (" != ", " <> "), ("fabs(", "abs(")):
         text = text.replace(common, own)
+    text = re.sub(r"(\w+) % (\w+)", r"mod(\1, \2)", text)
     return re.sub(r"(\w+)\[([^\]:]+)\]", _from_one, text)
 
 

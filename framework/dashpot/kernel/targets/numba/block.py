@@ -39,18 +39,29 @@ def print_network(program: Program) -> str:
         if layout:
             with code.function("number", f"{name}_", PASS, f"Pass '{name}'."):
                 code.answer(_write_pass(code, layout, program))
-    with code.function("nothing", "run", RUN, "All lanes."), code.loop("l", 0, "asked"), _own_memory(code):
+    with _run(code, RUN):
         _write_lane(code, program, passes)
     return code.text
 
 
 @contextmanager
+def _run(code: PythonCode, arguments: Arguments) -> Iterator[None]:
+    with code.function("nothing", "run", arguments, "All lanes."):
+        code.borrow(*(name for kind, name in arguments if kind == "array"))
+        with code.loop("l", 0, "asked"), _own_memory(code):
+            yield
+
+
+@contextmanager
 def _own_memory(code: PythonCode) -> Iterator[None]:
     # the numbers of a lane side by side
-    code.let("w", "space[l::n].copy()", "array")
-    code.let("tables", "all_tables[l::n].copy()", "array")
+    code.let("own", "space[l::n].copy()", "array")
+    code.let("own_tables", "all_tables[l::n].copy()", "array")
+    code.let("w", "borrowed(own)", "array")
+    code.let("tables", "borrowed(own_tables)", "array")
     yield
-    code.set("space[l::n]", "w")
+    code.set("space[l::n]", "own")
+    code.set("all_tables[l::n]", "own_tables")
 
 
 def _operations(roots: list[Node]) -> set[str]:
@@ -75,6 +86,8 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
     skipped = {node.serial for node in given}
     roots = [*([layout.force] if layout.force is not None else []), *layout.updates.values()]
     writer = Writer(code, roots, lambda node: "0.0" if node.serial in skipped else leaf(node), look_up)
+    if layout.force is not None:
+        writer.compute_together()
     force = code.new(writer.number(layout.force)) if layout.force is not None else "0.0"
     writer.store({f"w[{layout.states[name]}]": node for name, node in layout.updates.items()})
     return force
@@ -123,7 +136,7 @@ def print_system(system: SystemProgram) -> str:
             _write_system_pass(code, layout)
     _write_newton(code, system, "settle", MOST_STATIC_STEPS, UNBALANCED)
     _write_newton(code, system, "improve", MOST_STEPS, UNSOLVED)
-    with code.function("nothing", "run", SYSTEM, "All lanes."), code.loop("l", 0, "asked"), _own_memory(code):
+    with _run(code, SYSTEM):
         _write_system_lane(code, system)
     return code.text
 
@@ -164,7 +177,7 @@ def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int,
 def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
     across = len(system.program.columns)
     for o in (0, system.rows):
-        place = f"w, tables, knots, 0, {o}"
+        place = f"w, tables, knots, 0, {code.index(o)}"
         code.do(f"start_(still, {place})")
         code.do(f"settle(still, {place}, status, l)")
         code.do(f"rest_(still, {place})")
@@ -172,7 +185,7 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
         with code.when("k > 0"):
             for o, columns, count in ((0, "coarse", "per"), (system.rows, "fine", "2 * per")):
                 with code.loop("j", f"(k - 1) * {count}", f"k * {count}"):
-                    place = f"{columns}, w, tables, knots, j * {across}, {o}"
+                    place = f"{columns}, w, tables, knots, j * {across}, {code.index(o)}"
                     code.do(f"predict_({place})")
                     code.do(f"improve({place}, status, l)")
                     code.do(f"commit_({place})")

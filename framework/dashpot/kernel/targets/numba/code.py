@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from dashpot.kernel.targets.omega import OMEGA_HIGH
 from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
 
 HEAD = """\
@@ -13,9 +14,23 @@ from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
 import numpy as np
 from numba import njit
 
+from dashpot.kernel.targets.numba.borrowed import borrowed
+from dashpot.kernel.targets.numba.packed import packed_0, packed_1, packed_2, packed_3, packed_4
+
 """
 SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
 INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
+WIDTH = 4  # of a pack
+HIGHEST = 700.0  # exponent that a pack takes
+OMEGA = "wrightomega"
+PACK = """
+
+@njit({settings})
+def pack_{omegas}(a, b, c, d):
+    if {beyond}:
+        return {answers}
+    return packed_{omegas}(a, b, c, d)
+"""
 AT_EVERY_SAMPLE = frozenset({"advance", "step_"})  # written into the loop that calls them
 
 
@@ -28,7 +43,17 @@ class PythonCode(Code):
         """Functions whose names are ``called`` can be called from Python, too."""
         super().__init__()
         self.called = called
+        self.packs: set[int] = set()
         self.lines += HEAD.splitlines()
+
+    @property
+    def text(self) -> str:
+        """All that is written, and the packs that it uses."""
+        return super().text + "".join(PACK.format(
+            omegas=omegas, settings=f"{SETTINGS}, {INNER}",
+            beyond=" | ".join(f"({x} > {OMEGA_HIGH if k < omegas else HIGHEST})" for k, x in enumerate("abcd")),
+            answers=", ".join(f"omega({x})" if k < omegas else f"exp({x})" for k, x in enumerate("abcd")),
+        ) for omegas in sorted(self.packs))  # fmt: skip
 
     def let(self, name: str, value: str, kind: Kind = "number") -> None:
         """An assignment."""
@@ -76,6 +101,31 @@ class PythonCode(Code):
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """An array, which is a constant of the compiled functions."""
         self.write(f"{name} = np.array([{', '.join(map(self.number, values))}])")
+
+    def index(self, value: int) -> str:
+        """A count that is no literal: numba would compile a function anew for every literal."""
+        return f"np.int64({value})"
+
+    def together(self, calls: Sequence[tuple[str, str]]) -> list[str]:
+        """The names of functions of arguments that do not need each other, four of them in a vector."""
+        ordered = sorted(range(len(calls)), key=lambda k: calls[k][0] != OMEGA)
+        names = [""] * len(calls)
+        for first in range(0, len(calls), WIDTH):
+            chosen = ordered[first : first + WIDTH]
+            omegas = sum(calls[k][0] == OMEGA for k in chosen)
+            self.packs.add(omegas)
+            arguments = [*(calls[k][1] for k in chosen), *["0.0"] * (WIDTH - len(chosen))]
+            self.count += 1
+            found = [f"p{self.count}_{place}" for place in range(WIDTH)]
+            self.write(f"{', '.join(found)} = pack_{omegas}({', '.join(arguments)})")
+            for k, name in zip(chosen, found, strict=False):
+                names[k] = name
+        return names
+
+    def borrow(self, *arrays: str) -> None:
+        """Arrays that the caller keeps."""
+        for array in arrays:
+            self.set(array, f"borrowed({array})")
 
     def number(self, value: float | bool) -> str:
         """A literal."""

@@ -99,6 +99,14 @@ class Code(ABC):
     def number(self, value: float | bool) -> str:
         """A number or a truth."""
 
+    def index(self, value: int) -> str:
+        """A count that a function is called with."""
+        return str(value)
+
+    def together(self, calls: Sequence[tuple[str, str]]) -> list[str]:
+        """The names of functions, by operation, of arguments, computed side by side; none where a language cannot."""
+        return []
+
     @contextmanager
     def indented(self, head: str, end: str = "") -> Iterator[None]:
         """Deeper lines under a head."""

@@ -48,7 +48,7 @@ def write_coupled(code: Code, online: Online) -> None:
             _begin(code, online)
         with code.otherwise():
             for start, parts in zip(online.courses, PARTS, strict=True):
-                code.do(f"course(s, {start}, {parts}, dt)")
+                code.do(f"course(s, {code.index(start)}, {code.index(parts)}, dt)")
             code.set(f"s[{BEGUN}]", "2.0")
         _answer(code, online)
 
@@ -161,7 +161,7 @@ def _begin(code: Code, online: Online) -> None:
     code.do("move(s, 1.0, 1.0, dt)")
     for start in online.courses:
         for name in ("start_", "settle", "rest_"):
-            code.do(f"{name}(s, {start})")
+            code.do(f"{name}(s, {code.index(start)})")
     code.set(f"s[{BEGUN}]", "1.0")
 
 

@@ -100,11 +100,13 @@ def write_tabulate(code: Code) -> None:
     arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "first"), ("count", "count"),
                             ("number", "outside")]  # fmt: skip
     with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[0]."):
-        for row, node in (("first", "0"), ("first + count", "count - 1")):
-            code.let(f"c{len(node)}", f"t + 4 * ({row})", "count")
-            place = f"c{len(node)}"
-            code.set(f"s[{place}]", f"p[{node}]")
-            code.set(f"s[{place} + 1]", f"outside * slope(p, first, count, {node})")
+        code.let("node", code.index(0), "count")
+        for place, row in (("before", "first"), ("behind", "first + count")):
+            if place == "behind":
+                code.set("node", "count - 1")
+            code.let(place, f"t + 4 * ({row})", "count")
+            code.set(f"s[{place}]", "p[node]")
+            code.set(f"s[{place} + 1]", "outside * slope(p, first, count, node)")
             code.set(f"s[{place} + 2]", "0.0")
             code.set(f"s[{place} + 3]", "0.0")
         with code.loop("k", 0, "count - 1"):

@@ -57,23 +57,26 @@ def write_common(code: Code, online: Online) -> None:
         for course, start in enumerate(online.courses):
             step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
             if online.program.constants:
-                code.do(f"constants(s, {start}, {step}, p)")
+                code.do(f"constants(s, {code.index(start)}, {step}, p)")
         for path, shelf in online.shelves.items():
             first = online.numbers.index(f"{path}[0]")
-            place = f"s, {online.tables}, {code.part('p', first)}, {shelf.base}, {shelf.count}"
+            place = f"s, {online.tables}, {code.part('p', first)}, {code.index(shelf.base)}, {code.index(shelf.count)}"
             code.do(f"tabulate({place}, {code.number(0.0 if shelf.level else 1.0)})")
         code.set(f"s[{DT}]", "dt")
 
 
-def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf) -> None:
-    """New values at some places of the memory."""
+def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf, together: bool = False) -> None:
+    """New values at some places of the memory; long functions ``together`` where that pays, at every sample."""
 
     def look_up(node: Node, argument: str) -> str:
         curve, order = node.payload
         shelf = online.shelves[curve]
         return f"table{order}(s, {online.tables}, {shelf.base}, {shelf.count}, {argument})"
 
-    Writer(code, moved.values(), leaf, look_up).store(moved)
+    writer = Writer(code, moved.values(), leaf, look_up)
+    if together:
+        writer.compute_together()
+    writer.store(moved)
 
 
 def _roots(online: Online) -> list[Node]:
@@ -222,7 +225,7 @@ def _read_motion(code: Code, online: Online, turning: bool) -> None:
 
 def _step(code: Code, online: Online, layout: Layout) -> None:
     moved = {f"s[{online.outputs}]": online.program.force, **_moved(online, layout)}
-    storing(code, online, moved, _leaf(code, online, layout, SAMPLE))
+    storing(code, online, moved, _leaf(code, online, layout, SAMPLE), together=True)
     _follow(code, online, SAMPLE, layout)
     for number, name in enumerate(("x", "v", "a")):
         code.set(f"s[{online.before + number}]", name)

@@ -1,0 +1,39 @@
+"""The motions with which a network was identified, as its file records them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from dashpot.data.excitation import Excitation, channel_at
+from dashpot.data.motion_range import motion_range
+from dashpot.fit.scored import ScoredRun
+from dashpot.model.network import NetworkSpec
+from dashpot.model.topology import topology_of
+
+
+def seen_range(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> dict[str, tuple[float, float]]:
+    """The least and the largest of every quantity of the motion of each driven node; see ``data.motion_range``."""
+    topology = topology_of(spec)
+    records = {run.record or run.name: run.excitation for run in runs}
+    seen = [each.at(topology.held("driven"), topology.held("loaded")) for each in records.values()]
+    found: dict[str, tuple[float, float]] = {}
+    for node in topology.held("driven"):
+        ranges = motion_range([each.motions[node] for each in seen])
+        found |= {channel_at(quantity, node): ends for quantity, ends in ranges.items()}
+    return found
+
+
+def covered(spec: NetworkSpec, excitation: Excitation) -> dict[str, tuple[float, float]]:
+    """The same of a single run, with the strokes that count for the range that the network records."""
+    topology, recorded = topology_of(spec), spec.identified.range
+    motions = excitation.at(topology.held("driven"), topology.held("loaded")).motions
+    return {
+        channel_at(quantity, node): ends
+        for node in topology.held("driven")
+        for quantity, ends in motion_range([motions[node]], _smallest(recorded, node)).items()
+    }
+
+
+def _smallest(recorded: Mapping[str, tuple[float, float]], node: str) -> float | None:
+    ends = recorded.get(channel_at("amplitude", node))
+    return ends[0] if ends else None

@@ -1,0 +1,56 @@
+"""What a bushing property file holds of a network, and what it says of the rest."""
+
+from __future__ import annotations
+
+import csv
+import re
+
+import numpy as np
+import pytest
+
+from dashpot import declare, load_registry
+
+HEAD = "format: dashpot-network/1\nname: mount\nbranches:\n"
+PLAIN = HEAD + """\
+  rubber: {element: spring, stiffness: 220 N/mm}
+  damping: {element: damper, damping: 500 N*s/m}
+"""
+DRY = PLAIN + "  friction: {element: dahl, stiffness: 2000 N/mm, limit: 50 N}\n"
+
+
+def converted(text: str, **options) -> tuple[str, np.ndarray]:
+    files = load_registry().exports["gbs"](**options).files(declare(text))
+    head, units, *rows = csv.reader(files["mount_conversion.csv"].decode().splitlines())
+    assert (head[-2:], units[-2:]) == (["error", "share"], ["N", "1"])
+    return files["mount.gbs"].decode(), np.array(rows, dtype=float)
+
+
+def curve(text: str) -> np.ndarray:
+    return np.array([line.split() for line in text.partition("{ disp force }\n")[2].partition("[")[0].splitlines()],
+                    dtype=float)  # fmt: skip
+
+
+def test_a_spring_and_a_damper_are_converted_without_error():
+    text, rows = converted(PLAIN)
+    place, force = curve(text).T
+    assert force == pytest.approx(220.0 * place, rel=1e-6, abs=1e-2)
+    assert float(re.search(r"^C = (.*)$", text, re.MULTILINE)[1]) == pytest.approx(0.5, rel=1e-6)
+    assert np.all(rows[:, 4] < 1e-6) and "the largest error" in text.lower()
+
+
+def test_what_is_left_out_is_told_as_an_error():
+    _, rows = converted(DRY)
+    # dry friction is about its limit, of which the best viscous damping takes a part away
+    assert np.all((rows[:, 3] > 5.0) & (rows[:, 3] < 100.0))
+    text, _ = converted(DRY)
+    place, force = curve(text).T
+    assert force == pytest.approx(220.0 * place, rel=1e-3, abs=6.0)
+
+
+def test_the_direction_is_the_only_active_one():
+    text, _ = converted(PLAIN, direction="FX", preloads=(5e-3,))
+    assert "'SPLINE_STIFFNESS' 1 0 0 0 0 0" in text and "'RUBBER_DAMPING' 0 0 0 0 0 0" in text
+    assert "[SPLINE_STIFFNESS_FX]" in text and "[CONSTANT_DAMPING_FX]" in text
+    assert curve(text)[-1, 0] == pytest.approx(7.0)
+    with pytest.raises(ValueError, match="expected one of FX, FY, FZ, got 'TX'"):
+        converted(PLAIN, direction="TX")
