@@ -165,7 +165,7 @@ def _beside(values: Array, shapes: Array) -> Array:
 
 def _strengths(values: Array, shapes: Array) -> Array:
     """The strengths (k,) of shapes (k, n) that explain most of values (n,)."""
-    return np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0]
+    return np.asarray(np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0], dtype=np.float64)
 
 
 def accuse(
@@ -277,8 +277,8 @@ class _Solver:
 
     def __init__(self, rows: _Rows) -> None:
         self.rows = rows
-        self.gram = sum(tangents @ tangents.T for tangents in rows.tangents.values())
-        self.right = sum(rows.tangents[run] @ rows.residual[run] for run in rows.residual)
+        self.gram: Array = np.sum([tangents @ tangents.T for tangents in rows.tangents.values()], axis=0)
+        self.right: Array = np.sum([rows.tangents[run] @ rows.residual[run] for run in rows.residual], axis=0)
         self.square = float(sum(residual @ residual for residual in rows.residual.values()))
         self.samples = sum(residual.size for residual in rows.residual.values())
 

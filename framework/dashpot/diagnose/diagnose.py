@@ -208,7 +208,7 @@ def remarks_on(pursuit: Pursuit) -> list[str]:
     groups = pursuit.look.folds.groups
     if groups < FEWEST:
         found.append(f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
-                     "the names are of laws that are there; whether they hold under other conditions is not known.")  # fmt: skip
+                     "whether the causes hold under other conditions is not known.")  # fmt: skip
     refused = dict.fromkeys(f"'{term.cause.word}' could not be written into the network: {reason}"
                             for term, reason in pursuit.refused)  # fmt: skip
     return [*found, *refused]

@@ -71,7 +71,7 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
         path = look.model.coordinates.paths[look.own[column - 1]]
         if path not in look.model.owned[number]:
             continue
-        along = _beside(gram, column, alive[alive != column])
+        along = _beside(gram, int(column), alive[alive != column])
         weights = np.einsum("i,gij,j->g", along, grams, along)
         if weights @ in_phase < 0.5 * weights.sum():
             return False

@@ -61,16 +61,14 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
 def _correlation(
     refitter: Refitter, look: Look, residual: Mapping[str, Array], tangents: Mapping[str, Array]
 ) -> Leftover:
-    gram: Array | float = 0.0
-    right: Array | float = 0.0
-    names: list[str] = []
+    width = len(next(iter(tangents.values()))) + len(general_functions(look.view, look.view.runs[0]))
+    gram, right, names = np.zeros((width, width)), np.zeros(width), list[str]()
     for run in refitter.runs:
         functions = general_functions(look.view, run.name)
         names = list(functions)
         rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
         rows = np.concatenate([tangents[run.name], rows])
         gram, right = gram + rows @ rows.T, right + rows @ residual[run.name]
-    gram, right = np.asarray(gram), np.asarray(right)
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     gram, right, first = gram / np.outer(scale, scale), right / scale, len(gram) - len(names)
     inverse = np.linalg.pinv(gram[:first, :first], rcond=1e-11, hermitian=True)

@@ -242,8 +242,7 @@ class Pursuer:
         while True:
             found, seen = [], self.scores_of(look, present.model)
             for number, term in enumerate(present.model.terms):
-                rest = [other for other in present.model.terms if other is not term]
-                rest = self.refitter.writable(present.model, rest)
+                rest = self.refitter.writable(present.model, [one for one in present.model.terms if one is not term])
                 scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
                 share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
                 certain = is_determined(seen, number) and has_evidence(self.refitter, seen, number)

@@ -118,7 +118,8 @@ def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, .
     chosen: list[int] = []
     best: tuple[float, tuple[int, ...]] | None = None
     while len(chosen) < min(suspect.most, alive.size):
-        tried = [(_gain(left, own[[*chosen, j]], bool(suspect.sign)), int(j)) for j in alive if j not in chosen]
+        rest = [int(j) for j in alive if j not in chosen]
+        tried = [(_gain(left, own[[*chosen, j]], bool(suspect.sign)), j) for j in rest]
         gain, j = max(tried)
         nats = gain * left.nats - (len(chosen) + 1) * (1 + suspect.unknowns)
         if nats <= (best[0] if best else 0.0):

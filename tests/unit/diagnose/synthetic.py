@@ -32,10 +32,10 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     size, bank = grams.shape[1], grams.shape[1] - 1
     model = SimpleNamespace(terms=(), coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
-    nothing = np.zeros(0, dtype=int)
+    nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
     prior = np.zeros((size, size))
     return Look(model, None, None, tuple(candidates), Layout(0, 0, bank), grams, grams[:, :1, :1], prior, 0.0,
-                samples, Folds(tuple(rows), len(rows), {}), np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
+                samples, folds, np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
 
 
 def random_rows(bank: int, strengths: Mapping[int, float], seed: int = 0) -> dict[str, np.ndarray]:
