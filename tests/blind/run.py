@@ -75,7 +75,7 @@ class Bench:
             before = before or found.as_dict()
             found = diagnose_folder(draw(further=more).folder, network, self.jobs, robbed)
         verdict = found.as_dict()
-        named = [cause["cause"] for cause in verdict["causes"]]
+        named = [cause["cause"] for cause in verdict["causes"] if cause["accepted"]]
         truth = case.label.open(json.dumps({"verdict": verdict["verdict"], "named": named}))
         return Outcome(seed, base, truth, verdict, seconds, self.without, before, self.oracle(seed, base))
 

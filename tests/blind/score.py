@@ -56,7 +56,7 @@ class Outcome:
     @property
     def named(self) -> list[str]:
         """What was named, best first."""
-        return [cause["cause"] for cause in self.verdict["causes"]]
+        return [cause["cause"] for cause in self.verdict["causes"] if cause["accepted"]]
 
     @property
     def first(self) -> str:
@@ -91,7 +91,7 @@ class Outcome:
     @property
     def in_first_three(self) -> bool:
         """Whether a hidden effect is among the first three names and the rivals of the first."""
-        rivals = self.verdict["causes"][0]["indistinguishable_from"] if self.verdict["causes"] else []
+        rivals = self.verdict["causes"][0]["indistinguishable_from"] if self.named else []
         return bool(set(self.kinds) & {*self.named[:3], *rivals})
 
     @property

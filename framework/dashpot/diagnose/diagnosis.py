@@ -14,7 +14,7 @@ from dashpot.compare.provenance import history_of, provenance_of, warnings_of
 from dashpot.compare.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import told
-from dashpot.diagnose.findings import NEAR_FLOOR, Findings
+from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
 from dashpot.diagnose.named import NamedCause, slots_of
@@ -107,7 +107,7 @@ class Diagnosis(Findings):
 
     @property
     def _far_above_explainable(self) -> bool:
-        known, after = self.explainable.cross_validated, self.after.train
+        known, after = self.explainable.cross_validated, max(self.after.train, self.left_out or 0.0)
         return known is not None and after > FAR_ABOVE * max(known, self.setting.floor.value or 0.0)
 
     # the result
@@ -122,6 +122,7 @@ class Diagnosis(Findings):
             "verdict": self.verdict,
             "noise_floor": floor_of(self.setting.floor),
             "explainable": self.explainable.as_dict(),
+            "left_out": self.left_out,
             "rmse": {"before": _pair(self.before), "after": _pair(self.after)},
             "misfit": [{"what": m.what, "share": m.share, "where": dict(m.where)} for m in self.misfit],
             "causes": self._all_causes(),
@@ -204,8 +205,7 @@ class Diagnosis(Findings):
 
     def limits(self) -> list[dict[str, Any]]:
         """The smallest effects that would have been found; nothing where the model errs by more than the noise."""
-        floor = self.setting.floor.value
-        if not floor or self.after.train > NEAR_FLOOR * floor:
+        if not self._near_floor:
             return []
         return [_limit(candidate.cause.word, candidate.cause.about, candidate.site.words if candidate.site else None,
                        limit) for candidate, limit in find_limits(self.pursuit.look, self.relevance)]  # fmt: skip

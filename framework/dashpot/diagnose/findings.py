@@ -22,6 +22,7 @@ from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.next_run import NextRun
+from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursue import Pursuit
 from dashpot.fit.api import Setting, measure_errors
 from dashpot.fit.objective import Objective
@@ -176,10 +177,22 @@ class Findings:
         return measure_errors(self.written, self.after_setting, self.jobs)
 
     @cached_property
+    def left_out(self) -> float | None:
+        """The error in N of the final network on training runs left out in turn; None where it is near the noise."""
+        if self._near_floor:
+            return None
+        groups = {run.name: run.cluster for run in self.setting.dataset.runs}
+        return left_out_error(self.written, self.pursuit.best.model, list(self.corrected.values()), groups, self.jobs)
+
+    @property
+    def _near_floor(self) -> bool:
+        floor = self.setting.floor.value
+        return bool(floor) and self.after.train <= NEAR_FLOOR * (floor or 0.0)
+
+    @cached_property
     def explainable(self) -> Explainable:
         """What a general model of the past motion leaves; trees are grown only where the model is far from noise."""
-        floor = self.setting.floor.value
-        return explainable_error(self.setting, self.seed, not floor or self.after.train > NEAR_FLOOR * floor)
+        return explainable_error(self.setting, self.seed, not self._near_floor)
 
     @property
     def remarks(self) -> list[str]:

@@ -20,6 +20,7 @@ from dashpot.model.network import NetworkSpec
 Array = NDArray[np.float64]
 
 STEPS = 60
+LEFT_OUT_STEPS = 10
 LEVEL = 0.975
 
 
@@ -28,6 +29,22 @@ def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = ST
     objective = Objective(compile_network(model.fitted), runs, jobs)
     found = refine(objective, model.coordinates, model.coordinates.start, steps)
     return with_point(model.fitted, model.coordinates, found.point)
+
+
+def left_out_error(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int
+                   ) -> float | None:  # fmt: skip
+    """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group."""
+    compiled, coordinates = compile_network(network), model.coordinates
+    start = coordinates.of_values(compiled.start)
+    names = list(dict.fromkeys(groups[run.name] for run in runs))
+    squares = []
+    for name in names if len(names) > 1 else ():
+        left_out = [run for run in runs if groups[run.name] == name]
+        others = [run for run in runs if groups[run.name] != name]
+        found = refine(Objective(compiled, others, jobs), coordinates, start, LEFT_OUT_STEPS)
+        error = Objective(compiled, left_out, jobs).losses(coordinates.to_values(found.point))[0]
+        squares += [float(error) ** 2] * len(left_out)
+    return float(np.sqrt(np.mean(squares))) if squares else None
 
 
 def known(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int,

@@ -1,0 +1,59 @@
+"""How sure a cause is: by draws over folds, and beside what stays unexplained."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from dashpot.diagnose.pursue import Pursuit, Scored, Without
+
+FOLDS, SAMPLES = 8, 100.0
+WEIGHTS = np.random.default_rng(0).exponential(size=(2000, FOLDS))
+
+
+def scored(nats, *names, price=0.0):
+    """A structure with the same nats in each fold, or those given."""
+    each = np.broadcast_to(np.asarray(nats, dtype=float), FOLDS).copy()
+    terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
+    model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms)
+    return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
+
+
+def pursuit(best, without, *others):
+    missing = tuple(Without(SimpleNamespace(name=("a", "")), one, 1.0) for one in without)
+    return Pursuit(best, None, None, missing, (), others, WEIGHTS, 1, True)
+
+
+def test_a_cause_that_every_fold_needs_is_certain():
+    assert pursuit(scored(0.0, "a"), [scored(20.0)]).probability(("a", "")) == 1.0
+
+
+def test_a_rival_that_predicts_alike_takes_half_of_the_draws():
+    """Nats of both signs by turns: each wins where its folds weigh more."""
+    rival = scored(np.array([1.0, -1.0] * (FOLDS // 2)), "b")
+    found = pursuit(scored(0.0, "a"), [scored(20.0)], rival)
+    assert found.probability(("a", "")) == pytest.approx(0.5, abs=0.05)
+    assert found.replacements(("a", "")) == (("b", ""),)
+
+
+def test_a_structure_without_evidence_is_a_rival_too():
+    fault = Scored(**{**vars(scored(-2.0, "delay")), "evident": False})
+    found = pursuit(scored(0.0, "a"), [scored(20.0)], fault)
+    assert found.probability(("a", "")) == 0.0 and found.replacements(("a", "")) == (("delay", ""),)
+
+
+@pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])
+def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
+    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; e over e + u."""
+    nats = 50.0
+    explained = np.exp(2.0 * nats * FOLDS / (SAMPLES * FOLDS)) - 1.0
+    found = pursuit(scored(0.0, "a"), [scored(nats)]).probability(("a", ""), unexplained)
+    assert found == pytest.approx(explained / (explained + unexplained))
+
+
+def test_what_comes_again_in_every_run_is_no_independent_evidence():
+    """At two nats a fold the price decides where most of the residual is structure."""
+    plain, priced = scored(2.0), scored(0.0, "a", price=6.0)
+    found = pursuit(priced, [plain])
+    assert found.winners()[(("a", ""),)] > 1900
+    assert found.winners(0.9)[(("a", ""),)] < 100
