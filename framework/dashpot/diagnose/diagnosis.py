@@ -48,7 +48,7 @@ class Diagnosis(Findings):
         mine = [number for number, term in enumerate(model.terms) if term.name == name]
         without = [one for one in pursuit.without if one.term.name == name]
         cost = sum((one.scored.exact - pursuit.best.exact for one in without), np.zeros(pursuit.best.exact.size))
-        cause, probability = model.terms[mine[0]].cause, pursuit.probability(name, self.leftover.share)
+        cause, probability = model.terms[mine[0]].cause, self.probability(name)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         removals = [one.network for one in self.removals if one.name == name]
         gain, removal = self._worth(removals)

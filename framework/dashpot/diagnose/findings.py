@@ -21,6 +21,7 @@ from dashpot.contract.cause import Cause
 from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.leftover import Leftover
+from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursue import Pursuit
@@ -95,6 +96,10 @@ class Findings:
         words = words or ["corrected"] * bool(self.accused)
         return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
 
+    def probability(self, name: tuple[str, str]) -> float:
+        """How sure a cause is, beside the structure that stays unexplained."""
+        return self.pursuit.probability(name, self.leftover.share)
+
     @property
     def fitted_name(self) -> str:
         """File name of the diagnosed network with its fitted numbers."""
@@ -116,9 +121,10 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        terms = dict.fromkeys(term.title for term in self.pursuit.best.model.terms)
-        what = "extended by a diagnosis" if terms else "fitted to corrected runs"
-        head = [f"{self.model.name}, {what}.", *(f"cause: {title}" for title in terms)]
+        sure = {term.title: self.probability(term.name) > MORE_LIKELY for term in self.pursuit.best.model.terms}
+        what = "extended by a diagnosis" if sure else "fitted to corrected runs"
+        told = [f"{'cause' if likely else 'resembles, less likely than not'}: {title}" for title, likely in sure.items()]
+        head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
 
