@@ -72,6 +72,15 @@ def test_a_zero_that_drifts_over_the_session_is_one_number_of_the_load_cell():
     assert numbers["piston.force.slope"] == pytest.approx(100.0 / 1e5, rel=0.01)
 
 
+def test_outside_of_a_dataset_a_number_over_the_order_is_the_one_that_is_told():
+    """A rig drives a specimen of no order: what is to be seen there is the fixed number."""
+    of_order = TRUTH.replace("setting: pressure, at: 0 bar, slope: 100 N/bar", "setting: order, at: 2, slope: 9")
+    ordered = compile_network(parse_network(of_order, REGISTRY.elements))
+    driven = replace(Excitation.of_run(run("a", 2.0, 1e-3, 3.0)), settings={"pressure": 2e5})
+    told = compile_network(parse_network(TRUTH.partition("  piston")[0], REGISTRY.elements))
+    assert ordered.simulate(ordered.prepare(driven)) == pytest.approx(told.simulate(told.prepare(driven)))
+
+
 def test_a_run_that_gives_its_own_zero_has_it_in_the_jacobian():
     """The residual of a Jacobian is that of the runs as they are simulated, each with its zero."""
     spring = "  rubber: {element: spring, stiffness: {start: 150 N/mm}}\n"
