@@ -1,8 +1,8 @@
 """What changes over a session of runs one after the other: the zero of the load cell, and a specimen that warms up.
 
-The zero follows an exponential of the clock, within and between runs; the warmth of the specimen its dissipated power and
-its cooling, sample by sample and in the rests. Neither is a straight line over the order of the runs, which is what the
-causes are made of.
+The zero follows an exponential of the clock, within and between runs; the warmth of the specimen its dissipated power
+and its cooling, sample by sample and in the rests. Neither is a straight line over the order of the runs, which is what
+the causes are made of.
 """
 
 from __future__ import annotations
