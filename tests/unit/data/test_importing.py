@@ -482,7 +482,8 @@ def test_runs_at_other_measured_temperatures_are_no_repeats(tmp_path, second, re
 
 def test_a_stated_unit_that_is_no_force_asks_for_its_gain(tmp_path):
     motion = 10 + chirp(1, 9)
-    table = Table({"t": TIME, "Weg": motion, "Kraft": kelvin_voigt(motion) / 500.0}, {"t": "s", "Weg": "mm", "Kraft": "V"})
+    columns = {"t": TIME, "Weg": motion, "Kraft": kelvin_voigt(motion) / 500.0}
+    table = Table(columns, {"t": "s", "Weg": "mm", "Kraft": "V"})
     found = imported(tmp_path, {"a.tab": table})
     (remark,) = [remark for remark in found.confirm if "is in V" in remark]
     assert "'Kraft'" in remark and "'gain'" in remark

@@ -200,8 +200,8 @@ def _doubts(channel: ChannelFound) -> list[str]:
         doubts.append(f"the motion explains {shown} about as well as the {role.channel} '{role.column}': which is it?")
     if unit.by == GUESSED_UNIT and channel.stated:
         doubts.append(
-            f"the {role.channel} '{role.column}' is in {channel.stated} after its file: write 'gain', by which it becomes"
-            f" {unit.unit}, and 'accept: [units]'"
+            f"the {role.channel} '{role.column}' is in {channel.stated} after its file: write 'gain', by which it "
+            f"becomes {unit.unit}, and 'accept: [units]'"
         )
     elif unit.by == GUESSED_UNIT:
         doubts.append(f"the {role.channel} is taken to be in {unit.unit}: no unit is stated")
