@@ -438,7 +438,7 @@ def test_a_run_with_the_force_turned_gets_its_own_sign_where_it_stands(tmp_path)
     ("valve_2,5V", {"voltage": "2.5 V"}),
     ("damper_click5", {"clicks": "5"}),
     ("12 Klicks 50mm", {"clicks": "12"}),
-    ("Ventil_2_1", {"valve": "2"}),
+    ("Ventil_2_1", {"valve_position": "2"}),
     ("valves3", {}),
     ("12clickstop", {}),
     ("a1_p2_up", {}),

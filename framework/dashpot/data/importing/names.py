@@ -19,8 +19,11 @@ _CONDITION = re.compile(
     rf"(?P<unit>{'|'.join(sorted(map(re.escape, _UNITS), key=len, reverse=True))})(?![A-Za-z])"
 )
 # word before or behind a number -> setting
-_WORDS = {"click": "clicks", "clicks": "clicks", "klick": "clicks", "klicks": "clicks", "raste": "clicks",
-          "valve": "valve", "ventil": "valve", "stage": "stage", "stufe": "stage"}  # fmt: skip
+_WORDS = {
+    **dict.fromkeys("click clicks klick klicks raste".split(), "clicks"),
+    **dict.fromkeys("valve ventil".split(), "valve_position"),
+    **dict.fromkeys("stage stufe".split(), "stage"),
+}
 _WORD = "|".join(sorted(_WORDS, key=len, reverse=True))
 _NUMBERED = re.compile(
     rf"(?<![A-Za-z])(?:(?P<word>{_WORD})[ _-]?(?P<number>\d+(?:[.,xp]\d+)?)"
