@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.session import ORDER, order_of
+from dashpot_causes.setting_dependence import Setting, changed, has_curved_spring, numbers_of, stiffness_over
 
 UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1"}
 WARMTHS = (0.3, 1.0, 3.0)  # of the fastest run in the end, in powers of two of the damping
@@ -17,12 +20,17 @@ SPRINGS = (0.0, 1.0)  # stiffness over damping and angular frequency at the end 
 
 
 class Heating(Cause):
-    """A part of damping and stiffness that the heat of dissipated power takes away, and cooling gives back."""
+    """A part of damping and stiffness that the heat of dissipated power takes away, and cooling gives back; within a
+    run, or from run to run as they were measured one after the other.
+    """
 
     word = "heating"
     kind = "specimen"
     about = "softening by dissipated heat"
-    shows = "loss falls over the run, faster where more power is dissipated, then stays; at rest it recovers"
+    shows = (
+        "loss falls over the run, faster where more power is dissipated, then stays; at rest it recovers. Or stiffness "
+        "and loss fall from run to run"
+    )
     confused_with = {
         "softening": "two runs of one speed and other damping: heat follows the power, not the speed",
         "fading_damping": "a rest between two runs: what was warm recovers, what faded for good does not",
@@ -30,7 +38,9 @@ class Heating(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times."""
+        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; numbers of the network
+        over the order of the runs.
+        """
         mean_square = max(float(np.mean(np.square(view.velocity(run)))) for run in view.runs)
         band = 2.0 * np.pi * view.highest_frequency
         for share in SPRINGS:
@@ -51,3 +61,15 @@ class Heating(Cause):
                 unknowns=3 if share else 2,
                 form="a dashpot and a spring that warm up" if share else "a dashpot that warms up",
             )
+        yield from _from_run_to_run(view, network)
+
+
+def _from_run_to_run(view: View, network: NetworkSpec) -> Iterable[Suspect]:
+    places, numbers = order_of(view), list(numbers_of(network))
+    if not places:
+        return
+    order = Setting.of(ORDER, {run: view.settings(run)[ORDER] for run in places})
+    if numbers:
+        yield replace(changed(order, numbers), form="numbers from run to run")
+    if has_curved_spring(network):
+        yield replace(stiffness_over(order), form="a stiffness from run to run")

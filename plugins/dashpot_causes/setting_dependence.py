@@ -13,10 +13,11 @@ from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
+from dashpot_causes.session import ORDER
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
-OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass"}
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", ORDER}
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
@@ -36,11 +37,15 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each number of each branch along a straight line over each setting; a force over each setting."""
+        """Each number of each branch along a straight line over each setting; a stiffness over it, where the spring
+        has a curve; and a force.
+        """
         for setting in _settings(view):
-            numbers = list(_numbers(network))
+            numbers = list(numbers_of(network))
             if numbers:
-                yield _changed(setting, numbers)
+                yield changed(setting, numbers)
+            if has_curved_spring(network):
+                yield stiffness_over(setting)
             yield _force(setting)
 
 
@@ -52,6 +57,12 @@ class Setting:
     middle: float
     spread: float
     values: Mapping[str, float]
+
+    @classmethod
+    def of(cls, name: str, values: Mapping[str, float]) -> Setting:
+        """The setting with its values by run."""
+        middle = float(f"{np.mean(list(values.values())):.{DIGITS}g}")
+        return cls(name, middle, max(values.values()) - min(values.values()), values)
 
     def share(self, run: str) -> float:
         """How far a run is from the middle, over the spread."""
@@ -85,14 +96,13 @@ def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
     for name in sorted(common - OF_THE_MOTION):
-        values = {run: each[name] for run, each in found.items()}
-        spread = max(values.values()) - min(values.values())
-        middle = float(f"{np.mean(list(values.values())):.{DIGITS}g}")
-        if spread > 1e-9 * abs(middle):
-            yield Setting(name, middle, spread, values)
+        setting = Setting.of(name, {run: each[name] for run, each in found.items()})
+        if setting.spread > 1e-9 * abs(setting.middle):
+            yield setting
 
 
-def _numbers(network: NetworkSpec) -> Iterator[Number]:
+def numbers_of(network: NetworkSpec) -> Iterator[Number]:
+    """The numbers of a network with two ends that may be written as dependent on a setting."""
     if network.document is None or network.joints:
         return
     for branch in network.leaves():
@@ -112,7 +122,9 @@ def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
     return True
 
 
-def _changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
+def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
+    """One or two of the numbers along a straight line over the setting."""
+
     def columns(view: View, run: str) -> Array:
         return setting.share(run) * np.array([number.column(view, run) for number in numbers])
 
@@ -126,6 +138,30 @@ def _changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     grid = tuple(map(float, range(len(numbers))))
     return Suspect(f"a number over {setting.name}", grid, columns, extend, sign=0, unknowns=0, most=2,
                    quantity="change over the settings", unit="1")  # fmt: skip
+
+
+def has_curved_spring(network: NetworkSpec) -> bool:
+    """Whether a spring of a network with two ends has a curve, none of whose numbers may depend on a setting."""
+    return not network.joints and any(
+        curve.form != "constant" and curve.curve.over[1] == "m"
+        for branch in network.leaves()
+        for curve in branch.curves.values()
+    )
+
+
+def stiffness_over(setting: Setting) -> Suspect:
+    """A stiffness beside the network that rises or falls along a straight line over the setting."""
+
+    def columns(view: View, run: str) -> Array:
+        return setting.share(run) * view.displacement(run)[None]
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        entry = f"stiffness: {{fixed: 0 N/m, over: {{{setting.over(atoms[0][0] / setting.spread)}}}}}"
+        name = free_name(text, "setting_stiffness")
+        return add_branch(text, f"{name}:\n  element: signed_spring\n  {entry}")
+
+    return Suspect(f"a stiffness over {setting.name}", (0.0,), columns, extend, sign=0, unknowns=0,
+                   quantity="change over the settings", unit="N/m")  # fmt: skip
 
 
 def _force(setting: Setting) -> Suspect:

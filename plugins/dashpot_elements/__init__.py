@@ -16,7 +16,7 @@ MASSES = ("inerter", "rattling_mass", "sliding_mass")
 FRICTION = ("coulomb", "dahl", "prandtl", "stribeck", "stribeck_curve", "directional_friction", "side_load_friction",
             "loose_friction", "bouc_wen", "iwan", "kraus")  # fmt: skip
 CHANGE = ("bedding_in", "mullins", "softening", "fading_spring", "self_heating")
-WORDS = (*SPRINGS, *DAMPERS, *RELAXATION, *FRICTION, *CHANGE, *MASSES, "constant_force")
+WORDS = (*SPRINGS, *DAMPERS, *RELAXATION, *FRICTION, *CHANGE, *MASSES, "constant_force", "signed_spring")
 
 
 @hookimpl

@@ -1,4 +1,4 @@
-"""Gas springs: the law of the polytrope, and heat exchange between isothermal and adiabatic."""
+"""Gas springs: the polytrope, and heat exchange between isothermal and adiabatic; and what stands beside a spring."""
 
 from __future__ import annotations
 
@@ -64,3 +64,9 @@ def test_small_motions_of_a_gas_find_the_stiffness_of_its_formula():
 def test_a_constant_force_is_constant():
     _, found = march("constant_force", 1e-3, force=-35.0)
     assert np.all(found == -35.0)
+
+
+@pytest.mark.parametrize("stiffness", [-3000.0, 3000.0])
+def test_a_signed_spring_is_a_straight_line_of_either_sign(stiffness):
+    time, found = march("signed_spring", 1e-3, stiffness=stiffness)
+    assert found == pytest.approx(stiffness * place(time), rel=1e-12)

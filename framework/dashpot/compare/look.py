@@ -18,6 +18,8 @@ from dashpot.data.repeats import NotRepeatsError, compare_repeats
 from dashpot.fit.api import Setting, prepare
 from dashpot.fit.floor import false_repeats
 from dashpot.fit.result import floor_of
+from dashpot.triage.examine import examine
+from dashpot.triage.fault import Fault
 
 Array = NDArray[np.float64]
 
@@ -26,12 +28,16 @@ LINES = 400  # of a spectrum, evenly spaced over the logarithm of the frequency
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """What was seen; ``seen`` are the runs with their motion, ``explainable`` what a general model leaves."""
+    """What was seen; ``seen`` are the runs with their motion, ``explainable`` what a general model leaves.
+
+    ``faults`` are those that triage found. The runs are shown as they were measured, with their faults.
+    """
 
     setting: Setting
     seen: tuple[Seen, ...]
     explainable: Explainable
     seed: int
+    faults: tuple[Fault, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``look.json``, in SI."""
@@ -47,9 +53,11 @@ class Look:
             "noise_floor": floor_of(self.setting.floor),
             "explainable": self.explainable.as_dict(),
             "runs": [described(each) for each in self.seen],
+            "faults": [{"run": fault.run, "kind": fault.kind, "evidence": fault.evidence, "cure": fault.cure}
+                       for fault in self.faults],
             "repeats": [{key: group[key] for key in ("runs", "rms")} for group in self.repeats()],
             "seed": self.seed,
-        }
+        }  # fmt: skip
 
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report."""
@@ -62,7 +70,8 @@ class Look:
             "shapes": shapes_of(runs),
             "spectra": [spectrum for each in self.seen for spectrum in spectra(each)],
             "repeats": self.repeats(),
-            "warnings": [*map(str, self.setting.dataset.problems), *false_repeats(self.setting.dataset)],
+            "warnings": [*(f"Run '{fault.run}': {fault.evidence}. {fault.cure}." for fault in self.faults),
+                         *map(str, self.setting.dataset.problems), *false_repeats(self.setting.dataset)],
         }  # fmt: skip
 
     def repeats(self) -> list[dict[str, Any]]:
@@ -88,7 +97,9 @@ class Look:
 def look(dataset: Dataset, seed: int = 0) -> Look:
     """Look at the runs of a dataset before any model. The same seed holds out the same runs."""
     setting = prepare(dataset, seed)
-    return Look(setting, tuple(see(run) for run in setting.dataset.runs), explainable_error(setting, seed), seed)
+    triage = examine(dataset)
+    seen = tuple(see(run) for run in setting.dataset.runs)
+    return Look(setting, seen, explainable_error(setting, seed), seed, triage.faults[triage.read :])
 
 
 def described(seen: Seen) -> dict[str, Any]:

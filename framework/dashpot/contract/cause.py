@@ -70,7 +70,9 @@ class View(Protocol):
         """The sample time in s."""
 
     def settings(self, run: str) -> Mapping[str, float]:
-        """The settings of a run in SI and the means of its further channels, as ``mean of temperature``."""
+        """The settings of a run in SI, its ``order`` in the dataset, and the means of its further channels, as
+        ``mean of temperature``.
+        """
 
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) in N of the present model if the deflection were larger by ``change`` (n,) in m."""

@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 
 # what drives a specimen or is its answer; of every other channel a run has a mean
 MOVING = ("time", "displacement", "velocity", "acceleration", "force")
+# the setting that every run of a dataset has: its number there, from 0, as it was measured
+ORDER = "order"
 
 
 def channel_at(quantity: str, node: str) -> str:
@@ -28,8 +30,8 @@ class Excitation:
     """Motions (Drive) and loads (n,) in N by the name of the node, and the numbers of the test procedure, in SI.
 
     The node of a network with two ends has the name "". Among the settings are the means of all further channels that
-    were measured (temperature, pressure ...), as ``mean_of`` names them. ``name`` is that of the run, ``source`` its
-    file.
+    were measured (temperature, pressure ...), as ``mean_of`` names them, and the ``order`` of a run in its dataset.
+    ``name`` is that of the run, ``source`` its file.
     """
 
     motions: Mapping[str, Drive]
@@ -72,10 +74,10 @@ class Excitation:
 
 
 def settings_of(run: Run) -> dict[str, float]:
-    """The settings of a run and the means of its further channels."""
+    """The settings of a run, its ``order`` in the dataset, and the means of its further channels."""
     means = {mean_of(name): float(np.mean(samples)) for name, samples in run.channels.items()
              if name.partition("@")[0] not in MOVING}  # fmt: skip
-    return {**run.settings, **means}
+    return {ORDER: float(run.order), **run.settings, **means}
 
 
 def mean_of(channel: str) -> str:

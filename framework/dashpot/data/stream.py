@@ -8,7 +8,7 @@ from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
-from dashpot.data.excitation import mean_of
+from dashpot.data.excitation import ORDER, mean_of
 from dashpot.data.groups import resolve_repeats
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
@@ -61,7 +61,8 @@ class RunStream:
         The means of further channels are not known yet: NaN.
         """
         resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
-        return {each.name: {**each.settings, **{mean_of(channel.name): math.nan for channel in each.channels}}
+        return {each.name: {ORDER: float(each.order), **each.settings,
+                            **{mean_of(channel.name): math.nan for channel in each.channels}}
                 for each in resolved}  # fmt: skip
 
     @property

@@ -82,7 +82,8 @@ class Objective:
 
         def fill(number: int) -> None:
             run = self.runs[number]
-            seen = self.network.observation(values).linear(
+            settings = run.excitation.settings
+            seen = self.network.observation(values, settings).linear(
                 *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
             )
             found = np.empty((1 + len(which), run.samples))
@@ -91,7 +92,7 @@ class Objective:
             for k in (k for k, slot in enumerate(which) if parts.owner[slot] is None):
                 moved = values.copy()
                 moved[which[k]] += shifts[k]
-                other = self.network.observation(moved).see(seen[2][None], run.drive.dt)[0]
+                other = self.network.observation(moved, settings).see(seen[2][None], run.drive.dt)[0]
                 found[1 + k] = (other - seen[0])[run.first :]
             block[:, self.pieces[number]] = self._weighed(number, found)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.excitation import mean_of
+from dashpot.data.excitation import ORDER, mean_of
 from dashpot.model.network import NetworkSpec, Over, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -63,7 +63,8 @@ def require_settings(spec: NetworkSpec, runs: Mapping[str, Mapping[str, float]])
 
 
 def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iterator[Problem]:
-    told: set[str] = set()
+    # outside of a dataset, on a rig or in another program, nothing is first or last
+    told = {ORDER}
     for slot in spec.slots():
         over = slot.value.over
         if over and key_of(over) not in settings and key_of(over) not in told:

@@ -34,6 +34,9 @@ MEASUREMENT = {
     "force.hum.sine": Kind("N", (-1e6, 1e6), "linear"),
 }
 
+# what drifts over a session, or with the temperature of the load cell
+DRIFTING = ("force.gain", "force.offset")
+
 Elements = MappingType[str, type[Element]]
 
 
@@ -90,10 +93,10 @@ def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:
         within = _form_at(inner, forms)
         node = within.node(key) if within else None
         value = read_value(node, kind, Reading(f"measurement, {path}", problems)) if node else None
-        if value and value.over:
+        if value and value.over and path not in DRIFTING:
             place = value.node.place if value.node else Place()
-            problems.append(Problem(place, f"measurement, {path}: a number of the load cell cannot depend on a setting",
-                                    "write the number alone"))  # fmt: skip
+            problems.append(Problem(place, f"measurement, {path}: of the load cell only gain and offset may depend "
+                                    "on a setting", "write the number alone"))  # fmt: skip
         elif value:
             found[path] = value
     hum = forms.get("force.hum")

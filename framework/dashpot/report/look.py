@@ -64,7 +64,11 @@ def look_figures(evidence: Evidence) -> list[Figure]:
 
 
 def look_headline(look: Json) -> str:
-    """What is wrong with the work of the runs, or what is to be explained."""
+    """What is wrong with the runs, or what is to be explained."""
+    if look["faults"]:
+        first, more = look["faults"][0], len(look["faults"]) - 1
+        further = f" {more} more {'run is' if more == 1 else 'runs are'} at fault." if more else ""
+        return f"Run '{first['run']}': {first['evidence']}.{further}"
     wrong = [run["run"] for run in look["runs"] if run["gives_back"]]
     if wrong:
         gives = "gives" if len(wrong) == 1 else "give"
@@ -79,15 +83,17 @@ def look_headline(look: Json) -> str:
 
 def look_grid(look: Json, keys: Sequence[str] = ()) -> Grid:
     """The runs in numbers, with what their closed cycles take up; of the columns those in `keys`, or all."""
-    rows = [_row(run) for run in look["runs"]]
+    faults = {fault["run"]: fault["kind"].replace("_", " ") for fault in look["faults"]}
+    rows = [_row(run, faults.get(run["run"], "")) for run in look["runs"]]
     chosen = [column for column in COLUMNS if not keys or column.key in keys]
     used = [column for column in chosen if any(row.get(column.key) is not None for row in rows)]
     caption = "Energy per cycle is the median over closed cycles; positive: the specimen takes up work."
     return Grid("The runs", used, rows, caption, "runs.csv")
 
 
-def _row(run: Json) -> dict[str, Any]:
-    remarks = [f"repeats {run['repeats']}" if run["repeats"] else "", "gives back work" if run["gives_back"] else ""]
+def _row(run: Json, fault: str) -> dict[str, Any]:
+    remarks = [fault, f"repeats {run['repeats']}" if run["repeats"] else "",
+               "gives back work" if run["gives_back"] else ""]  # fmt: skip
     thousandth = {key: None if run[key] is None else 1e-3 * run[key] for key in ("stiffness", "loss")}
     in_mm = {key: 1e3 * run[key] for key in ("amplitude", "preload", "peak_speed")}
     return {**run, **in_mm, **thousandth, "energy": run["energy_per_cycle"],

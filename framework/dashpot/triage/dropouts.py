@@ -1,4 +1,4 @@
-"""Samples that were lost: displacement and force jump on together, farther than the time base tells."""
+"""Samples that were lost: the motion jumps on, farther than it goes between two samples anywhere near."""
 
 from __future__ import annotations
 
@@ -71,13 +71,20 @@ def _jumps(x: Array, noise: float, missing: float) -> dict[int, float]:
 
 
 def _steps(x: Array, places: NDArray[np.intp], noise: float, missing: float) -> Array:
-    """The steps between what comes before places and what comes after, both continued; 0 where it is none."""
+    """The steps between what comes before places and what comes after, both continued; 0 where it is none.
+
+    A step may be as long as the way between two samples at the fastest speed nearby: where a motion turns it stands
+    still, and yet the play in a drive lets it lurch.
+    """
     sides = [x[places[..., None] + np.arange(-SIDE, 0)], x[places[..., None] + np.arange(SIDE)]]
     times = [np.arange(-SIDE, 0) + 0.5, np.arange(SIDE) + 0.5]
     powers = [np.vander(time, DEGREE + 1, increasing=True) for time in times]
     before, after = (side @ np.linalg.pinv(power).T for side, power in zip(sides, powers, strict=True))
     fitted = np.concatenate([before @ powers[0].T, after @ powers[1].T], axis=-1)
     scatter = np.std(np.concatenate(sides, axis=-1) - fitted, axis=-1)
-    step, speed = after[..., 0] - before[..., 0], np.maximum(np.abs(before[..., 1]), np.abs(after[..., 1]))
+    step = after[..., 0] - before[..., 0]
+    speed = np.max(np.abs([side[..., 1] + 2.0 * side[..., 2] * end
+                           for side, time in zip((before, after), times, strict=True)
+                           for end in (time[0], time[-1])]), axis=0)  # fmt: skip
     certain = np.abs(step) > np.maximum(CERTAIN * np.maximum(noise, scatter), missing * speed)
     return np.where(certain, step, 0.0)

@@ -46,7 +46,19 @@ def test_a_run_with_the_wrong_sign_gives_back_work():
              for each in dataset.runs]  # fmt: skip
     told = look(Dataset("wrong", tuple(wrong))).as_dict()
     assert [each["run"] for each in told["runs"] if each["gives_back"]] == ["a1_p10"]
-    assert look_headline(told).startswith("a1_p10 gives back work over closed cycles")
+    assert [(each["run"], each["kind"]) for each in told["faults"]] == [("a1_p10", "polarity")]
+    assert look_headline(told).startswith("Run 'a1_p10': it gives back")
+
+
+def test_a_run_a_thousand_times_off_is_named_before_any_model():
+    dataset = sweeps()
+    wrong = [replace(each, channels={**each.channels, "force": 1e3 * each.force}) if each.name == "a1_p10" else each
+             for each in dataset.runs]  # fmt: skip
+    seen = look(Dataset("wrong", tuple(wrong)))
+    assert [(each["run"], each["kind"]) for each in seen.as_dict()["faults"]] == [("a1_p10", "unit")]
+    assert "kN written as N" in look_headline(seen.as_dict())
+    assert any("'a1_p10'" in warning and "Correct the 'unit'" in warning for warning in seen.evidence()["warnings"])
+    assert look(dataset).as_dict()["faults"] == []
 
 
 def test_the_spectrum_has_the_amplitude_of_a_sine():

@@ -436,6 +436,11 @@ def test_a_run_with_the_force_turned_gets_its_own_sign_where_it_stands(tmp_path)
     ("seal 3bar", {"pressure": "3 bar"}),
     ("O-ring257_1bar", {"pressure": "1 bar"}),
     ("valve_2,5V", {"voltage": "2.5 V"}),
+    ("damper_click5", {"clicks": "5"}),
+    ("12 Klicks 50mm", {"clicks": "12"}),
+    ("Ventil_2_1", {"valve_position": "2"}),
+    ("valves3", {}),
+    ("12clickstop", {}),
     ("a1_p2_up", {}),
     ("run12_1Hz_5mm", {}),
     ("2Apr", {}),
@@ -453,6 +458,36 @@ def test_runs_under_other_conditions_are_no_repeats(tmp_path):
     assert "temperature: 20 degC" in text and "temperature: 40 degC" in text
     found = imported(tmp_path, {f"bush_{t}.tab": part for t, part in zip("ab", tables.values(), strict=True)})
     assert [run.repeats for run in found.runs if run.name == "bush_b"] == ["bush_a"]
+
+
+def test_clicks_of_a_valve_in_the_names_are_settings_and_no_repeats(tmp_path):
+    motion = 10 + chirp(1, 20)
+    tables = {f"damper_click{k}.tab": record(motion, kelvin_voigt(motion, 1.0) + 1e-3 * k) for k in (1, 5)}
+    found = imported(tmp_path, tables)
+    assert [run.repeats for run in found.runs] == [None, None]
+    assert "clicks: 5}" in dataset_text(found, tmp_path, "rig")
+
+
+@pytest.mark.parametrize(("second", "repeats"), [(20.5, "a"), (60.0, None)])
+def test_runs_at_other_measured_temperatures_are_no_repeats(tmp_path, second, repeats):
+    """Half a kelvin is the room, forty are another test; the thermometer scatters by a tenth."""
+    motion, noise = 10 + chirp(1, 20), 0.1 * np.random.default_rng(2).normal(size=TIME.size)
+    tables = {}
+    for name, celsius in (("a", 20.0), ("b", second)):
+        force = kelvin_voigt(motion, 1.0) + celsius * 1e-3
+        tables[f"{name}.tab"] = Table({"t": TIME, "x": motion, "F": force, "temp": celsius + noise},
+                                      {"t": "s", "x": "mm", "F": "N", "temp": "degC"})  # fmt: skip
+    assert imported(tmp_path, tables).runs[1].repeats == repeats
+
+
+def test_a_stated_unit_that_is_no_force_asks_for_its_gain(tmp_path):
+    motion = 10 + chirp(1, 9)
+    columns = {"t": TIME, "Weg": motion, "Kraft": kelvin_voigt(motion) / 500.0}
+    table = Table(columns, {"t": "s", "Weg": "mm", "Kraft": "V"})
+    found = imported(tmp_path, {"a.tab": table})
+    (remark,) = [remark for remark in found.confirm if "is in V" in remark]
+    assert "'Kraft'" in remark and "'gain'" in remark
+    assert "# CONFIRM: the column and the gain, as the file states V" in dataset_text(found, tmp_path, "rig")
 
 
 def test_of_runs_at_other_rates_only_the_slowest_is_quasi_static(tmp_path):

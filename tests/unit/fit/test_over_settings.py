@@ -51,6 +51,46 @@ def run(name, pressure, amplitude, frequency, text=TRUTH, **settings):
     return replace(made, channels={"displacement": x, "force": force + noise})
 
 
+DRIFTING = """\
+measurement: {force: {offset: {fixed: 0 N, over: {setting: order, at: 0, slope: %s}}}}
+"""
+
+
+def test_a_zero_that_drifts_over_the_session_is_one_number_of_the_load_cell():
+    """The third run of the dataset shows its force and three times the drift; a fit finds the drift with the rest."""
+    runs = [replace(each, order=number) for number, each in enumerate(dataset().runs)]
+    shifted = [
+        replace(each, channels={**each.channels, "force": each.force - 3.0 * each.order}) for each in runs
+    ]
+    seen = simulate_runs(parse_network(TRUTH + DRIFTING % "-3 N", REGISTRY.elements), Dataset("d", tuple(runs)))
+    for each in shifted:
+        assert seen[each.name] == pytest.approx(each.force, abs=0.6)  # six times the noise
+    model = parse_network(MODEL + DRIFTING % "{start: 0 N}", REGISTRY.elements)
+    found = fit_network(model, Dataset("d", tuple(shifted)), registry=REGISTRY).fitted
+    numbers = {slot.path: slot.value.number for slot in found.slots()}
+    assert numbers["measurement.force.offset.slope"] == pytest.approx(-3.0, abs=0.02)
+    assert numbers["piston.force.slope"] == pytest.approx(100.0 / 1e5, rel=0.01)
+
+
+def test_outside_of_a_dataset_a_number_over_the_order_is_the_one_that_is_told():
+    """A rig drives a specimen of no order: what is to be seen there is the fixed number."""
+    of_order = TRUTH.replace("setting: pressure, at: 0 bar, slope: 100 N/bar", "setting: order, at: 2, slope: 9")
+    ordered = compile_network(parse_network(of_order, REGISTRY.elements))
+    driven = replace(Excitation.of_run(run("a", 2.0, 1e-3, 3.0)), settings={"pressure": 2e5})
+    told = compile_network(parse_network(TRUTH.partition("  piston")[0], REGISTRY.elements))
+    assert ordered.simulate(ordered.prepare(driven)) == pytest.approx(told.simulate(told.prepare(driven)))
+
+
+def test_a_run_that_gives_its_own_zero_has_it_in_the_jacobian():
+    """The residual of a Jacobian is that of the runs as they are simulated, each with its zero."""
+    spring = "  rubber: {element: spring, stiffness: {start: 150 N/mm}}\n"
+    zero = "measurement: {force: {offset: {setting: zero, value: 0 N}}}\n"
+    made = [run(f"z{value:g}", 2.0, 2e-3, 3.0, HEAD + spring + zero, zero=value) for value in (0.0, 40.0, -25.0)]
+    _, objective, _ = ready(spring, [score_run(each) for each in made], zero)
+    residual, _ = objective.linearise(objective.network.start, [0], np.array([1.0]))
+    assert np.sqrt(np.mean(residual**2)) < 0.2  # the noise
+
+
 def dataset():
     runs = [run(f"p{p:g}_{f:g}", p, a, f) for p in PRESSURES for a, f in ((3e-3, 2.0), (1e-3, 7.0))]
     return Dataset("d", tuple(runs))

@@ -78,10 +78,10 @@ def test_mistakes_are_told_where_they_are(number, message):
     assert "n.yaml:7" in str(caught.value)
 
 
-def test_a_number_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
+def test_most_numbers_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
     over = "{start: 1 N, over: {setting: p, at: 1, slope: 1 N}}"
-    with pytest.raises(InputError, match="a number of the load cell cannot depend on a setting"):
-        read("30 N", f"measurement: {{force: {{offset: {over}}}}}\n")
+    with pytest.raises(InputError, match="of the load cell only gain and offset may depend on a setting"):
+        read("30 N", f"measurement: {{force: {{largest: {over}}}}}\n")
     with pytest.raises(InputError, match="a knot of a table cannot depend on a setting"):
         read("30 N", f"  s: {{element: spring, stiffness: {{deflection: [0 mm, 1 mm], force: [0 N, {over}]}}}}\n")
 

@@ -10,6 +10,7 @@ from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.data.trouble import Trouble
 from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.examine import examine
 
 STEP = 1e-3
@@ -149,3 +150,24 @@ def test_jumps_that_an_uneven_clock_allows_are_no_lost_samples(rng):
     run = Run("a", "harmonic", TIME[: keep.size], {"displacement": x[keep], "force": 2e5 * x[keep]}, group="a")
     assert kinds(Dataset("even", (run,))) == [("a", "lost_samples")]
     assert kinds(Dataset("uneven", (replace(run, uneven=True),))) == []
+
+
+def test_a_drive_with_play_that_lurches_where_it_turns_loses_no_samples():
+    """A crank at 1.2 Hz, 100 Hz and 5 um: at one turn its play of 0.08 mm is taken up between two samples."""
+    time = np.arange(1200) * 1e-2
+    x = 6e-3 * np.cos(2.0 * np.pi * 1.2 * time)
+    x[time > 2.5 / 1.2] -= 0.08e-3
+    x = 5e-6 * np.round(x / 5e-6)
+    assert lost_samples(Run("crank", "harmonic", time, {"displacement": x, "force": 2e4 * x})) is None
+
+
+@pytest.mark.parametrize("phase", [0.1, 0.25, 0.4])
+def test_samples_of_a_crank_that_are_lost_on_its_way_are_told(phase):
+    """Three samples of the same crank are missing, on its way or just before it turns."""
+    time = np.arange(1210) * 1e-2
+    x = 5e-6 * np.round(6e-3 * np.cos(2.0 * np.pi * 1.2 * time) / 5e-6)
+    at = int(100 * (3.0 + phase) / 1.2)
+    keep = np.r_[0:at, at + 3 : time.size]
+    run = Run("crank", "harmonic", time[: keep.size], {"displacement": x[keep], "force": 2e4 * x[keep]})
+    found = lost_samples(run)
+    assert found is not None and found.kind == "lost_samples" and f"at {0.01 * at:.6g} s" in found.evidence

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.excitation import MOVING
 from dashpot.data.importing.motion import Motion, find_motion
 from dashpot.data.importing.roles import GUESSED, Role, motion_roles, named_roles
 from dashpot.data.importing.rows import numeric, of_one_length, usable_rows
@@ -27,11 +28,20 @@ _FALLS = (
 
 @dataclass(frozen=True)
 class ChannelFound:
-    """A channel: its column, unit and sign, and what told them."""
+    """A channel: its column, unit and sign, and what told them; the unit that its file states."""
 
     role: Role
     unit: UnitFound
     sign: int = 1
+    stated: str = ""
+
+
+@dataclass(frozen=True)
+class Level:
+    """The mean of a channel over a run and how far its values lie apart, SI."""
+
+    mean: float
+    spread: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +50,7 @@ class Finding:
 
     rows: first row and one past the last (from 0), None for all; columns: all of the file, in order; confirm: what a
     person has to look at; signals: displacement and force (n,) in SI where both were found; conditions: settings as
-    texts that the name of the file states.
+    texts that the name of the file states; levels: of further channels, such as the temperature.
     """
 
     timing: Timing
@@ -52,6 +62,7 @@ class Finding:
     confirm: tuple[str, ...]
     signals: Mapping[str, np.ndarray] = field(default_factory=dict)
     conditions: Mapping[str, str] = field(default_factory=dict)
+    levels: Mapping[str, Level] = field(default_factory=dict)
 
     @property
     def unused(self) -> tuple[str, ...]:
@@ -124,7 +135,8 @@ def _chosen(roles: Mapping[str, Role], columns: Mapping[str, np.ndarray]) -> dic
 def _found(role: Role, table: Table, columns: Mapping[str, np.ndarray]) -> ChannelFound:
     values = columns[role.column]
     sound = values[np.isfinite(values)]
-    return ChannelFound(role, find_unit(role.channel, role.column, table.units.get(role.column, ""), sound))
+    stated = table.units.get(role.column, "")
+    return ChannelFound(role, find_unit(role.channel, role.column, stated, sound), stated=stated)
 
 
 def _agreed(channels: Mapping[str, ChannelFound], agreed: Agreed) -> dict[str, ChannelFound]:
@@ -134,6 +146,7 @@ def _agreed(channels: Mapping[str, ChannelFound], agreed: Agreed) -> dict[str, C
             found.role,
             UnitFound(agreed[name][0], GUESSED_UNIT) if found.unit.by == GUESSED_UNIT else found.unit,
             agreed[name][1],
+            found.stated,
         )
         for name, found in channels.items()
     }
@@ -161,7 +174,18 @@ def _finding(
         signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
         motion = find_motion(signals["displacement"], timing.step or 1.0)
     settings = motion.settings if timing.step else {}
-    return Finding(timing, channels, motion.kind, settings, rows, tuple(table.columns), tuple(confirm), signals)
+    return Finding(timing, channels, motion.kind, settings, rows, tuple(table.columns), tuple(confirm), signals,
+                   levels=_levels(channels, columns))  # fmt: skip
+
+
+def _levels(channels: Mapping[str, ChannelFound], columns: Mapping[str, np.ndarray]) -> dict[str, Level]:
+    levels = {}
+    for name, found in channels.items():
+        if name not in MOVING:
+            scale, offset = factor(found.unit.unit, CHANNEL_UNITS[name])
+            values = found.sign * (scale * columns[found.role.column] + offset)
+            levels[name] = Level(float(np.mean(values)), float(np.ptp(values)))
+    return levels
 
 
 def _scale(channel: ChannelFound) -> float:
@@ -174,6 +198,11 @@ def _doubts(channel: ChannelFound) -> list[str]:
     if role.rivals:
         shown = ", ".join(f"'{name}'" for name in role.rivals[:6])
         doubts.append(f"the motion explains {shown} about as well as the {role.channel} '{role.column}': which is it?")
-    if unit.by == GUESSED_UNIT:
+    if unit.by == GUESSED_UNIT and channel.stated:
+        doubts.append(
+            f"the {role.channel} '{role.column}' is in {channel.stated} after its file: write 'gain', by which it "
+            f"becomes {unit.unit}, and 'accept: [units]'"
+        )
+    elif unit.by == GUESSED_UNIT:
         doubts.append(f"the {role.channel} is taken to be in {unit.unit}: no unit is stated")
     return doubts

@@ -7,12 +7,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from dashpot.data.importing.finding import Finding
+from dashpot.data.importing.finding import Finding, Level
 from dashpot.data.importing.names import differ
 from dashpot.data.repeats import NotRepeatsError, compare_repeats
 
 # how much of the force two runs may not share: without a hint, and where their names say that one repeats the other
 _ALIKE, _ALIKE_BY_NAME = 0.05, 0.3
+# of a level: 6 K of a temperature, a twentieth of a bar beside two
+_SAME_LEVEL = 0.02
 _AGAIN = re.compile(
     r"(.+?)[ _.-]*(?:[b-e]|[2-9]|r\d|rep\w*\d*|rerun\d*|wdh\d*|wiederholung\d*|copy|kopie|\(\d\))", re.I
 )
@@ -40,7 +42,7 @@ def _is_again(name: str, earlier: str) -> bool:
 
 
 def _comparable(first: Finding, second: Finding) -> bool:
-    if differ(first.conditions, second.conditions):
+    if differ(first.conditions, second.conditions) or _at_other_levels(first.levels, second.levels):
         return False
     if first.kind != second.kind or not (first.signals and second.signals) or not first.timing.step:
         return False
@@ -48,6 +50,18 @@ def _comparable(first: Finding, second: Finding) -> bool:
     spans = [np.ptp(finding.signals["displacement"]) for finding in (first, second)]
     same_step = second.timing.step and abs(first.timing.step / second.timing.step - 1) < 0.01
     return bool(same_step and min(lengths) > 0.8 * max(lengths) and min(spans) > 0.9 * max(spans))
+
+
+def _at_other_levels(first: Mapping[str, Level], second: Mapping[str, Level]) -> bool:
+    """Whether a channel that was measured beside both runs says that they were made under other conditions.
+
+    It may scatter within a run, and what drifts by less is the same.
+    """
+    return any(
+        abs(first[key].mean - second[key].mean)
+        > max(_SAME_LEVEL * max(abs(first[key].mean), abs(second[key].mean)), first[key].spread, second[key].spread)
+        for key in first.keys() & second.keys()
+    )
 
 
 def _difference(first: Finding, second: Finding) -> float:

@@ -1,4 +1,4 @@
-"""What the names of files say about the conditions of a run: `bush_40degC`, `25mm0x5Hz0x25A`, `seal_3bar`."""
+"""What the names of files say about the conditions of a run: `bush_40degC`, `25mm0x5Hz0x25A`, `damper_click5`."""
 
 from __future__ import annotations
 
@@ -18,22 +18,40 @@ _CONDITION = re.compile(
     r"(?:(?<=[_ ])(?P<minus>-|m(?=\d)))?(?<![\d.,])(?P<number>\d+(?:[.,xp]\d+)?)[ _]?"
     rf"(?P<unit>{'|'.join(sorted(map(re.escape, _UNITS), key=len, reverse=True))})(?![A-Za-z])"
 )
+# word before or behind a number -> setting
+_WORDS = {
+    **dict.fromkeys("click clicks klick klicks raste".split(), "clicks"),
+    **dict.fromkeys("valve ventil".split(), "valve_position"),
+    **dict.fromkeys("stage stufe".split(), "stage"),
+}
+_WORD = "|".join(sorted(_WORDS, key=len, reverse=True))
+_NUMBERED = re.compile(
+    rf"(?<![A-Za-z])(?:(?P<word>{_WORD})[ _-]?(?P<number>\d+(?:[.,xp]\d+)?)"
+    rf"|(?<![.,\d])(?P<before>\d+)[ _-]?(?P<noun>{_WORD}))(?![A-Za-z\d.,])", re.I
+)
 
 
 def conditions_of(name: str) -> dict[str, str]:
     """Settings that the name of a file states, as texts with units; a decimal point may be written as x, p or comma.
+
+    Without units are the positions of a valve, its clicks or stages.
 
     Examples:
         >>> conditions_of("25mm0x5Hz0x25A")
         {'current': '0.25 A'}
         >>> conditions_of("bush_-20degC_2")
         {'temperature': '-20 degC'}
+        >>> conditions_of("damper_click5")
+        {'clicks': '5'}
     """
     found: dict[str, str] = {}
     for match in _CONDITION.finditer(name):
         setting, unit = _UNITS[match["unit"]]
         number = re.sub("[,xp]", ".", match["number"])
         found.setdefault(setting, f"{'-' if match['minus'] else ''}{number} {unit}")
+    for match in _NUMBERED.finditer(name):
+        setting = _WORDS[(match["word"] or match["noun"]).lower()]
+        found.setdefault(setting, re.sub("[,xp]", ".", match["number"] or match["before"]))
     return found
 
 

@@ -114,7 +114,8 @@ def _channel(finding: Finding, found: ChannelFound) -> str:
 
 def _remark(found: ChannelFound) -> str:
     doubts = ["the column"] if found.role.by == GUESSED_ROLE or found.role.rivals else []
-    doubts += ["the unit, which is not stated"] if found.unit.by == GUESSED else []
+    unstated = f"the gain, as the file states {found.stated}" if found.stated else "the unit, which is not stated"
+    doubts += [unstated] if found.unit.by == GUESSED else []
     doubts += ["the sign"] if found.sign < 0 else []
     return f"   # CONFIRM: {' and '.join(doubts)}" if doubts else ""
 

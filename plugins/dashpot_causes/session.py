@@ -1,0 +1,46 @@
+"""The order in which runs were made, where it is more than the order in which they were driven."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import View
+
+ORDER = "order"
+FEWEST = 4  # runs one after the other: two or three lie on a line by chance
+FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
+CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs
+
+
+def order_of(view: View) -> Mapping[str, float]:
+    """The places of the runs in their dataset, from 0 for the first one.
+
+    Empty where they are not known, or where strokes, middles, speeds and settings of the runs foretell them.
+    """
+    settings = {run: view.settings(run) for run in view.runs}
+    if len(settings) < FEWEST or any(ORDER not in each for each in settings.values()):
+        return {}
+    places = np.array([each[ORDER] for each in settings.values()])
+    if np.unique(places).size < FEWEST or _foretold(_conditions(view, settings), places) > FORETOLD:
+        return {}
+    return dict(zip(settings, (places - places.min()).tolist(), strict=True))
+
+
+def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
+    """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
+    common = sorted(set.intersection(*(set(each) for each in settings.values())) - {ORDER})
+    moved = [[np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))]
+             for run in settings]  # fmt: skip
+    return np.column_stack([moved, np.array([[each[key] for key in common] for each in settings.values()])])
+
+
+def _foretold(conditions: NDArray[np.float64], places: NDArray[np.float64]) -> float:
+    """The share of the variance of the places (runs,) that a straight line over the conditions explains."""
+    spread, size = np.std(conditions, axis=0), np.sqrt(np.mean(conditions**2, axis=0))
+    known = (conditions - conditions.mean(axis=0))[:, spread > CHANGES * size] / spread[spread > CHANGES * size]
+    centred = places - places.mean()
+    rest = centred - known @ np.linalg.lstsq(known, centred, rcond=1e-6)[0]
+    return 1.0 - float(rest @ rest) / float(centred @ centred)

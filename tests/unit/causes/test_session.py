@@ -1,0 +1,74 @@
+"""What changes from run to run, as runs were made one after the other: a zero, a number, a stiffness."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.causes.test_promises import NETWORK, REGISTRY, SmallView
+
+from dashpot.data.drive import drive_from_samples
+from dashpot.model.reading import parse_network
+from dashpot_causes.session import order_of
+
+STEP = 5e-3
+CURVE = "stiffness: {deflection: [-1 mm, 0 mm, 1 mm], force: [-100 N, 0 N, 300 N]}"
+# strokes in mm in the order of the session: neither rising nor falling
+MIXED = (2.0, 5.0, 1.0, 4.0, 2.0, 5.0, 1.0, 3.0)
+
+
+class Session(SmallView):
+    """Sines of some strokes, made in this order."""
+
+    def __init__(self, strokes=MIXED, orders=None):
+        super().__init__()
+        time = STEP * np.arange(120)
+        paths = {f"r{k}": 1e-3 * stroke * np.sin(2.0 * np.pi * 4.0 * time) for k, stroke in enumerate(strokes)}
+        self.drives = {run: drive_from_samples(STEP, path) for run, path in paths.items()}
+        self.orders = dict(zip(paths, orders or range(len(strokes)), strict=True))
+        self.runs = tuple(paths)
+
+    def settings(self, run):
+        return {"order": float(self.orders[run])}
+
+
+def suspects(word, view, text=NETWORK):
+    return {each.form: each for each in REGISTRY.causes[word]().suspects(view, parse_network(text, REGISTRY.elements))}
+
+
+def test_the_order_counts_from_the_first_run_that_is_there():
+    assert order_of(Session(orders=range(3, 11))) == {f"r{k}": float(k) for k in range(8)}
+
+
+@pytest.mark.parametrize("view", [
+    Session(tuple(range(1, 9))), Session(tuple(range(9, 1, -1))), Session(MIXED[:3]), SmallView(),
+], ids=["rising", "falling", "few", "no order"])  # fmt: skip
+def test_where_strokes_foretell_the_order_nothing_is_said_of_it(view):
+    assert order_of(view) == {}
+    assert suspects("drift", view) == {}
+    assert not [form for form in suspects("heating", view) if "run to run" in form]
+
+
+def test_a_zero_that_drifts_is_one_number_of_the_load_cell():
+    view = Session(orders=range(3, 11))
+    drift = suspects("drift", view)["from run to run"]
+    assert [float(drift.columns(view, run)[0, 0]) for run in view.runs] == [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+    written = parse_network(drift.extend(NETWORK, [(-2.5, 0.0)]), REGISTRY.elements)
+    offset = written.measurement["force.offset"]
+    assert (offset.over.word, offset.over.at, offset.over.numbers[0].number) == ("order", (3.0,), -2.5)
+    assert not offset.searched and offset.over.numbers[0].searched
+
+
+def test_a_network_with_an_offset_of_its_own_keeps_it():
+    assert suspects("drift", Session(), NETWORK + "measurement: {force: {offset: {start: 0 N}}}\n") == {}
+
+
+def test_numbers_follow_the_order_and_beside_a_curve_a_stiffness():
+    view = Session()
+    plain = suspects("heating", view)
+    assert "numbers from run to run" in plain and "a stiffness from run to run" not in plain
+    curved = suspects("heating", view, NETWORK.replace("stiffness: 200 N/mm", CURVE))["a stiffness from run to run"]
+    assert curved.columns(view, "r7")[0] == pytest.approx(0.5 * view.displacement("r7"))
+    text = curved.extend(NETWORK, [(-14e3, 0.0)])
+    found = {slot.path: slot.value for slot in parse_network(text, REGISTRY.elements).slots()}
+    assert found["setting_stiffness.stiffness.slope"].number == pytest.approx(-2e3)
+    assert found["setting_stiffness.stiffness"].over.word == "order"
