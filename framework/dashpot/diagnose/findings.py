@@ -123,7 +123,7 @@ class Findings:
         }
         sure = {term.title: self.probability(term.name) > MORE_LIKELY for term in self.pursuit.best.model.terms}
         what = "extended by a diagnosis" if sure else "fitted to corrected runs"
-        told = [f"{'cause' if likely else 'resembles, less likely than not'}: {title}" for title, likely in sure.items()]
+        told = [f"{'cause' if likely else 'resembles'}: {title}" for title, likely in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
