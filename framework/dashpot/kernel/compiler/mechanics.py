@@ -1,23 +1,15 @@
-"""The equations of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
+"""The mechanics of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
 
 The unknowns are the new positions of the free nodes; that of a node on a fixture counts from the driven node that
 carries it, so that a fixture that does not give way adds nothing to the motion. Every edge answers its force and its
 new memory for a given motion of its two ends; the derivative of that force after the new position is the tangent that
-Newton's method needs. The equations come in passes, each a set of rows of the workspace and their new values:
-
-start    a first guess of the static equilibrium
-settle   Newton's step towards it
-rest     the motion and the memory with which the record begins
-predict  the part of a step that does not depend on the unknowns, and a first guess of them
-improve  Newton's step, and the new memory and what is measured where it leads to
-commit   the end of the step becomes the begin of the next one
+Newton's method needs.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import Protocol
 
@@ -27,8 +19,7 @@ from dashpot.expr.derive import derive
 from dashpot.expr.node import Node, constant, maximum, minimum, symbol, where
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.compiler.elimination import ZERO, Mount, solve_symmetric
-from dashpot.kernel.compiler.own_tables import with_own_tables
-from dashpot.kernel.compiler.trace import RATES, TracedBranch, trace_along
+from dashpot.kernel.compiler.trace import RATES, TracedBranch
 from dashpot.model.topology import COMPLIANCE, Edge, Topology
 
 SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1
@@ -39,7 +30,9 @@ SLOPE, NOW, BEFORE, SWING = (symbol(f"rule.{key}") for key in ("slope", "now", "
 TOLERANCE, FARTHEST = symbol("newton.tolerance"), symbol("newton.farthest")
 GRAVITY, STEP, GIVES_WAY = symbol("gravity"), symbol("dt"), symbol(f"measurement.{COMPLIANCE}")
 # rows that belong to the whole network
-DONE, DAMPING, DISTANCE, NOTHING = (f"newton|{key}" for key in ("done", "damping", "distance", "nothing"))
+DONE, DAMPING, DISTANCE, LINES, NOTHING = (
+    f"newton|{key}" for key in ("done", "damping", "distance", "lines", "nothing")
+)
 RULE = ("rule.slope", "rule.now", "rule.before", "rule.swing", "newton.tolerance", "newton.farthest")
 MOVED = ("old", "new", "velocity_old", "velocity_new", "acceleration")
 
@@ -64,45 +57,6 @@ def force_row(joint: str) -> str:
 def reached_row(name: str) -> str:
     """The row in which a row is kept until the step is done."""
     return f"{name}|reached"
-
-
-@dataclass(frozen=True)
-class Equations:
-    """The passes of a network; see the module. ``known`` are the symbols that the drive gives."""
-
-    start: Rows
-    settle: Rows
-    rest: Rows
-    predict: Rows
-    improve: Rows
-    commit: Rows
-    known: frozenset[str]
-
-    @property
-    def passes(self) -> tuple[Rows, ...]:
-        """All of them, in the order in which they run."""
-        return (self.start, self.settle, self.rest, self.predict, self.improve, self.commit)
-
-    @property
-    def rows(self) -> tuple[str, ...]:
-        """The names of all rows."""
-        return tuple(dict.fromkeys([NOTHING, *(name for rows in self.passes for name in rows)]))
-
-
-def write_equations(topology: Topology, meter: Meter | None = None) -> Equations:
-    """The equations of a network, and those of a meter that goes along."""
-    laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
-    known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
-    known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
-    still, moving = _Still(topology, laws), Moving(topology, laws)
-    rest, commit = still.rest(), moving.commit()
-    if meter:
-        rest, commit = {**rest, **meter.rest(still)}, {**commit, **meter.commit(moving)}
-    start, settle, rest, predict, improve, commit = (
-        with_own_tables(rows, NOTHING)
-        for rows in (still.start(), still.improve(), rest, moving.predict(), moving.improve(), commit)
-    )
-    return Equations(start, settle, rest, predict, improve, commit, frozenset(known))
 
 
 _KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
@@ -179,17 +133,13 @@ class Balance(ABC):
 
     def improve(self) -> dict[str, Node]:
         """Newton's step of all unknowns, damped where the last one did not get nearer; finished lanes stay."""
-        unknown = self.topology.unknown
-        missing = {joint: self.load(joint) - self.carried(joint) for joint in unknown}
-        mounts = {inner: Mount(GIVES_WAY, -self._next(inner)) for inner in self.topology.mounts.values()}
-        ways = solve_symmetric(self._matrix(), missing, mounts)
+        ways = self.newton(self.missing(), self.tangents)
         distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
         done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
         # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
         stalled = distance > before - NEARER * minimum(damping * before, FARTHEST)
         damped = where(stalled, maximum(0.5 * damping, SMALLEST_DAMPING), minimum(2.0 * damping, 1.0))
-        # what is not a number is not far: such a lane is finished, and its forces tell
-        near = np.logical_not(distance > TOLERANCE)
+        near = self.arrived(distance)
         share = where(near, 1.0, minimum(damped, FARTHEST / maximum(distance, FARTHEST)))
         moves = {joint: where(done, 0.0, share * way) for joint, way in ways.items()}
         after = {row_of(joint, "next"): self._next(joint) + move for joint, move in moves.items()}
@@ -201,6 +151,22 @@ class Balance(ABC):
             DONE: where(done | near, 1.0, 0.0),
         }
 
+    def missing(self) -> dict[str, Node]:
+        """The force upwards that every unknown node still lacks to move as it does."""
+        return {joint: self.load(joint) - self.carried(joint) for joint in self.topology.unknown}
+
+    def newton(self, missing: Mapping[str, Node], tangents: Sequence[Node]) -> dict[str, Node]:
+        """Newton's way of every unknown node, by the ``tangents`` of all edges."""
+        mounts = {inner: Mount(GIVES_WAY, -self._next(inner)) for inner in self.topology.mounts.values()}
+        return solve_symmetric(self._matrix(tangents), missing, mounts)
+
+    def arrived(self, distance: Node) -> Node:
+        """Whether Newton's method ends with a step of this distance.
+
+        What is not a number is not far: such a lane is finished, and its forces tell.
+        """
+        return np.logical_not(distance > TOLERANCE)
+
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """What else is known when the unknown nodes have made these moves."""
         return {}
@@ -208,13 +174,13 @@ class Balance(ABC):
     def _next(self, joint: str) -> Node:
         return symbol(row_of(joint, "next"))
 
-    def _matrix(self) -> dict[str, dict[str, Node]]:
+    def _matrix(self, tangents: Sequence[Node]) -> dict[str, dict[str, Node]]:
         unknown = self.topology.unknown
         rows: dict[str, dict[str, Node]] = {joint: {joint: ZERO} for joint in unknown}
         for joint in unknown:
             mass = self.mass(joint)
             rows[joint][joint] = ZERO if mass is ZERO else mass * self.inertia(joint)[1]
-        for edge, tangent in zip(self.topology.edges, self.tangents, strict=True):
+        for edge, tangent in zip(self.topology.edges, tangents, strict=True):
             ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
             for joint in ends:
                 rows[joint][joint] = rows[joint][joint] + tangent
@@ -251,7 +217,7 @@ class Balance(ABC):
         return symbol(edge.offset) if edge.offset else ZERO
 
 
-class _Still(Balance):
+class Still(Balance):
     """The static equilibrium: nothing moves, no branch has a memory.
 
     Where all that gives way is a fixture, a law without a memory sees the first motion of the drive, as it does where
@@ -353,14 +319,23 @@ class Moving(Balance):
 
     def predict(self) -> dict[str, Node]:
         """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""
-        rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
+        rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER, LINES: ZERO}
         for joint in self.topology.unknown:
             x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in _KEPT)
             rows[row_of(joint, "drift")] = NOW * x + BEFORE * earlier + SWING * v
             rows[row_of(joint, "swing")] = NOW * v + BEFORE * slower + SWING * a
-            bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
-            rows[row_of(joint, "next")] = x + STEP * (v + bend)
+            rows[row_of(joint, "next")] = self.guess(joint)
         return rows
+
+    def guess(self, joint: str) -> Node:
+        """Where an unknown node goes with the velocity, and as a mass with the acceleration, that it has."""
+        x, v, a = (symbol(row_of(joint, key)) for key in ("position", "velocity", "acceleration"))
+        bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
+        return x + STEP * (v + bend)
+
+    def arrived(self, distance: Node) -> Node:
+        # a search begins anew where steps led to what is no number, unless the first guess was none
+        return where(symbol(DISTANCE) >= NEVER, super().arrived(distance), distance <= TOLERANCE)
 
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """Memories and measured forces at the end of the last move, by their tangents: it is within the tolerance.

@@ -11,7 +11,15 @@ from contextlib import contextmanager
 from dashpot.expr.node import Node, walk
 from dashpot.kernel.ir.layout import Layout, Passes, score_row
 from dashpot.kernel.ir.program import Program
-from dashpot.kernel.ir.system import MOST_STATIC_STEPS, MOST_STEPS, THIRD, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import (
+    MOST_PLACES,
+    MOST_STATIC_STEPS,
+    MOST_STEPS,
+    THIRD,
+    UNBALANCED,
+    UNSOLVED,
+    SystemProgram,
+)
 from dashpot.kernel.targets.numba.code import PythonCode
 from dashpot.kernel.targets.scalar.code import Arguments
 from dashpot.kernel.targets.scalar.functions import write_functions
@@ -122,7 +130,8 @@ def print_system(system: SystemProgram) -> str:
         with code.function("nothing", f"{name}_", SYSTEM_PASS, f"Pass '{name}'."):
             _write_system_pass(code, layout)
     _write_newton(code, system, "settle", MOST_STATIC_STEPS, UNBALANCED)
-    _write_newton(code, system, "improve", MOST_STEPS, UNSOLVED)
+    _write_newton(code, system, "improve", MOST_STEPS)
+    _write_newton(code, system, "search", MOST_PLACES, UNSOLVED)
     with code.function("nothing", "run", SYSTEM, "All lanes."), code.loop("l", 0, "asked"), _own_memory(code):
         _write_system_lane(code, system)
     return code.text
@@ -150,15 +159,17 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
     )
 
 
-def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int, failure: int) -> None:
+def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int,
+                  failure: int | None = None) -> None:  # fmt: skip
     done = f"w[o + {system.row(system.done)}]"
     with code.function("nothing", name, NEWTON, "Newton's steps until they are short."):
         code.let("left", str(most), "count")
         with code.repeat(f"(left > 0) & ({done} == 0.0)"):
             code.do(f"{name}_(columns, w, tables, knots, c, o)")
             code.set("left", "left - 1")
-        with code.when(f"{done} == 0.0"):
-            code.set("status[l]", f"{failure}.0")
+        if failure is not None:
+            with code.when(f"{done} == 0.0"):
+                code.set("status[l]", f"{failure}.0")
 
 
 def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
@@ -175,6 +186,7 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
                     place = f"{columns}, w, tables, knots, j * {across}, {o}"
                     code.do(f"predict_({place})")
                     code.do(f"improve({place}, status, l)")
+                    code.do(f"search({place}, status, l)")
                     code.do(f"commit_({place})")
         with code.when("scoring == 0"):
             _each(code, system, [*system.forces, *system.places], _store)
