@@ -2,7 +2,9 @@
 
 start    a first guess of the static equilibrium
 settle   Newton's step towards it
-rest     the motion and the memory with which the record begins
+rest     the places and the memory with which the record begins
+launch   Newton's step towards the velocities with which it begins, along a line
+set_off  these velocities, and the forces of the first sample
 predict  the part of a step that does not depend on the unknowns, and a first guess of them
 improve  Newton's step, and the new memory and what is measured where it leads to
 search   the same along a line, where Newton's steps alone do not end
@@ -14,8 +16,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from dashpot.kernel.compiler.equilibrium import Still
+from dashpot.kernel.compiler.launch import Launch
 from dashpot.kernel.compiler.line_search import search
-from dashpot.kernel.compiler.mechanics import MOVED, NOTHING, RULE, Meter, Moving, Rows, Still, driven_symbol
+from dashpot.kernel.compiler.mechanics import MOVED, NOTHING, RULE, Meter, Moving, Rows, driven_symbol
 from dashpot.kernel.compiler.own_tables import with_own_tables
 from dashpot.kernel.compiler.trace import trace_along
 from dashpot.model.topology import Topology
@@ -39,9 +43,10 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
-    still, moving = Still(topology, laws), Moving(topology, laws)
-    passes = {"start": still.start(), "settle": still.improve(), "rest": still.rest(), "predict": moving.predict(),
-              "improve": moving.improve(), "search": search(moving), "commit": moving.commit()}  # fmt: skip
+    still, launch, moving = Still(topology, laws), Launch(topology, laws), Moving(topology, laws)
+    passes = {"start": still.start(), "settle": still.improve(), "rest": still.rest(), "launch": search(launch),
+              "set_off": launch.set_off(), "predict": moving.predict(), "improve": moving.improve(),
+              "search": search(moving), "commit": moving.commit()}  # fmt: skip
     if meter:
         passes["rest"] |= meter.rest(still)
         passes["commit"] |= meter.commit(moving)

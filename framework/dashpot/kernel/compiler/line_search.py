@@ -22,11 +22,10 @@ from dashpot.kernel.compiler.elimination import ZERO
 from dashpot.kernel.compiler.mechanics import (
     DONE,
     FARTHEST,
-    GIVES_WAY,
     LINES,
     NEVER,
     TOLERANCE,
-    Moving,
+    Balance,
     row_of,
 )
 
@@ -37,16 +36,16 @@ STIFFEST = 1e-18  # m/N, of a fixture that does not give way
 SHARE, BELOW, BEYOND, PULL = (f"line|{key}" for key in ("share", "below", "beyond", "pull"))
 
 
-def search(moving: Moving) -> dict[str, Node]:
+def search(balance: Balance) -> dict[str, Node]:
     """The rows of the pass ``search``; a lane that is done stays as it is."""
-    unknown, missing = moving.topology.unknown, moving.missing()
+    unknown, missing = balance.unknown, balance.missing()
     if not unknown:
         return {DONE: constant(1.0)}
     done, fresh = symbol(DONE) > 0.5, symbol(LINES) < 0.5
     along = {joint: symbol(row_of(joint, "way")) for joint in unknown}
-    pull = _pull(moving, missing, along)
-    share, below, beyond, ended = _next_share(pull, _stiffness(moving, along))
-    ways = moving.newton(missing, [maximum(tangent, 0.0) for tangent in moving.tangents])
+    pull = _pull(balance, missing, along)
+    share, below, beyond, ended = _next_share(pull, _stiffness(balance, along))
+    ways = balance.newton(missing, [maximum(tangent, 0.0) for tangent in balance.tangents])
     distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
     # as in Newton's steps alone, what is not a number is not far
     near = ended & np.logical_not(distance > TOLERANCE)
@@ -56,13 +55,13 @@ def search(moving: Moving) -> dict[str, Node]:
         SHARE: where(ended, where(near, 1.0, first), share),
         BELOW: where(ended, 0.0, below),
         BEYOND: where(ended, NEVER, beyond),
-        PULL: where(ended, _pull(moving, missing, ways), symbol(PULL)),
+        PULL: where(ended, _pull(balance, missing, ways), symbol(PULL)),
     }
     places: dict[str, Node] = {}
     for joint in unknown:
         here, base = symbol(row_of(joint, "next")), symbol(row_of(joint, "base"))
         begin, way = where(ended, here, base), where(ended, ways[joint], along[joint])
-        guess = moving.guess(joint)
+        guess = balance.guess(joint)
         places[row_of(joint, "base")] = where(fresh, guess, begin)
         places[row_of(joint, "way")] = where(fresh, 0.0, way)
         places[row_of(joint, "next")] = where(fresh, guess, begin + rows[SHARE] * way)
@@ -70,7 +69,7 @@ def search(moving: Moving) -> dict[str, Node]:
     rows = places | {name: where(fresh, begun[name], row) for name, row in rows.items()}
     rows[DONE] = where(near & np.logical_not(fresh), 1.0, 0.0)
     kept = {name: where(done, symbol(name), row) for name, row in rows.items()}
-    return kept | moving.reached(ways)
+    return kept | balance.reached(ways)
 
 
 def _next_share(pull: Node, stiffness: Node) -> tuple[Node, Node, Node, Node]:
@@ -87,28 +86,25 @@ def _next_share(pull: Node, stiffness: Node) -> tuple[Node, Node, Node, Node]:
     return where(beyond < NEVER, between, ahead), below, beyond, ended
 
 
-def _pull(moving: Moving, missing: Mapping[str, Node], ways: Mapping[str, Node]) -> Node:
+def _pull(balance: Balance, missing: Mapping[str, Node], ways: Mapping[str, Node]) -> Node:
     """The force along the ways."""
     total = sum([missing[joint] * way for joint, way in ways.items()], ZERO)
-    return total - sum([symbol(row_of(joint, "next")) * ways[joint] / _give(joint) for joint in _mounted(moving)], ZERO)
+    strains = [symbol(row_of(joint, "next")) / _give(balance, joint) * ways[joint] for joint in balance.mounted]
+    return total - sum(strains, ZERO)
 
 
-def _stiffness(moving: Moving, ways: Mapping[str, Node]) -> Node:
+def _stiffness(balance: Balance, ways: Mapping[str, Node]) -> Node:
     """How fast the pull falls with the share."""
-    total = sum([ways[joint] * ways[joint] / _give(joint) for joint in _mounted(moving)], ZERO)
-    for edge, tangent in zip(moving.topology.edges, moving.tangents, strict=True):
-        way = moving.difference(edge, lambda joint: ways.get(joint, ZERO))
+    total = sum([ways[joint] * ways[joint] / _give(balance, joint) for joint in balance.mounted], ZERO)
+    for edge, tangent in zip(balance.topology.edges, balance.tangents, strict=True):
+        way = balance.way(edge, ways)
         total = total + tangent * way * way
     for joint, way in ways.items():
-        mass = moving.mass(joint)
+        mass = balance.mass(joint)
         if mass is not ZERO:
-            total = total + mass * moving.inertia(joint)[1] * way * way
+            total = total + mass * balance.inertia(joint)[1] * way * way
     return total
 
 
-def _mounted(moving: Moving) -> tuple[str, ...]:
-    return tuple(moving.topology.mounts.values())
-
-
-def _give(joint: str) -> Node:
-    return maximum(GIVES_WAY, STIFFEST)
+def _give(balance: Balance, joint: str) -> Node:
+    return maximum(balance.mount(joint).compliance, STIFFEST)

@@ -19,7 +19,7 @@ from dashpot.expr.derive import derive
 from dashpot.expr.node import Node, constant, maximum, minimum, symbol, where
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.compiler.elimination import ZERO, Mount, solve_symmetric
-from dashpot.kernel.compiler.trace import RATES, TracedBranch
+from dashpot.kernel.compiler.trace import TracedBranch
 from dashpot.model.topology import COMPLIANCE, Edge, Topology
 
 SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1
@@ -59,7 +59,7 @@ def reached_row(name: str) -> str:
     return f"{name}|reached"
 
 
-_KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
+KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
 
 
 class Meter(Protocol):
@@ -90,8 +90,17 @@ class Balance(ABC):
         """The change of a force with the new deflection."""
 
     @abstractmethod
+    def guess(self, joint: str) -> Node:
+        """Where the search for an unknown node begins."""
+
+    @abstractmethod
     def inertia(self, joint: str) -> tuple[Node, Node]:
         """The acceleration of a node and its change with the new position."""
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """The nodes whose motion is solved for."""
+        return self.topology.unknown
 
     def load(self, joint: str) -> Node:
         """The force that is known to act on a node."""
@@ -151,14 +160,23 @@ class Balance(ABC):
             DONE: where(done | near, 1.0, 0.0),
         }
 
+    @property
+    def mounted(self) -> tuple[str, ...]:
+        """Those of them that a fixture carries."""
+        return tuple(inner for inner in self.topology.mounts.values() if inner in self.unknown)
+
     def missing(self) -> dict[str, Node]:
         """The force upwards that every unknown node still lacks to move as it does."""
-        return {joint: self.load(joint) - self.carried(joint) for joint in self.topology.unknown}
+        return {joint: self.load(joint) - self.carried(joint) for joint in self.unknown}
 
     def newton(self, missing: Mapping[str, Node], tangents: Sequence[Node]) -> dict[str, Node]:
         """Newton's way of every unknown node, by the ``tangents`` of all edges."""
-        mounts = {inner: Mount(GIVES_WAY, -self._next(inner)) for inner in self.topology.mounts.values()}
+        mounts = {inner: self.mount(inner) for inner in self.mounted}
         return solve_symmetric(self._matrix(tangents), missing, mounts)
+
+    def mount(self, inner: str) -> Mount:
+        """How a fixture holds what it carries."""
+        return Mount(GIVES_WAY, -self._next(inner))
 
     def arrived(self, distance: Node) -> Node:
         """Whether Newton's method ends with a step of this distance.
@@ -171,11 +189,22 @@ class Balance(ABC):
         """What else is known when the unknown nodes have made these moves."""
         return {}
 
+    def way(self, edge: Edge, moves: Mapping[str, Node]) -> Node:
+        """What moves of the unknown nodes add to the deflection of an edge."""
+        return self.difference(edge, lambda joint: moves.get(joint, ZERO))
+
+    def moved_forces(self, moves: Mapping[str, Node]) -> list[Node]:
+        """The forces of all edges after moves of the unknown nodes, by their tangents."""
+        return [
+            force + tangent * self.way(edge, moves)
+            for edge, force, tangent in zip(self.topology.edges, self.forces, self.tangents, strict=True)
+        ]
+
     def _next(self, joint: str) -> Node:
         return symbol(row_of(joint, "next"))
 
     def _matrix(self, tangents: Sequence[Node]) -> dict[str, dict[str, Node]]:
-        unknown = self.topology.unknown
+        unknown = self.unknown
         rows: dict[str, dict[str, Node]] = {joint: {joint: ZERO} for joint in unknown}
         for joint in unknown:
             mass = self.mass(joint)
@@ -215,65 +244,6 @@ class Balance(ABC):
     def offset(edge: Edge) -> Node:
         """The deflection of an edge whose nodes stand at zero."""
         return symbol(edge.offset) if edge.offset else ZERO
-
-
-class Still(Balance):
-    """The static equilibrium: nothing moves, no branch has a memory.
-
-    Where all that gives way is a fixture, a law without a memory sees the first motion of the drive, as it does where
-    the fixture is rigid.
-    """
-
-    def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
-        prompt = set(topology.unknown) == set(topology.mounts.values()) != set()
-        self.prompt = {law.name for law in laws if prompt and not law.states}
-        super().__init__(topology, laws)
-
-    def velocity(self, joint: str) -> Node:
-        """Unknown nodes begin at rest, driven ones as they are driven, and so what they carry."""
-        known = self.known(joint, "velocity_new")
-        return self.carrier(joint, "velocity_new") if known is None else known
-
-    def motion(self, edge: Edge) -> Mapping[str, Node]:
-        place = self.difference(edge, self.position) + self.offset(edge)
-        return {"edge.new": place, **self._rest(place), **self._rates(edge)}
-
-    def _rates(self, edge: Edge) -> dict[str, Node]:
-        if edge.branch.name not in self.prompt:
-            return {}
-        speed = self.difference(edge, self.velocity)
-        return {"edge.velocity_old": speed, "edge.velocity_new": speed,
-                "edge.acceleration": self.difference(edge, self._acceleration)}  # fmt: skip
-
-    def _acceleration(self, joint: str) -> Node:
-        known = self.known(joint, "acceleration")
-        return self.carrier(joint, "acceleration") if known is None else known
-
-    def _rest(self, place: Node) -> dict[str, Node]:
-        memory = {name: ZERO for law in self.laws for name in law.states}
-        return {"edge.old": place, **{f"edge.{rate}": ZERO for rate in RATES}, **memory}
-
-    def tangent(self, force: Node) -> Node:
-        return derive(replaced(force, self._rest(symbol("edge.new"))), "edge.new")
-
-    def inertia(self, joint: str) -> tuple[Node, Node]:
-        return ZERO, ZERO
-
-    def start(self) -> dict[str, Node]:
-        """All unknown nodes in the middle of the known ones."""
-        driven = [symbol(driven_symbol(joint, "new")) for joint in self.topology.held("driven")]
-        middle = sum(driven, ZERO) / float(max(len(driven), 1))
-        carried = self.topology.mounts.values()
-        first = {row_of(joint, "next"): ZERO if joint in carried else middle for joint in self.topology.unknown}
-        return {**first, DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
-
-    def rest(self) -> dict[str, Node]:
-        """At rest in equilibrium."""
-        rows: dict[str, Node] = {name: ZERO for law in self.laws for name in law.states}
-        for joint in self.topology.unknown:
-            rows |= {row_of(joint, key): ZERO for key in _KEPT}
-            rows |= {row_of(joint, key): self._next(joint) for key in ("position", "position_before")}
-        return {**rows, **self.outputs()}
 
 
 class Moving(Balance):
@@ -321,7 +291,7 @@ class Moving(Balance):
         """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""
         rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER, LINES: ZERO}
         for joint in self.topology.unknown:
-            x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in _KEPT)
+            x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in KEPT)
             rows[row_of(joint, "drift")] = NOW * x + BEFORE * earlier + SWING * v
             rows[row_of(joint, "swing")] = NOW * v + BEFORE * slower + SWING * a
             rows[row_of(joint, "next")] = self.guess(joint)
@@ -342,15 +312,14 @@ class Moving(Balance):
 
         A lane that is done stays as it is.
         """
-        ways = [self.difference(edge, lambda joint: moves.get(joint, ZERO)) for edge in self.topology.edges]
-        forces = [force + tangent * way for force, tangent, way in zip(self.forces, self.tangents, ways, strict=True)]
-        found = self.outputs(forces)
+        found = self.outputs(self.moved_forces(moves))
         for joint, inner in self.topology.mounts.items():
             mass = self.mass(inner)
             if mass is not ZERO:
                 row = force_row(joint)
                 found[row] = found[row] + mass * self.inertia(inner)[1] * moves[inner]
-        for edge, law, way in zip(self.topology.edges, self.laws, ways, strict=True):
+        for edge, law in zip(self.topology.edges, self.laws, strict=True):
+            way = self.way(edge, moves)
             for name, node in law.states.items():
                 found[name] = self.along(edge, node) + self.along(edge, self.tangent(node)) * way
         done = symbol(DONE) > 0.5

@@ -1,6 +1,7 @@
 """The program of a network with unknown nodes.
 
-The equilibrium is found first: ``start``, then ``settle`` until every lane is done, then ``rest``. Then every sample is
+The equilibrium is found first: ``start``, then ``settle`` until every lane is done, then ``rest``; the first sample is
+``launch`` until every lane is done, then ``set_off``. Then every sample is
 reached twice, in few long steps and in twice as many short ones: their difference tells the error and takes its leading
 term away (Richardson). A step is ``predict``, then ``improve`` until every lane is done, ``search`` for those that it
 leaves, then ``commit``.

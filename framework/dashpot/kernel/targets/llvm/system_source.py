@@ -49,6 +49,8 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
         _call(a, "start", "%still", space)
         _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, done, vectors)
         _call(a, "rest", "%still", space)
+        _newton(a, "launch", "%still", space, MOST_PLACES, None, done, vectors)
+        _call(a, "set_off", "%still", space)
     with a.loop(0, "%samples") as k:
         with a.when(a.new(f"icmp sgt i64 {k}, 0")):
             for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):

@@ -130,6 +130,7 @@ def print_system(system: SystemProgram) -> str:
         with code.function("nothing", f"{name}_", SYSTEM_PASS, f"Pass '{name}'."):
             _write_system_pass(code, layout)
     _write_newton(code, system, "settle", MOST_STATIC_STEPS, UNBALANCED)
+    _write_newton(code, system, "launch", MOST_PLACES)
     _write_newton(code, system, "improve", MOST_STEPS)
     _write_newton(code, system, "search", MOST_PLACES, UNSOLVED)
     with code.function("nothing", "run", SYSTEM, "All lanes."), code.loop("l", 0, "asked"), _own_memory(code):
@@ -179,6 +180,8 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
         code.do(f"start_(still, {place})")
         code.do(f"settle(still, {place}, status, l)")
         code.do(f"rest_(still, {place})")
+        code.do(f"launch(still, {place}, status, l)")
+        code.do(f"set_off_(still, {place})")
     with code.loop("k", 0, "samples"):
         with code.when("k > 0"):
             for o, columns, count in ((0, "coarse", "per"), (system.rows, "fine", "2 * per")):

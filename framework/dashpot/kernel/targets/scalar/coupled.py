@@ -38,6 +38,7 @@ def write_coupled(code: Code, online: Online) -> None:
         with code.function("nothing", f"{name}_", COURSE, f"Pass '{name}' on the workspace that begins at w."):
             storing(code, online, _moved(layout), _leaf(code, online, layout))
     _write_newton(code, online.system, "settle", MOST_STATIC_STEPS, UNBALANCED)
+    _write_newton(code, online.system, "launch", MOST_PLACES)
     _write_newton(code, online.system, "improve", MOST_STEPS)
     _write_newton(code, online.system, "search", MOST_PLACES, UNSOLVED)
     _write_path(code)
@@ -155,8 +156,8 @@ def _write_rule(code: Code, online: Online) -> None:
 
 def _begin(code: Code, online: Online) -> None:
     assert online.system is not None
-    for name in ("slope", "now", "before", "swing"):
-        _give(code, online, f"rule.{name}", "0.0")
+    for name, value in (("slope", "1.0 / dt"), ("now", "0.0"), ("before", "0.0"), ("swing", "0.0")):
+        _give(code, online, f"rule.{name}", value)
     _give(code, online, "dt", "dt")
     _give(code, online, "newton.tolerance", f"{TOLERANCE} * s[{SPAN}]")
     _give(code, online, "newton.farthest", f"{FARTHEST} * s[{SPAN}]")
@@ -164,7 +165,7 @@ def _begin(code: Code, online: Online) -> None:
         code.set(f"s[{online.before} + k]", f"s[{INPUTS} + k]")
     code.do("move(s, 1.0, 1.0, dt)")
     for start in online.courses:
-        for name in ("start_", "settle", "rest_"):
+        for name in ("start_", "settle", "rest_", "launch", "set_off_"):
             code.do(f"{name}(s, {start})")
     code.set(f"s[{BEGUN}]", "1.0")
 
