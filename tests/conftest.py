@@ -1,9 +1,42 @@
-"""What all tests share: examples of hypothesis are the same in every run, unless DRAW_SEEDS is set."""
+"""What all tests share: seeds, and examples of hypothesis, are the same in every run but in ``pytest -m random``."""
+
+from __future__ import annotations
 
 import os
+import secrets
+from collections.abc import Iterator
 
+import pytest
+import seeds
 from hypothesis import settings
 
 settings.register_profile("fixed", derandomize=True)
-settings.register_profile("drawn", derandomize=False)
-settings.load_profile("drawn" if os.environ.get("DRAW_SEEDS") else "fixed")
+settings.register_profile("drawn", derandomize=False, print_blob=True)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getoption("markexpr") == "random":
+        os.environ.setdefault("DRAW_SEEDS", str(secrets.randbits(32)))
+    settings.load_profile("drawn" if os.environ.get("DRAW_SEEDS") else "fixed")
+
+
+def pytest_report_header() -> str | None:
+    drawn = os.environ.get("DRAW_SEEDS")
+    return f"seeds drawn anew: DRAW_SEEDS={drawn} repeats them" if drawn else None
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        module = getattr(item, "module", None)
+        if not item.get_closest_marker("slow") and (hasattr(module, "seed_of") or hasattr(module, "given")):
+            item.add_marker(pytest.mark.random)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
+    report = yield
+    if report.failed:
+        # also what was drawn when the module was imported
+        module = getattr(item, "module", None)
+        report.sections.append(("seeds", "\n".join(dict.fromkeys(seeds.DRAWN[getattr(module, "__name__", "")]))))
+    return report

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from conformance import broken_elements as broken
+from seeds import seed_of
 
 from dashpot import load_registry
 from dashpot.testing import (
@@ -58,14 +59,14 @@ CAUGHT = [
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__.removeprefix("check_"))
 @pytest.mark.parametrize("word", ELEMENTS)
 def test_an_installed_element_conforms(word, check):
-    check(ELEMENTS[word])
+    check(ELEMENTS[word], seed_of(f"{word} {check.__name__}"))
 
 
 def test_the_element_of_the_example_plugin_conforms(monkeypatch):
     monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "example_plugin"))
     from dashpot_example.soft_slider import SoftSlider
 
-    check_element(SoftSlider)
+    check_element(SoftSlider, seed_of("soft_slider"))
     for name in [name for name in sys.modules if name.startswith("dashpot_example")]:
         del sys.modules[name]
 
@@ -73,7 +74,7 @@ def test_the_element_of_the_example_plugin_conforms(monkeypatch):
 @pytest.mark.parametrize(("check", "element", "found"), CAUGHT, ids=lambda value: getattr(value, "__name__", ""))
 def test_a_broken_element_is_caught_by_the_check_that_is_for_it(check, element, found):
     with pytest.raises(ConformanceError, match=found) as caught:
-        check(element)
+        check(element, seed_of(element.__name__))
     assert f"element '{element.word}'" in str(caught.value)
     assert element.__qualname__ in str(caught.value)
 
@@ -91,7 +92,7 @@ def checks_in(error):
 
 def test_all_faults_of_an_element_are_told_at_once():
     with pytest.raises(ConformanceError) as caught:
-        check_element(broken.Hiding)
+        check_element(broken.Hiding, seed_of("Hiding"))
     assert checks_in(caught.value) == ["visibility"]
     with pytest.raises(ConformanceError) as caught:
         check_element(broken.TimeBlind, seed=1)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import secrets
 import signal
 import sys
 import time
@@ -14,6 +13,7 @@ import numpy as np
 import pytest
 from fuzz.mutate import mutated
 from fuzz.sound_files import WORDS, sound_files
+from seeds import seed_of
 
 from dashpot.contract.reader import ReadingError, Table
 from dashpot.contract.registry import load_registry
@@ -110,7 +110,7 @@ def check(word, count, folder, monkeypatch):
         library, extra = LIBRARIES[word]
         pytest.importorskip(library, reason=f"needs dashpot[{extra}]")
     monkeypatch.setattr(apart, "TIME_LIMIT", SECONDS / 2)
-    seed = secrets.randbits(32)
+    seed = seed_of(f"test_readers {word}")
     found, seconds, megabytes = fuzz(word, count, seed, folder)
     broken = sum(n for message, n in found.items() if "brings down" in message or "took more" in message)
     print(f"{word}: seed {seed}, {found['table']} of {count} read, {broken} crashed or hung the other process, "
@@ -140,8 +140,7 @@ def test_every_reader_has_its_sound_files():
 
 @pytest.mark.parametrize("word", ["csv", "rpc", "tydex", "npz"])
 def test_a_dataset_over_damaged_files_is_read_or_told(tmp_path, word):
-    seed = secrets.randbits(32)
-    print("seed", seed)
+    seed = seed_of(f"test_readers {word}")
     chance, suffix = random.Random(seed), READERS[word].suffixes[0]
     (tmp_path / "dataset.yaml").write_text(DATASET.format(word=word, suffix=suffix))
     sound = sound_files(word, tmp_path)
@@ -158,8 +157,7 @@ def test_a_dataset_over_damaged_files_is_read_or_told(tmp_path, word):
 @pytest.mark.parametrize("word", ["csv", "json", "npz", "rpc"])
 def test_damaged_files_are_imported_or_told(tmp_path, word):
     """What is imported can be read as a dataset, or that tells what is wrong."""
-    seed = secrets.randbits(32)
-    print("seed", seed)
+    seed = seed_of(f"test_readers {word}")
     chance, suffix = random.Random(seed), READERS[word].suffixes[0]
     sound = sound_files(word, tmp_path)
     for number in range(40):

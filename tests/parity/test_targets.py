@@ -10,7 +10,7 @@ from parity.c_library import Library
 from parity.random_networks import draw_network
 from seeds import seed_of
 from verification.shipped import NAMES, Dice, filled
-from verification.systems import shipped
+from verification.systems import shipped, system
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
@@ -161,6 +161,18 @@ def stepped(spec: NetworkSpec, drive: Drive, values: np.ndarray) -> int:
     for x, v in zip(drive.displacement, drive.velocity, strict=True):
         solver.step_nodes(state, np.array([x]), np.array([v]), nothing, drive.dt, values, out)
     return int(solver.status(state))
+
+
+def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
+    network = system("", "leg: {series: {k: {element: spring, stiffness: 900 N/mm}, "
+                         "c: {element: coulomb, limit: 60 N, creep_velocity: 1e-6 m/s}}}")  # fmt: skip
+    drive = random_drive(np.random.default_rng(seed_of("stiff friction")), "multisine", 3e-3, 0.02, 200, 1e-3)
+    expected = network.solve(network.prepare(drive))
+    assert expected.status == (Status.GOOD,)
+    outputs, status = Library.build(network.spec, tmp_path).along([drive], network.start)
+    assert status == 0 and error(outputs[:, 0], expected.force[0, 0]) <= 1e-6
+    assert error(jitted(network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
+    assert error(on_numba(monkeypatch, network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
 
 
 def test_an_unknown_backend_is_told(monkeypatch):

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.smoothing import smooth_path
-from dashpot.data.white_noise import white_noise
+from dashpot.data.smoothing import gains, half_width, sensor_noise, smooth_path
 
 Array = NDArray[np.float64]
 
-FEWEST = 25  # samples that are smoothed
+FEWEST = 25  # samples that are smoothed, if that is asked for
 NOISE_OF_SPAN = 1e-6
 
 
@@ -71,13 +70,16 @@ def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleratio
 def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = None) -> Drive:
     """The drive of a measured displacement.
 
-    Rates come from the interpolating quintic spline where the samples are clean, and from local polynomials, which also
-    replace the displacement, where the sensor is noisy; ``smooth`` decides it by hand.
+    Rates come from the interpolating quintic spline where the samples are clean, or the motion too fast to be smoothed,
+    and from local polynomials, which also replace the displacement, where the sensor is noisy; ``smooth`` decides it by
+    hand.
     """
     x = np.ascontiguousarray(displacement, dtype=float)
-    noise = 0.0 if smooth is False else white_noise(x)
-    if x.size > FEWEST and (smooth or noise > NOISE_OF_SPAN * np.ptp(x)):
-        return drive_from_path(dt, *smooth_path(dt, x, noise))
+    if smooth is not False and x.size > FEWEST:
+        noise = sensor_noise(x)
+        half = half_width(x, noise)
+        if smooth or (noise > NOISE_OF_SPAN * np.ptp(x) and gains(x, noise, half)):
+            return drive_from_path(dt, *smooth_path(dt, x, half))
     from scipy.interpolate import make_interp_spline
 
     time = dt * np.arange(x.size)

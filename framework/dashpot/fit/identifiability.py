@@ -12,7 +12,7 @@ from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise
+from dashpot.fit.refine import linearise, unmoved
 
 Array = NDArray[np.float64]
 
@@ -59,17 +59,21 @@ class Direction:
 @dataclass(frozen=True)
 class Identifiability:
     """``condition`` of the Fisher information in natural steps; ``deviations`` (path -> standard deviation, natural
-    steps); ``loose`` directions, the worst first; ``idle`` numbers, which the data do not feel."""
+    steps); ``loose`` directions, the worst first; ``idle`` numbers, which the data do not feel; ``unsolved`` numbers,
+    around which the network is not solved."""
 
     condition: float
     deviations: dict[str, float]
     loose: tuple[Direction, ...]
     idle: tuple[str, ...]
+    unsolved: tuple[str, ...] = ()
 
     @property
     def sentences(self) -> list[str]:
         """Everything that is not well known, in words."""
-        idle = [f"{number_in_words(path)} has no influence on these data" for path in self.idle]
+        idle = [f"{number_in_words(path)} could not be moved: the network is not solved around its value"
+                for path in self.unsolved]  # fmt: skip
+        idle += [f"{number_in_words(path)} has no influence on these data" for path in self.idle]
         more = len(self.loose) - SHOWN
         rest = [f"{more} more combinations are weakly determined"] if more > 0 else []
         return idle + [direction.words for direction in self.loose[:SHOWN]] + rest
@@ -90,13 +94,15 @@ def identifiability(
     ``objective`` may weigh runs but not whiten them.
     """
     _, jacobian = linearise(objective, coordinates, point)
+    unsolved = unmoved(jacobian)
+    jacobian[unsolved] = 0.0
     size = np.sqrt(np.sum(jacobian**2, axis=1))
-    idle = size < FELT * max(size.max(initial=0.0), 1e-300)
-    felt = np.flatnonzero(~idle)
+    idle = ~unsolved & (size < FELT * max(size.max(initial=0.0), 1e-300))
+    felt = np.flatnonzero(~idle & ~unsolved)
     paths = [coordinates.paths[k] for k in felt]
-    idle_paths = tuple(np.array(coordinates.paths)[idle].tolist())
+    idle_paths, unsolved_paths = (tuple(np.array(coordinates.paths)[which].tolist()) for which in (idle, unsolved))
     if not felt.size:
-        return Identifiability(1.0, {}, (), idle_paths)
+        return Identifiability(1.0, {}, (), idle_paths, unsolved_paths)
     axes, lengths, rows = np.linalg.svd(jacobian[felt] / size[felt, None], full_matrices=False)
     scores = sum(objective.factor(number) ** 2 * variance_of(rows[:, piece], noise[run.name])
                  for number, (run, piece) in enumerate(zip(objective.runs, objective.pieces, strict=True)))  # fmt: skip
@@ -110,6 +116,7 @@ def identifiability(
         dict(zip(paths, np.sqrt(np.diag(covariance)).tolist(), strict=True)),
         tuple(direction for direction in loose if direction.deviation > WEAK),
         idle_paths,
+        unsolved_paths,
     )
 
 

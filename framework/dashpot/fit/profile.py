@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, refine
+from dashpot.fit.refine import linearise, refine, unmoved
 from dashpot.fit.uncertainty import assess_uncertainty
 
 Array = NDArray[np.float64]
@@ -71,7 +71,11 @@ class _Climb:
         self.objective, self.coordinates, self.point, self.number = objective, coordinates, point, number
         self.loss = float(objective.losses(coordinates.to_values(point))[0])
         _, jacobian = linearise(objective, coordinates, point)
+        jacobian[unmoved(jacobian)] = 0.0
         naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
+        if not naive > 0.0:
+            # nothing is known of the number: half its range is to be walked at once
+            naive = ((coordinates.high - coordinates.low) / coordinates.unit)[number] ** 2 / WIDEST**2
         width = float(assess_uncertainty(objective, coordinates, point, noise=noise).widths[number])
         self.limit = min(width / np.sqrt(naive), WIDEST)
         self.pace = PACE * self.limit * np.sqrt(naive) * coordinates.unit[number]

@@ -90,17 +90,23 @@ def refine(
 def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
     """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates.
 
-    A coordinate that cannot be moved one way is moved the other way; a row that neither gives is not finite.
+    A coordinate that cannot be moved one way is moved the other way; a row that neither gives is not finite, see
+    ``unmoved``.
     """
     shifts = STEP * coordinates.unit
     shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
     residual, changes = _changes(objective, coordinates, point, shifts)
-    unsolved = ~np.isfinite(changes).all(axis=1) & (point - np.abs(shifts) >= coordinates.low)
+    unsolved = unmoved(changes) & (point - np.abs(shifts) >= coordinates.low)
     if unsolved.any():
         shifts = np.where(unsolved, -shifts, shifts)
         changes[unsolved] = _changes(objective, coordinates, point, shifts)[1][unsolved]
     changes *= (coordinates.unit / shifts)[:, None]
     return residual, changes
+
+
+def unmoved(jacobian: Array) -> NDArray[np.bool_]:
+    """Which coordinates (p,) could not be moved either way: around them the network is not solved."""
+    return ~np.isfinite(jacobian).all(axis=1)
 
 
 def _changes(objective: Objective, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise
+from dashpot.fit.refine import linearise, unmoved
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ def assess_uncertainty(
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
     """
     residual, jacobian = linearise(objective, coordinates, point)
-    unsolved = ~np.isfinite(jacobian).all(axis=1)
+    unsolved = unmoved(jacobian)
     jacobian[unsolved] = 0.0
     normal = jacobian @ jacobian.T
     scale = np.sqrt(np.diag(normal))

@@ -228,7 +228,8 @@ class CompiledSystem(Compiled[SystemRows]):
         return self._columns({**seen, **self._newton(excitation)}, count)
 
     def _still(self, excitation: Excitation) -> dict[str, float]:
-        seen = {f"rule.{key}": 0.0 for key in ("slope", "now", "before", "swing")} | self._newton(excitation)
+        seen = {f"rule.{key}": 0.0 for key in ("now", "before", "swing")} | self._newton(excitation)
+        seen["rule.slope"] = 1.0 / excitation.dt
         for joint in self.outputs:
             motion = excitation.motions[joint]
             place, speed = float(motion.displacement[0]), float(motion.velocity[0])

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
+from seeds import seed_of
 
 from dashpot.data.axle_curves import SlowAxle, axle_curves, behind_tire, end_bias, slow_curve
 from dashpot.data.loop import mean_loop
@@ -18,8 +17,7 @@ LOOPS = np.interp(np.arange(6001) % 2000, [0, 500, 1500, 2000], [0.0, 0.03, -0.0
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_axle_curves")
     return np.random.default_rng(seed)
 
 

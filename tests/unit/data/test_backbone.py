@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
+from seeds import seed_of
 
 from dashpot.data.backbone import (
     backbone_force,
@@ -23,8 +22,7 @@ SLIDERS = ((61.454, 7.807e-3), (79.164, 0.551e-3))
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_backbone")
     return np.random.default_rng(seed)
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 from scipy.signal import butter, lfilter, sosfiltfilt
+from seeds import seed_of
 
 from dashpot.data.alignment import lag_between, shifted_by
 from dashpot.data.noise import (
@@ -30,8 +29,7 @@ TURN = 2.0 * np.pi
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_noise")
     return np.random.default_rng(seed)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -11,6 +9,7 @@ from hypothesis import strategies as some
 from scipy.integrate import solve_ivp
 from scipy.signal import butter, lfilter, sosfiltfilt
 from scipy.special import ive
+from seeds import seed_of
 
 from dashpot.data.average import average_bands, average_directions, split_directions
 from dashpot.data.order_tracking import dynamic_stiffness, follow, harmonics_of
@@ -25,8 +24,7 @@ SINE, COSINE, OMEGA = np.sin(TURN * 5.0 * STEADY), np.cos(TURN * 5.0 * STEADY), 
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_order_tracking")
     return np.random.default_rng(seed)
 
 

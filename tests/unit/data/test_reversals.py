@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as some
+from seeds import seed_of
 
 from dashpot.data.reversals import noise_threshold, strokes, turning_points, typical_swing
 
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_reversals")
     return np.random.default_rng(seed)
 
 

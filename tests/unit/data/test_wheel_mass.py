@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
 import pytest
+from seeds import seed_of
 
 from dashpot.data.wheel_mass import WheelRun, wheel_mass
 
@@ -18,8 +17,7 @@ SPRING, DAMPING = 25e3, 1800.0
 
 @pytest.fixture
 def random() -> np.random.Generator:
-    seed = int.from_bytes(os.urandom(4))
-    print(f"seed {seed}")
+    seed = seed_of("test_wheel_mass")
     return np.random.default_rng(seed)
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from unit.fit.bench import DT, KELVIN_VOIGT, ready, run, runs
 
+from dashpot.fit import identifiability as module
+from dashpot.fit import refine
 from dashpot.fit.identifiability import Direction, identifiability, number_in_words
 from dashpot.fit.noise_of_runs import white
 
@@ -49,6 +51,22 @@ def test_what_is_not_felt_is_named():
     known = told(far, runs())
     assert known.idle == ("far.stiffness[2]",)
     assert known.sentences == ["stiffness[2] of far has no influence on these data"]
+
+
+def test_what_cannot_be_moved_is_named_and_the_others_are_known(monkeypatch):
+    whole = told(KELVIN_VOIGT, runs())
+
+    def linearise(*asked):
+        residual, jacobian = refine.linearise(*asked)
+        jacobian[list(whole.deviations).index("oil.damping"), 7:] = np.nan
+        return residual, jacobian
+
+    monkeypatch.setattr(module, "linearise", linearise)
+    known = told(KELVIN_VOIGT, runs())
+    assert known.unsolved == ("oil.damping",) and known.idle == ()
+    assert "damping of oil could not be moved: the network is not solved around its value" in known.sentences
+    assert list(known.deviations) == ["rubber.stiffness"]
+    assert 0.0 < known.deviations["rubber.stiffness"] <= whole.deviations["rubber.stiffness"]
 
 
 def test_twice_the_noise_is_twice_the_deviation():

@@ -7,7 +7,8 @@ from unit.kernel.networks import ELEMENTS
 
 from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
-from dashpot.kernel.compiler.mechanics import DISTANCE, Equations, force_row, reached_row, row_of, write_equations
+from dashpot.kernel.compiler.equations import Equations, write_equations
+from dashpot.kernel.compiler.mechanics import DISTANCE, force_row, reached_row, row_of
 from dashpot.model.reading import parse_network
 from dashpot.model.topology import topology_of
 
@@ -50,15 +51,16 @@ MOVING = {
 
 
 def test_the_platform_feels_the_spring_and_its_offset_where_newtons_step_leads_to():
-    rows = equations().improve
+    rows = equations().passes["improve"]
     step = value(rows, row_of("block", "next"), **KEPT) - 0.004
     # 50 N/m (0.01 m - 0.004 m - step + 0.02 m)
     assert value(rows, reached_row(force_row("table")), **KEPT) == pytest.approx(50.0 * (0.026 - step))
 
 
 def test_a_finished_lane_keeps_what_it_reached():
-    assert value(equations().improve, reached_row(force_row("table")), **KEPT, **{"newton|done": 1.0}) == 123.0
-    assert value(equations().commit, force_row("table"), **KEPT) == 123.0
+    passes, finished = equations().passes, {"newton|done": 1.0}
+    assert value(passes["improve"], reached_row(force_row("table")), **KEPT, **finished) == 123.0
+    assert value(passes["commit"], force_row("table"), **KEPT) == 123.0
 
 
 def test_newtons_step_solves_a_linear_balance_at_once():
@@ -67,23 +69,23 @@ def test_newtons_step_solves_a_linear_balance_at_once():
     # m (a + g) = k (z_P - z + offset) - d v, all linear in z
     missing = 50.0 * 0.026 - 7.0 * velocity - 4.0 * (acceleration + 9.81)
     step = missing / (50.0 + 7.0 * slope + 4.0 * slope**2)
-    rows = equations().improve
+    rows = equations().passes["improve"]
     assert value(rows, row_of("block", "next")) == pytest.approx(0.004 + step)
     assert value(rows, DISTANCE) == pytest.approx(abs(step))
 
 
 def test_a_step_is_no_longer_than_the_farthest():
-    rows = equations().improve
+    rows = equations().passes["improve"]
     near = value(rows, row_of("block", "next"), **{"newton.farthest": 1e-4})
     assert abs(near - 0.004) == pytest.approx(1e-4)
 
 
 def test_a_finished_lane_stays():
-    assert value(equations().improve, row_of("block", "next"), **{"newton|done": 1.0}) == 0.004
+    assert value(equations().passes["improve"], row_of("block", "next"), **{"newton|done": 1.0}) == 0.004
 
 
 def test_a_step_that_was_kept_short_and_came_nearer_does_not_count_as_stalled():
-    rows, far = equations().improve, {"newton.farthest": 1e-4}
+    rows, far = equations().passes["improve"], {"newton.farthest": 1e-4}
     distance = value(rows, DISTANCE)
     grown = value(rows, "newton|damping", **far, **{"newton|distance": distance + 1e-4, "newton|damping": 0.5})
     stalled = value(rows, "newton|damping", **far, **{"newton|distance": distance, "newton|damping": 0.5})
@@ -91,14 +93,14 @@ def test_a_step_that_was_kept_short_and_came_nearer_does_not_count_as_stalled():
 
 
 def test_the_prediction_goes_on_with_velocity_and_acceleration():
-    rows = equations().predict
+    rows = equations().passes["predict"]
     assert value(rows, row_of("block", "next")) == pytest.approx(0.001 + 0.1 * (0.03 + 0.05 * 0.4))
     assert value(rows, row_of("block", "drift")) == pytest.approx(-20.0 * 0.001 - 1.0 * 0.03)
     assert value(rows, row_of("block", "swing")) == pytest.approx(-20.0 * 0.03 - 1.0 * 0.4)
 
 
 def test_at_rest_only_springs_and_weights_count():
-    rows = equations().settle
+    rows = equations().passes["settle"]
     step = (50.0 * 0.026 - 4.0 * 9.81) / 50.0
     assert value(rows, row_of("block", "next")) == pytest.approx(0.004 + step)
     others = {"top.damping": 1e9, "rule.slope": 7.0, "dt": 3.0}
@@ -109,7 +111,7 @@ def test_nodes_inside_a_series_are_unknown_and_have_no_mass():
     rows = equations("""
 branches:
   leg: {series: {a: {element: spring, stiffness: 50 N/m}, b: {element: damper, damping: 7 N*s/m}}}
-""").improve
+""").passes["improve"]
     assert row_of("leg:1", "next") in rows
     assert not any("mass" in name for name in symbols_of(rows[row_of("leg:1", "next")]))
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import secrets
-
 import numpy as np
 import pytest
+from seeds import seed_of
 
 from dashpot.contract.optimizer import Optimizer, Space, losses_of
 from dashpot.contract.registry import load_registry
@@ -54,8 +52,7 @@ def test_finds_the_bottom_of_a_bowl(word: str) -> None:
 
 @pytest.mark.parametrize("word", WORDS)
 def test_same_seed_gives_the_same_bits_even_when_used_again(word: str) -> None:
-    seed = int(os.environ.get("DASHPOT_TEST_SEED", secrets.randbits(32)))
-    print(f"DASHPOT_TEST_SEED={seed}")
+    seed = seed_of(f"test_promises {word}")
     first, again, used = Bench(), Bench(), Bench()
     optimizer = make(word)
     first.run(optimizer, seed=seed)

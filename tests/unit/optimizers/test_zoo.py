@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-import os
-import secrets
 from collections.abc import Callable
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from zoo.problems import ZOO, evaluations_to_goal
 
 from dashpot.contract.registry import load_registry
@@ -37,15 +36,9 @@ def fewest(trials: int, rate: float, risk: float) -> int:
     return int(np.count_nonzero(below <= risk))
 
 
-def seed_of_this_run() -> int:
-    seed = int(os.environ.get("DASHPOT_TEST_SEED", secrets.randbits(32)))
-    print(f"DASHPOT_TEST_SEED={seed}")
-    return seed
-
-
 @pytest.mark.parametrize(("word", "problem", "rate"), CLAIMS)
 def test_success_is_as_frequent_as_claimed(word: str, problem: str, rate: float) -> None:
-    first = seed_of_this_run()
+    first = seed_of(f"{word} on {problem}")
     spent = [evaluations_to_goal(word, problem, [first, number], BUDGET) for number in range(TRIALS)]
     reached = sum(np.isfinite(spent))
     print(f"{word} on {problem}: {reached} of {TRIALS}, median {np.median(spent):.0f} evaluations")
@@ -63,7 +56,7 @@ def test_every_built_in_optimizer_makes_a_claim() -> None:
 
 
 def test_least_squares_needs_a_tenth_of_the_evaluations_of_a_swarm() -> None:
-    first = seed_of_this_run()
+    first = seed_of("least squares and a swarm")
     swarm, squares = (
         np.median([evaluations_to_goal(word, "relaxation", [first, number], BUDGET) for number in range(9)])
         for word in ("pso", "least_squares")
@@ -73,7 +66,7 @@ def test_least_squares_needs_a_tenth_of_the_evaluations_of_a_swarm() -> None:
 
 @pytest.mark.parametrize("maker", ZOO.values(), ids=ZOO)
 def test_noise_floor_is_a_fraction_of_what_a_random_point_is_worth(maker: Callable) -> None:
-    rng = np.random.default_rng(seed_of_this_run())
+    rng = np.random.default_rng(seed_of(f"floor of {maker.__name__}"))
     problem = maker(rng)
     assert np.median(problem.losses(rng.random((200, problem.size)))) > 10.0 * problem.floor
 

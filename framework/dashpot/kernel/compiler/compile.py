@@ -13,15 +13,8 @@ from typing import Any
 
 from dashpot.expr.interpret import Recipe
 from dashpot.expr.node import Node, constant
-from dashpot.kernel.compiler.mechanics import (
-    DONE,
-    Equations,
-    Meter,
-    driven_symbol,
-    force_row,
-    row_of,
-    write_equations,
-)
+from dashpot.kernel.compiler.equations import Equations, write_equations
+from dashpot.kernel.compiler.mechanics import DONE, Meter, driven_symbol, force_row, row_of
 from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
 from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_network
 from dashpot.kernel.ir.layout import Layout, shelves_of
@@ -110,11 +103,9 @@ def _balanced(build: _Build, meter: Meter | None) -> SystemProgram:
 
 
 def _sort(equations: Equations, known: frozenset[str]) -> tuple[Program, dict[str, dict[str, Node]]]:
-    roots = [node for rows in equations.passes for node in rows.values()]
+    roots = [node for rows in equations.passes.values() for node in rows.values()]
     regroup = Regrouping(set(equations.rows), set(known), shared_nodes(roots))
-    names = ("start", "settle", "rest", "predict", "improve", "commit")
-    passes = {name: {row: regroup(node) for row, node in rows.items()}
-              for name, rows in zip(names, equations.passes, strict=True)}  # fmt: skip
+    passes = {name: {row: regroup(node) for row, node in rows.items()} for name, rows in equations.passes.items()}
     columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
     zero = constant(0.0)
     return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes

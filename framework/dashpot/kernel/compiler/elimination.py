@@ -11,7 +11,7 @@ import numpy as np
 from dashpot.expr.node import Node, constant, maximum
 
 # a pivot below this share of its row's own stiffness is noise of the subtraction, or a joint that nothing holds
-FLOOR, SMALLEST = 1e-12, 1e-9
+FLOOR, SMALLEST = 1e-12, 1e-3
 ZERO = constant(0.0)
 
 Matrix = Mapping[str, Mapping[str, Node]]

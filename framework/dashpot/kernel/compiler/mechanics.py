@@ -1,23 +1,15 @@
-"""The equations of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
+"""The mechanics of a network with unknown nodes, as graphs: kinematics, balance of forces, Newton's step.
 
 The unknowns are the new positions of the free nodes; that of a node on a fixture counts from the driven node that
 carries it, so that a fixture that does not give way adds nothing to the motion. Every edge answers its force and its
 new memory for a given motion of its two ends; the derivative of that force after the new position is the tangent that
-Newton's method needs. The equations come in passes, each a set of rows of the workspace and their new values:
-
-start    a first guess of the static equilibrium
-settle   Newton's step towards it
-rest     the motion and the memory with which the record begins
-predict  the part of a step that does not depend on the unknowns, and a first guess of them
-improve  Newton's step, and the new memory and what is measured where it leads to
-commit   the end of the step becomes the begin of the next one
+Newton's method needs.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import reduce
 from typing import Protocol
 
@@ -27,8 +19,7 @@ from dashpot.expr.derive import derive
 from dashpot.expr.node import Node, constant, maximum, minimum, symbol, where
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.compiler.elimination import ZERO, Mount, solve_symmetric
-from dashpot.kernel.compiler.own_tables import with_own_tables
-from dashpot.kernel.compiler.trace import RATES, TracedBranch, trace_along
+from dashpot.kernel.compiler.trace import TracedBranch
 from dashpot.model.topology import COMPLIANCE, Edge, Topology
 
 SMALLEST_DAMPING, NEARER = 1.0 / 64.0, 0.1
@@ -39,7 +30,9 @@ SLOPE, NOW, BEFORE, SWING = (symbol(f"rule.{key}") for key in ("slope", "now", "
 TOLERANCE, FARTHEST = symbol("newton.tolerance"), symbol("newton.farthest")
 GRAVITY, STEP, GIVES_WAY = symbol("gravity"), symbol("dt"), symbol(f"measurement.{COMPLIANCE}")
 # rows that belong to the whole network
-DONE, DAMPING, DISTANCE, NOTHING = (f"newton|{key}" for key in ("done", "damping", "distance", "nothing"))
+DONE, DAMPING, DISTANCE, LINES, NOTHING = (
+    f"newton|{key}" for key in ("done", "damping", "distance", "lines", "nothing")
+)
 RULE = ("rule.slope", "rule.now", "rule.before", "rule.swing", "newton.tolerance", "newton.farthest")
 MOVED = ("old", "new", "velocity_old", "velocity_new", "acceleration")
 
@@ -66,46 +59,7 @@ def reached_row(name: str) -> str:
     return f"{name}|reached"
 
 
-@dataclass(frozen=True)
-class Equations:
-    """The passes of a network; see the module. ``known`` are the symbols that the drive gives."""
-
-    start: Rows
-    settle: Rows
-    rest: Rows
-    predict: Rows
-    improve: Rows
-    commit: Rows
-    known: frozenset[str]
-
-    @property
-    def passes(self) -> tuple[Rows, ...]:
-        """All of them, in the order in which they run."""
-        return (self.start, self.settle, self.rest, self.predict, self.improve, self.commit)
-
-    @property
-    def rows(self) -> tuple[str, ...]:
-        """The names of all rows."""
-        return tuple(dict.fromkeys([NOTHING, *(name for rows in self.passes for name in rows)]))
-
-
-def write_equations(topology: Topology, meter: Meter | None = None) -> Equations:
-    """The equations of a network, and those of a meter that goes along."""
-    laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
-    known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
-    known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
-    still, moving = _Still(topology, laws), Moving(topology, laws)
-    rest, commit = still.rest(), moving.commit()
-    if meter:
-        rest, commit = {**rest, **meter.rest(still)}, {**commit, **meter.commit(moving)}
-    start, settle, rest, predict, improve, commit = (
-        with_own_tables(rows, NOTHING)
-        for rows in (still.start(), still.improve(), rest, moving.predict(), moving.improve(), commit)
-    )
-    return Equations(start, settle, rest, predict, improve, commit, frozenset(known))
-
-
-_KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
+KEPT = ("position", "velocity", "acceleration", "position_before", "velocity_before")
 
 
 class Meter(Protocol):
@@ -136,8 +90,17 @@ class Balance(ABC):
         """The change of a force with the new deflection."""
 
     @abstractmethod
+    def guess(self, joint: str) -> Node:
+        """Where the search for an unknown node begins."""
+
+    @abstractmethod
     def inertia(self, joint: str) -> tuple[Node, Node]:
         """The acceleration of a node and its change with the new position."""
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """The nodes whose motion is solved for."""
+        return self.topology.unknown
 
     def load(self, joint: str) -> Node:
         """The force that is known to act on a node."""
@@ -179,17 +142,13 @@ class Balance(ABC):
 
     def improve(self) -> dict[str, Node]:
         """Newton's step of all unknowns, damped where the last one did not get nearer; finished lanes stay."""
-        unknown = self.topology.unknown
-        missing = {joint: self.load(joint) - self.carried(joint) for joint in unknown}
-        mounts = {inner: Mount(GIVES_WAY, -self._next(inner)) for inner in self.topology.mounts.values()}
-        ways = solve_symmetric(self._matrix(), missing, mounts)
+        ways = self.newton(self.missing(), self.tangents)
         distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
         done, before, damping = symbol(DONE) > 0.5, symbol(DISTANCE), symbol(DAMPING)
         # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
         stalled = distance > before - NEARER * minimum(damping * before, FARTHEST)
         damped = where(stalled, maximum(0.5 * damping, SMALLEST_DAMPING), minimum(2.0 * damping, 1.0))
-        # what is not a number is not far: such a lane is finished, and its forces tell
-        near = np.logical_not(distance > TOLERANCE)
+        near = self.arrived(distance)
         share = where(near, 1.0, minimum(damped, FARTHEST / maximum(distance, FARTHEST)))
         moves = {joint: where(done, 0.0, share * way) for joint, way in ways.items()}
         after = {row_of(joint, "next"): self._next(joint) + move for joint, move in moves.items()}
@@ -201,20 +160,56 @@ class Balance(ABC):
             DONE: where(done | near, 1.0, 0.0),
         }
 
+    @property
+    def mounted(self) -> tuple[str, ...]:
+        """Those of them that a fixture carries."""
+        return tuple(inner for inner in self.topology.mounts.values() if inner in self.unknown)
+
+    def missing(self) -> dict[str, Node]:
+        """The force upwards that every unknown node still lacks to move as it does."""
+        return {joint: self.load(joint) - self.carried(joint) for joint in self.unknown}
+
+    def newton(self, missing: Mapping[str, Node], tangents: Sequence[Node]) -> dict[str, Node]:
+        """Newton's way of every unknown node, by the ``tangents`` of all edges."""
+        mounts = {inner: self.mount(inner) for inner in self.mounted}
+        return solve_symmetric(self._matrix(tangents), missing, mounts)
+
+    def mount(self, inner: str) -> Mount:
+        """How a fixture holds what it carries."""
+        return Mount(GIVES_WAY, -self._next(inner))
+
+    def arrived(self, distance: Node) -> Node:
+        """Whether Newton's method ends with a step of this distance.
+
+        What is not a number is not far: such a lane is finished, and its forces tell.
+        """
+        return np.logical_not(distance > TOLERANCE)
+
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """What else is known when the unknown nodes have made these moves."""
         return {}
 
+    def way(self, edge: Edge, moves: Mapping[str, Node]) -> Node:
+        """What moves of the unknown nodes add to the deflection of an edge."""
+        return self.difference(edge, lambda joint: moves.get(joint, ZERO))
+
+    def moved_forces(self, moves: Mapping[str, Node]) -> list[Node]:
+        """The forces of all edges after moves of the unknown nodes, by their tangents."""
+        return [
+            force + tangent * self.way(edge, moves)
+            for edge, force, tangent in zip(self.topology.edges, self.forces, self.tangents, strict=True)
+        ]
+
     def _next(self, joint: str) -> Node:
         return symbol(row_of(joint, "next"))
 
-    def _matrix(self) -> dict[str, dict[str, Node]]:
-        unknown = self.topology.unknown
+    def _matrix(self, tangents: Sequence[Node]) -> dict[str, dict[str, Node]]:
+        unknown = self.unknown
         rows: dict[str, dict[str, Node]] = {joint: {joint: ZERO} for joint in unknown}
         for joint in unknown:
             mass = self.mass(joint)
             rows[joint][joint] = ZERO if mass is ZERO else mass * self.inertia(joint)[1]
-        for edge, tangent in zip(self.topology.edges, self.tangents, strict=True):
+        for edge, tangent in zip(self.topology.edges, tangents, strict=True):
             ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
             for joint in ends:
                 rows[joint][joint] = rows[joint][joint] + tangent
@@ -249,65 +244,6 @@ class Balance(ABC):
     def offset(edge: Edge) -> Node:
         """The deflection of an edge whose nodes stand at zero."""
         return symbol(edge.offset) if edge.offset else ZERO
-
-
-class _Still(Balance):
-    """The static equilibrium: nothing moves, no branch has a memory.
-
-    Where all that gives way is a fixture, a law without a memory sees the first motion of the drive, as it does where
-    the fixture is rigid.
-    """
-
-    def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
-        prompt = set(topology.unknown) == set(topology.mounts.values()) != set()
-        self.prompt = {law.name for law in laws if prompt and not law.states}
-        super().__init__(topology, laws)
-
-    def velocity(self, joint: str) -> Node:
-        """Unknown nodes begin at rest, driven ones as they are driven, and so what they carry."""
-        known = self.known(joint, "velocity_new")
-        return self.carrier(joint, "velocity_new") if known is None else known
-
-    def motion(self, edge: Edge) -> Mapping[str, Node]:
-        place = self.difference(edge, self.position) + self.offset(edge)
-        return {"edge.new": place, **self._rest(place), **self._rates(edge)}
-
-    def _rates(self, edge: Edge) -> dict[str, Node]:
-        if edge.branch.name not in self.prompt:
-            return {}
-        speed = self.difference(edge, self.velocity)
-        return {"edge.velocity_old": speed, "edge.velocity_new": speed,
-                "edge.acceleration": self.difference(edge, self._acceleration)}  # fmt: skip
-
-    def _acceleration(self, joint: str) -> Node:
-        known = self.known(joint, "acceleration")
-        return self.carrier(joint, "acceleration") if known is None else known
-
-    def _rest(self, place: Node) -> dict[str, Node]:
-        memory = {name: ZERO for law in self.laws for name in law.states}
-        return {"edge.old": place, **{f"edge.{rate}": ZERO for rate in RATES}, **memory}
-
-    def tangent(self, force: Node) -> Node:
-        return derive(replaced(force, self._rest(symbol("edge.new"))), "edge.new")
-
-    def inertia(self, joint: str) -> tuple[Node, Node]:
-        return ZERO, ZERO
-
-    def start(self) -> dict[str, Node]:
-        """All unknown nodes in the middle of the known ones."""
-        driven = [symbol(driven_symbol(joint, "new")) for joint in self.topology.held("driven")]
-        middle = sum(driven, ZERO) / float(max(len(driven), 1))
-        carried = self.topology.mounts.values()
-        first = {row_of(joint, "next"): ZERO if joint in carried else middle for joint in self.topology.unknown}
-        return {**first, DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
-
-    def rest(self) -> dict[str, Node]:
-        """At rest in equilibrium."""
-        rows: dict[str, Node] = {name: ZERO for law in self.laws for name in law.states}
-        for joint in self.topology.unknown:
-            rows |= {row_of(joint, key): ZERO for key in _KEPT}
-            rows |= {row_of(joint, key): self._next(joint) for key in ("position", "position_before")}
-        return {**rows, **self.outputs()}
 
 
 class Moving(Balance):
@@ -353,29 +289,37 @@ class Moving(Balance):
 
     def predict(self) -> dict[str, Node]:
         """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""
-        rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER}
+        rows: dict[str, Node] = {DONE: ZERO, DAMPING: ONE, DISTANCE: NEVER, LINES: ZERO}
         for joint in self.topology.unknown:
-            x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in _KEPT)
+            x, v, a, earlier, slower = (symbol(row_of(joint, key)) for key in KEPT)
             rows[row_of(joint, "drift")] = NOW * x + BEFORE * earlier + SWING * v
             rows[row_of(joint, "swing")] = NOW * v + BEFORE * slower + SWING * a
-            bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
-            rows[row_of(joint, "next")] = x + STEP * (v + bend)
+            rows[row_of(joint, "next")] = self.guess(joint)
         return rows
+
+    def guess(self, joint: str) -> Node:
+        """Where an unknown node goes with the velocity, and as a mass with the acceleration, that it has."""
+        x, v, a = (symbol(row_of(joint, key)) for key in ("position", "velocity", "acceleration"))
+        bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
+        return x + STEP * (v + bend)
+
+    def arrived(self, distance: Node) -> Node:
+        # a search begins anew where steps led to what is no number, unless the first guess was none
+        return where(symbol(DISTANCE) >= NEVER, super().arrived(distance), distance <= TOLERANCE)
 
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """Memories and measured forces at the end of the last move, by their tangents: it is within the tolerance.
 
         A lane that is done stays as it is.
         """
-        ways = [self.difference(edge, lambda joint: moves.get(joint, ZERO)) for edge in self.topology.edges]
-        forces = [force + tangent * way for force, tangent, way in zip(self.forces, self.tangents, ways, strict=True)]
-        found = self.outputs(forces)
+        found = self.outputs(self.moved_forces(moves))
         for joint, inner in self.topology.mounts.items():
             mass = self.mass(inner)
             if mass is not ZERO:
                 row = force_row(joint)
                 found[row] = found[row] + mass * self.inertia(inner)[1] * moves[inner]
-        for edge, law, way in zip(self.topology.edges, self.laws, ways, strict=True):
+        for edge, law in zip(self.topology.edges, self.laws, strict=True):
+            way = self.way(edge, moves)
             for name, node in law.states.items():
                 found[name] = self.along(edge, node) + self.along(edge, self.tangent(node)) * way
         done = symbol(DONE) > 0.5

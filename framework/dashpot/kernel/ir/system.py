@@ -1,8 +1,10 @@
 """The program of a network with unknown nodes.
 
-The equilibrium is found first: ``start``, then ``settle`` until every lane is done, then ``rest``. Then every sample is
+The equilibrium is found first: ``start``, then ``settle`` until every lane is done, then ``rest``; the first sample is
+``launch`` until every lane is done, then ``set_off``. Then every sample is
 reached twice, in few long steps and in twice as many short ones: their difference tells the error and takes its leading
-term away (Richardson). A step is ``predict``, then ``improve`` until every lane is done, then ``commit``.
+term away (Richardson). A step is ``predict``, then ``improve`` until every lane is done, ``search`` for those that it
+leaves, then ``commit``.
 """
 
 from __future__ import annotations
@@ -13,7 +15,7 @@ from dataclasses import dataclass
 from dashpot.kernel.ir.layout import Layout
 from dashpot.kernel.ir.program import Program
 
-MOST_STEPS, MOST_STATIC_STEPS = 40, 400
+MOST_STEPS, MOST_PLACES, MOST_STATIC_STEPS = 12, 1000, 400
 UNSOLVED, UNBALANCED = 1, 2
 THIRD = 0.3333333333333333
 TOLERANCE, FARTHEST, SMALLEST_SPAN = 1e-6, 2.0, 1e-3  # of Newton's steps: shares of the span of the motion, and m

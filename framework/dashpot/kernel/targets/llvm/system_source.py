@@ -8,7 +8,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dashpot.kernel.ir.layout import LANES, Layout
-from dashpot.kernel.ir.system import MOST_STATIC_STEPS, MOST_STEPS, THIRD, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import (
+    MOST_PLACES,
+    MOST_STATIC_STEPS,
+    MOST_STEPS,
+    THIRD,
+    UNBALANCED,
+    UNSOLVED,
+    SystemProgram,
+)
 from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
 from dashpot.kernel.targets.llvm.passes import Arrays, Pass
 from dashpot.kernel.targets.llvm.source import whole
@@ -41,6 +49,8 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
         _call(a, "start", "%still", space)
         _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, done, vectors)
         _call(a, "rest", "%still", space)
+        _newton(a, "launch", "%still", space, MOST_PLACES, None, done, vectors)
+        _call(a, "set_off", "%still", space)
     with a.loop(0, "%samples") as k:
         with a.when(a.new(f"icmp sgt i64 {k}, 0")):
             for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):
@@ -48,7 +58,8 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
                 with a.loop(first, a.new(f"add i64 {first}, {count}")) as j:
                     row = a.address(columns, a.product(j, len(system.program.columns)))
                     _call(a, "predict", row, space)
-                    _newton(a, "improve", row, space, MOST_STEPS, UNSOLVED, done, vectors)
+                    _newton(a, "improve", row, space, MOST_STEPS, None, done, vectors)
+                    _newton(a, "search", row, space, MOST_PLACES, UNSOLVED, done, vectors)
                     _call(a, "commit", row, space)
         writer = _Writer(a, halves, vectors, k)
         forces = [system.row(name) for name in system.forces]
@@ -117,8 +128,9 @@ def _call(a: Assembly, name: str, columns: str, space: str) -> None:
     a.do(f"call void @{name}(ptr {columns}, ptr {space}, ptr %tables, ptr %knots)")
 
 
-def _newton(a: Assembly, name: str, columns: str, space: str, most: int, failure: int, row: int, vectors: int) -> None:
-    """Steps until every lane is done, ``most`` of them at most; what is left then has failed."""
+def _newton(a: Assembly, name: str, columns: str, space: str, most: int, failure: int | None, row: int,
+            vectors: int) -> None:  # fmt: skip
+    """Steps until every lane is done, ``most`` of them at most; what is left then has failed, if there is a code."""
 
     def undone() -> Bundle:
         places = _places(a, space, vectors)
@@ -133,6 +145,8 @@ def _newton(a: Assembly, name: str, columns: str, space: str, most: int, failure
     with a.repeat(going_on):
         _call(a, name, columns, space)
         a.do(f"store i64 {a.new('sub i64 ' + a.new('load i64, ptr %left') + ', 1')}, ptr %left")
+    if failure is None:
+        return
     found = undone()
     with a.when(a.any(found)):
         places = _places(a, "%status", vectors)

@@ -11,7 +11,15 @@ from contextlib import contextmanager
 from dashpot.expr.node import Node, walk
 from dashpot.kernel.ir.layout import Layout, Passes, score_row
 from dashpot.kernel.ir.program import Program
-from dashpot.kernel.ir.system import MOST_STATIC_STEPS, MOST_STEPS, THIRD, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import (
+    MOST_PLACES,
+    MOST_STATIC_STEPS,
+    MOST_STEPS,
+    THIRD,
+    UNBALANCED,
+    UNSOLVED,
+    SystemProgram,
+)
 from dashpot.kernel.targets.numba.code import PythonCode
 from dashpot.kernel.targets.scalar.code import Arguments
 from dashpot.kernel.targets.scalar.functions import write_functions
@@ -135,7 +143,9 @@ def print_system(system: SystemProgram) -> str:
         with code.function("nothing", f"{name}_", SYSTEM_PASS, f"Pass '{name}'."):
             _write_system_pass(code, layout)
     _write_newton(code, system, "settle", MOST_STATIC_STEPS, UNBALANCED)
-    _write_newton(code, system, "improve", MOST_STEPS, UNSOLVED)
+    _write_newton(code, system, "launch", MOST_PLACES)
+    _write_newton(code, system, "improve", MOST_STEPS)
+    _write_newton(code, system, "search", MOST_PLACES, UNSOLVED)
     with _run(code, SYSTEM):
         _write_system_lane(code, system)
     return code.text
@@ -163,15 +173,17 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
     )
 
 
-def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int, failure: int) -> None:
+def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int,
+                  failure: int | None = None) -> None:  # fmt: skip
     done = f"w[o + {system.row(system.done)}]"
     with code.function("nothing", name, NEWTON, "Newton's steps until they are short."):
         code.let("left", str(most), "count")
         with code.repeat(f"(left > 0) & ({done} == 0.0)"):
             code.do(f"{name}_(columns, w, tables, knots, c, o)")
             code.set("left", "left - 1")
-        with code.when(f"{done} == 0.0"):
-            code.set("status[l]", f"{failure}.0")
+        if failure is not None:
+            with code.when(f"{done} == 0.0"):
+                code.set("status[l]", f"{failure}.0")
 
 
 def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
@@ -181,6 +193,8 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
         code.do(f"start_(still, {place})")
         code.do(f"settle(still, {place}, status, l)")
         code.do(f"rest_(still, {place})")
+        code.do(f"launch(still, {place}, status, l)")
+        code.do(f"set_off_(still, {place})")
     with code.loop("k", 0, "samples"):
         with code.when("k > 0"):
             for o, columns, count in ((0, "coarse", "per"), (system.rows, "fine", "2 * per")):
@@ -188,6 +202,7 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
                     place = f"{columns}, w, tables, knots, j * {across}, {code.index(o)}"
                     code.do(f"predict_({place})")
                     code.do(f"improve({place}, status, l)")
+                    code.do(f"search({place}, status, l)")
                     code.do(f"commit_({place})")
         with code.when("scoring == 0"):
             _each(code, system, [*system.forces, *system.places], _store)

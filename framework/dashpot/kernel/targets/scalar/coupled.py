@@ -13,6 +13,7 @@ from dashpot.kernel.ir.layout import Layout
 from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, MOTION, SPAN, STATUS, Online
 from dashpot.kernel.ir.system import (
     FARTHEST,
+    MOST_PLACES,
     MOST_STATIC_STEPS,
     MOST_STEPS,
     THIRD,
@@ -37,7 +38,9 @@ def write_coupled(code: Code, online: Online) -> None:
         with code.function("nothing", f"{name}_", COURSE, f"Pass '{name}' on the workspace that begins at w."):
             storing(code, online, _moved(layout), _leaf(code, online, layout))
     _write_newton(code, online.system, "settle", MOST_STATIC_STEPS, UNBALANCED)
-    _write_newton(code, online.system, "improve", MOST_STEPS, UNSOLVED)
+    _write_newton(code, online.system, "launch", MOST_PLACES)
+    _write_newton(code, online.system, "improve", MOST_STEPS)
+    _write_newton(code, online.system, "search", MOST_PLACES, UNSOLVED)
     _write_path(code)
     _write_move(code, online)
     _write_course(code, online)
@@ -72,15 +75,16 @@ def _leaf(code: Code, online: Online, layout: Layout) -> Callable[[Node], str | 
     return leaf
 
 
-def _write_newton(code: Code, system: SystemProgram, name: str, most: int, failure: int) -> None:
+def _write_newton(code: Code, system: SystemProgram, name: str, most: int, failure: int | None = None) -> None:
     done = f"s[w + {system.row(system.done)}]"
     with code.function("nothing", name, COURSE, "Newton's steps until they are short."):
         code.let("left", str(most), "count")
         with code.repeat(f"(left > 0) & ({done} == 0.0)"):
             code.do(f"{name}_(s, w)")
             code.set("left", "left - 1")
-        with code.when(f"{done} == 0.0"):
-            code.set(f"s[{STATUS}]", f"{failure}.0")
+        if failure is not None:
+            with code.when(f"{done} == 0.0"):
+                code.set(f"s[{STATUS}]", f"{failure}.0")
 
 
 def _write_path(code: Code) -> None:
@@ -136,6 +140,7 @@ def _write_course(code: Code, online: Online) -> None:
             _write_rule(code, online)
             code.do("predict_(s, w)")
             code.do("improve(s, w)")
+            code.do("search(s, w)")
             code.do("commit_(s, w)")
 
 
@@ -151,8 +156,8 @@ def _write_rule(code: Code, online: Online) -> None:
 
 def _begin(code: Code, online: Online) -> None:
     assert online.system is not None
-    for name in ("slope", "now", "before", "swing"):
-        _give(code, online, f"rule.{name}", "0.0")
+    for name, value in (("slope", "1.0 / dt"), ("now", "0.0"), ("before", "0.0"), ("swing", "0.0")):
+        _give(code, online, f"rule.{name}", value)
     _give(code, online, "dt", "dt")
     _give(code, online, "newton.tolerance", f"{TOLERANCE} * s[{SPAN}]")
     _give(code, online, "newton.farthest", f"{FARTHEST} * s[{SPAN}]")
@@ -160,7 +165,7 @@ def _begin(code: Code, online: Online) -> None:
         code.set(f"s[{online.before} + k]", f"s[{INPUTS} + k]")
     code.do("move(s, 1.0, 1.0, dt)")
     for start in online.courses:
-        for name in ("start_", "settle", "rest_"):
+        for name in ("start_", "settle", "rest_", "launch", "set_off_"):
             code.do(f"{name}(s, {code.index(start)})")
     code.set(f"s[{BEGUN}]", "1.0")
 

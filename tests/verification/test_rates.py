@@ -1,0 +1,61 @@
+"""Velocities of sampled motions, clean, quantised and noisy, from 200 to 3 samples in a period, against known ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from seeds import seed_of
+
+from dashpot.data.drive import drive_from_samples
+
+DT, COUNT, AMPLITUDE, PLACES, DEVIATION = 1e-3, 4000, 5e-3, 1e-6, 2e-6
+INSIDE = slice(100, -100)
+# samples in a period, and the error of the velocity of a clean sine that the quintic spline leaves, with some room
+PERIODS = {200: 1e-9, 50: 2e-9, 25: 1e-7, 16: 2e-6, 12: 1e-5, 10: 3e-5, 8: 1e-4, 6: 6e-4, 5: 2e-3, 4: 8e-3, 3: 8e-2}
+
+
+def sine(period, rng):
+    """Displacement and velocity, with a phase and a frequency between the lines of any spectrum."""
+    angle = 2.0 * np.pi * np.arange(COUNT) / (period * rng.uniform(1.0, 1.02)) + rng.uniform(0.0, 2.0 * np.pi)
+    omega = (angle[1] - angle[0]) / DT
+    return AMPLITUDE * np.sin(angle), AMPLITUDE * omega * np.cos(angle)
+
+
+def sweep(period):
+    """From 1000 samples in a period to so many."""
+    first, last = 2.0 * np.pi / 1000.0, 2.0 * np.pi / period
+    rate = first + (last - first) * np.arange(COUNT) / COUNT
+    angle = first * np.arange(COUNT) + 0.5 * (last - first) * np.arange(COUNT) ** 2 / COUNT
+    return AMPLITUDE * np.sin(angle), AMPLITUDE * rate / DT * np.cos(angle)
+
+
+def error(x, v, **how):
+    found = drive_from_samples(DT, x, **how).velocity
+    return np.sqrt(np.mean((found - v)[INSIDE] ** 2) / np.mean(v[INSIDE] ** 2))
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_a_clean_motion_keeps_its_velocity(period):
+    rng = np.random.default_rng(seed_of(f"rates {period}"))
+    assert error(*sine(period, rng)) < PERIODS[period]
+    assert error(*sweep(period)) < PERIODS[period]
+
+
+@pytest.mark.parametrize("period", PERIODS)
+def test_noise_and_steps_of_the_sensor_are_smoothed_where_that_brings_the_velocity_nearer(period):
+    rng = np.random.default_rng(seed_of(f"noisy rates {period}"))
+    for x, v in (sine(period, rng), sweep(period)):
+        for spoilt in (PLACES * np.round(x / PLACES), x + DEVIATION * rng.standard_normal(COUNT)):
+            spline, smoothed = error(spoilt, v, smooth=False), error(spoilt, v, smooth=True)
+            # the choice is made from an estimate, and need not be right where both are alike
+            assert error(spoilt, v) < 1.3 * min(spline, smoothed)
+            assert period < 25 or error(spoilt, v) < 0.5 * spline
+
+
+@pytest.mark.parametrize("count", [30, 127, 128, 150, 255])
+@pytest.mark.parametrize("period", [20.0, 8.0, 4.0])
+def test_a_short_clean_motion_keeps_its_velocity(count, period):
+    angle = 2.0 * np.pi * np.arange(count) / period + 0.7
+    found = drive_from_samples(DT, AMPLITUDE * np.sin(angle)).velocity[5:-5]
+    truth = (AMPLITUDE * 2.0 * np.pi / (period * DT) * np.cos(angle))[5:-5]
+    assert np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2)) < {20.0: 2e-5, 8.0: 1e-4, 4.0: 8e-3}[period]
