@@ -32,11 +32,13 @@ class Delay(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A shift of the model's force by a small time, or a low-pass, unless the network has them already."""
-        if "force.delay" not in network.measurement:
+        """A shift of the model's force by a small time or a low-pass, unless the network has one of them already.
+
+        To first order in the frequency they are the same: both together, one against the other, would be any law.
+        """
+        if not {"force.delay", "force.lag"} & set(network.measurement):
             yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay",
                           unit="s")  # fmt: skip
-        if "force.lag" not in network.measurement:
             yield Suspect("low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share",
                           unit="1")  # fmt: skip
 

@@ -10,7 +10,7 @@ from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Symbol
 from dashpot_elements.dahl import approach
 
-TINY, NOTHING = 1e-12, 1e-300
+TINY = 1e-12
 
 
 class Stribeck(Element):
@@ -19,7 +19,7 @@ class Stribeck(Element):
 
     A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent.
 
-    The limit is frozen over a step at the mean speed; where the path turns, its pieces have their own. Second order in
+    The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
     the step.
     """
 
@@ -38,12 +38,12 @@ class Stribeck(Element):
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
-        """From the beginning of the step over its turning points to its end."""
-        first, second = _turns(x, dt)
-        one, two = _place(x, first, dt), _place(x, second, dt)
-        force = _slide(z.force, one - x.old, dt * first, p)
-        force = _slide(force, two - one, dt * (second - first), p)
-        force = _slide(force, x.new - two, dt * (1.0 - second), p)
+        """From the beginning of the step to its turning point, and on to its end."""
+        turns = x.velocity_old * x.velocity_new < 0.0
+        middle = np.where(turns, _turning_place(x, dt), x.new)
+        speed = 0.5 * np.abs(np.where(turns, x.velocity_old, x.velocity_old + x.velocity_new))
+        force = _slide(z.force, middle - x.old, speed, p)
+        force = _slide(force, x.new - middle, 0.5 * np.abs(x.velocity_new), p)
         return Response(force, force=force)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
@@ -51,8 +51,7 @@ class Stribeck(Element):
         return 0.5 * z.force * z.force / p.stiffness
 
 
-def _slide(force: Any, travel: Any, time: Any, p: Any) -> Any:
-    speed = np.abs(travel) / np.maximum(time, TINY)
+def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
     ratio = np.maximum(speed / p.stribeck_velocity, TINY)
     limit = p.limit + (p.breakaway - p.limit) * np.exp(-np.exp(p.decay * np.log(ratio)))
     side = np.where(travel < 0.0, -1.0, 1.0)
@@ -62,32 +61,11 @@ def _slide(force: Any, travel: Any, time: Any, p: Any) -> Any:
     return side * limit * (1.0 - left)
 
 
-def _turns(x: Motion, dt: Any) -> tuple[Any, Any]:
-    """Where the cubic path turns, whose velocity is v_old + b u + c u^2 over u = 0..1; 0 or 1 where it does not.
-
-    Both turning points count, so that the force does not jump where one of them enters the step. Without any, both are
-    one place on the way.
-    """
-    b, c = _bends(x, dt)
-    root = np.sqrt(np.maximum(b * b - 4.0 * c * x.velocity_old, NOTHING))
-    far = -0.5 * (b + np.where(b < 0.0, -root, root))
-    one = _within(far, c)
-    other = _within(x.velocity_old, far)
-    return np.minimum(one, other), np.maximum(one, other)
-
-
-def _bends(x: Motion, dt: Any) -> tuple[Any, Any]:
-    c = 3.0 * (x.velocity_old + x.velocity_new) - 6.0 * x.travel / dt
-    return x.velocity_new - x.velocity_old - c, c
-
-
-def _within(above: Any, below: Any) -> Any:
-    """A quotient, kept between 0 and 1; 1 where it has no bounds."""
-    inside = np.abs(above) < np.abs(below)
-    quotient = np.where(inside, above, 1.0) / np.where(inside, below, 1.0)
-    return np.where(inside, np.maximum(quotient, 0.0), np.where(above * below < 0.0, 0.0, 1.0))
-
-
-def _place(x: Motion, u: Any, dt: Any) -> Any:
-    b, c = _bends(x, dt)
+def _turning_place(x: Motion, dt: Any) -> Any:
+    """Where the cubic path turns whose velocity v_old + b u + c u^2 changes its sign once over u = 0..1."""
+    rise = x.travel / dt
+    c = 3.0 * (x.velocity_old + x.velocity_new) - 6.0 * rise
+    b = x.velocity_new - x.velocity_old - c
+    root = np.sqrt(np.maximum(b * b - 4.0 * c * x.velocity_old, 0.0))
+    u = 2.0 * x.velocity_old / (np.where(x.velocity_old < 0.0, -root, root) - b)
     return x.old + dt * u * (x.velocity_old + u * (0.5 * b + u * (c / 3.0)))

@@ -60,7 +60,7 @@ def case(hidden, verdict, *causes, scenario="sines"):
     effects = [SimpleNamespace(kind=kind, form="", strength=2.0, strength_left=2.0) for kind in hidden]
     truth = SimpleNamespace(kinds=tuple(hidden), effects=effects, noise_rms={})
     said = [{"cause": word, "probability": probability, "indistinguishable_from": [], "gain": None,
-             "expected_gain": None} for word, probability in causes]  # fmt: skip
+             "accepted": True, "expected_gain": None} for word, probability in causes]  # fmt: skip
     rmse = {"after": {"held_out": None}}
     return Outcome(1, "spring", truth, {"verdict": verdict, "causes": said, "rmse": rmse, "held_out": []}, 1.0,
                    scenario=scenario)  # fmt: skip

@@ -78,7 +78,7 @@ def fastest_part(x: Array, noise: float) -> float:
     excess = np.where(power > STANDS_OUT * 2.0 * noise**2, power, 0.0) * frequency**2
     above = np.cumsum(excess[::-1])[::-1]
     last = np.count_nonzero(above > NEGLIGIBLE * above[0]) - 1
-    return float(frequency[max(last - WIDENED, 0)])
+    return float(frequency[max(int(last) - WIDENED, 0)])
 
 
 def _spectrum(x: Array, window: str | tuple[str, float] = "blackmanharris") -> tuple[Array, Array]:

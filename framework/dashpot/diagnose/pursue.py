@@ -143,6 +143,7 @@ class Pursuer:
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
         first, look, ended, looks = model, look or self.look(model), False, 0
+        seen: set[frozenset[object]] = set()
         while True:
             look, looks, ended, others = self.climbed(look, looks)
             fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
@@ -151,7 +152,9 @@ class Pursuer:
                 look, others = self.look(present.model), []
             scores = Scores(look)
             rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
-            onward = self._next_look((rival for _, rival in rivals), present) if ended else None
+            seen.add(present.model.forms)
+            fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
+            onward = self._next_look(fresh, present) if ended else None
             if onward is None:
                 weights = self.weights(len(look.folds.names))
                 return Pursuit(present, look, first, without, rivals, tuple(others), weights, looks, ended,

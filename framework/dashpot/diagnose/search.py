@@ -67,7 +67,7 @@ class _Projected:
 def additions(scores: Scores, structure: Structure) -> list[Added]:
     """The candidates that explain most beside a structure (score test), the best places of each; best first."""
     left = _project(scores, structure)
-    used = {k for k, _ in structure.added} | _gone(scores, structure)
+    used = {k for k, _ in structure.added} | _gone(scores, structure) | _same_fault(scores, structure)
     found = []
     for k, candidate in enumerate(scores.look.candidates):
         if k not in used and (best := _places(candidate, left)):
@@ -75,6 +75,13 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
             found.append((best[0] - scores.joining(added), added))
     found.sort(key=lambda pair: -pair[0])
     return _varied(scores, [added for _, added in found])
+
+
+def _same_fault(scores: Scores, structure: Structure) -> set[int]:
+    """The other forms of faults of the measurement that join: one against the other they would be any law."""
+    candidates = scores.look.candidates
+    faults = {candidates[k].name for k, _ in structure.added if candidates[k].cause.kind == "measurement"}
+    return {k for k, one in enumerate(candidates) if one.name in faults}
 
 
 def _gone(scores: Scores, structure: Structure) -> set[int]:

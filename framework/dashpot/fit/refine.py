@@ -106,7 +106,7 @@ def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> t
 
 def unmoved(jacobian: Array) -> NDArray[np.bool_]:
     """Which coordinates (p,) could not be moved either way: around them the network is not solved."""
-    return ~np.isfinite(jacobian).all(axis=1)
+    return np.asarray(~np.isfinite(jacobian).all(axis=1))
 
 
 def _changes(objective: Objective, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:

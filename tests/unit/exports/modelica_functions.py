@@ -73,10 +73,9 @@ def _statement(words: str, answer: str) -> str:
 
 
 def _expression(text: str) -> str:
-    while " then " in text:
-        text = re.sub(r"\(if (.+?) then (.+?) else ", _choice, text, count=1)
+    while (start := text.rfind("(if ")) >= 0:  # the last one that begins holds no other
+        condition, _, rest = text[start + len("(if ") :].partition(" then ")
+        value, _, other = rest.partition(" else ")
+        text = f"{text[:start]}(({value}) IF ({condition}) ELSE {other}"
+    text = text.replace(" IF ", " if ").replace(" ELSE ", " else ")
     return text.replace("<>", "!=").replace("^", "**").replace(":end]", ":]")
-
-
-def _choice(found: re.Match[str]) -> str:
-    return f"(({found[2]}) if ({found[1]}) else "

@@ -65,7 +65,7 @@ def search(balance: Balance) -> dict[str, Node]:
         places[row_of(joint, "base")] = where(fresh, guess, begin)
         places[row_of(joint, "way")] = where(fresh, 0.0, way)
         places[row_of(joint, "next")] = where(fresh, guess, begin + rows[SHARE] * way)
-    begun = {LINES: 1.0, SHARE: 0.0, BELOW: 0.0, BEYOND: NEVER, PULL: 0.0}
+    begun: dict[str, Node | float] = {LINES: 1.0, SHARE: 0.0, BELOW: 0.0, BEYOND: NEVER, PULL: 0.0}
     rows = places | {name: where(fresh, begun[name], row) for name, row in rows.items()}
     rows[DONE] = where(near & np.logical_not(fresh), 1.0, 0.0)
     kept = {name: where(done, symbol(name), row) for name, row in rows.items()}
