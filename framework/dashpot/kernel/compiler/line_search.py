@@ -33,6 +33,7 @@ LEFT = 0.1  # share of the first pull that may be left where the next line begin
 FARTHER = 4.0  # times the share, where the pull has not turned yet
 FINEST = 1e-15  # of a line: closer bounds are one number
 STIFFEST = 1e-18  # m/N, of a fixture that does not give way
+SOFTEST = 1e-300  # of a way that has not begun: no target divides by zero
 SHARE, BELOW, BEYOND, PULL = (f"line|{key}" for key in ("share", "below", "beyond", "pull"))
 
 
@@ -78,7 +79,7 @@ def _next_share(pull: Node, stiffness: Node) -> tuple[Node, Node, Node, Node]:
     below, beyond = where(pulling, share, symbol(BELOW)), where(pulling, symbol(BEYOND), share)
     # where the bounds came together by less than half, Newton's method is slow
     slow = beyond - below > 0.5 * (symbol(BEYOND) - symbol(BELOW))
-    newton, farther = share + pull / stiffness, FARTHER * share
+    newton, farther = share + pull / maximum(stiffness, SOFTEST), FARTHER * share
     within = (newton > below) & (newton < beyond) & np.logical_not(slow)
     between = where(within, newton, 0.5 * (below + beyond))
     ended = (pull >= 0.0) & (pull <= LEFT * symbol(PULL)) | (beyond - below < FINEST)
