@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.data.correction import Correction
 from dashpot.data.run import Run
-from dashpot.diagnose.look import Look
+from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds
-from dashpot.diagnose.whitening import Noise, independent_share
+from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
 
 Array = NDArray[np.float64]
 
@@ -72,11 +72,15 @@ class Accused:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """Whitened residual, tangents (p, n) and shapes by kind (k, n) of every run."""
+    """Residual, tangents (p, n) and shapes by kind (k, n) of every run, whitened or as they are.
+
+    ``smallest`` is the deviation in N of each record below which nothing is believed.
+    """
 
     residual: Mapping[str, Array]
     tangents: Mapping[str, Array]
     shapes: Mapping[Key, Array]
+    smallest: Mapping[str, float]
 
 
 def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
@@ -85,21 +89,27 @@ def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
 
 
 def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise) -> _Rows:
-    """What the tests need, whitened."""
+    """What the tests need under a noise."""
     residual, tangents = refitter.linearise(look.model, noise)
     shapes = {}
     for run in refitter.runs:
         for number, kind in enumerate(kinds):
             found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
             shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
-    return _Rows(residual, tangents, shapes)
+    smallest = {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in refitter.runs}
+    return _Rows(residual, tangents, shapes, smallest)
 
 
-def disagreeing(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[int]:
-    """The kinds of which repeats of one run differ, by number: the difference needs no model."""
-    rows, pairs = rows_of(refitter, look, kinds, _alike(look, groups)), repeats_of(refitter, groups)
+def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
+    """The faults by which repeats of one run differ, and how much: the difference needs no model."""
+    rows, pairs = rows_of(refitter, look, kinds, _plain(look)), repeats_of(refitter, groups)
     price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
-    return [number for number, _ in enumerate(kinds) if _that_differ(rows, pairs, number, price)]
+    found = []
+    for number, kind in enumerate(kinds):
+        if _that_differ(rows, pairs, number, price):
+            strengths = np.array([_strengths(*_difference(rows, *pair, number)) for pair in pairs])
+            found.append(Doubt(kind.fault, np.sqrt(np.mean(strengths**2, axis=0))))
+    return found
 
 
 def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
@@ -124,11 +134,9 @@ def overdispersion(nats: Sequence[float], columns: int) -> float:
     return max(1.0, 2.0 * float(np.median(nats)) / float(chi2.median(columns))) if nats else 1.0
 
 
-def _alike(look: Look, groups: Mapping[str, str]) -> Noise:
-    """The noise of the records, repeats whitened alike: so the error of the model cancels in their difference."""
-    known = look.measured_noise.filters
-    first = {groups[run]: run for run in reversed(list(known))}
-    return replace(look.measured_noise, filters={run: known[first[groups[run]]] for run in known})
+def _plain(look: Look) -> Noise:
+    """The same blocks, nothing whitened."""
+    return look.noise.with_white(dict.fromkeys(look.noise.filters, 1.0))
 
 
 def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
@@ -145,9 +153,14 @@ def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
 
 
 def _difference(rows: _Rows, one: str, other: str, kind: int) -> tuple[Array, Array]:
-    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault."""
+    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault.
+
+    Whitened by what the shapes leave of the difference: the error of the model cancels in it.
+    """
     shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
-    return (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0), shapes
+    difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
+    coefficients = learn_filter(_beside(difference, shapes), 0.0, rows.smallest[one])
+    return filtered(difference, coefficients), filtered(shapes, coefficients)
 
 
 def _contrast(difference: Array, shapes: Array, usual: Array) -> float:
@@ -174,12 +187,18 @@ def accuse(
     kinds: Sequence[Kind],
     groups: Mapping[str, str],
     measured: Mapping[str, Run],
+    doubted: Sequence[Doubt],
     relevance: float,
 ) -> list[Accused]:
-    """The faults of runs that explain most beside the model, one after the other, each with evidence."""
+    """The faults of runs that explain most beside the model, one after the other, each with evidence.
+
+    One that is ``doubted`` is expected to be as large as repeats differ.
+    """
     rows = rows_of(refitter, look, kinds, look.noise)
-    alone = rows_of(refitter, look, kinds, _alike(look, groups))
-    solver = _Solver(rows)
+    alone = rows_of(refitter, look, kinds, _plain(look))
+    known = {doubt.fault.form: doubt.strengths for doubt in doubted}
+    solver = _Solver(rows, {number: known[kind.fault.form] for number, kind in enumerate(kinds)
+                            if kind.fault.form in known})  # fmt: skip
     price = Odds(len(rows.shapes)).price("measurement")
     pairs = repeats_of(refitter, groups)
     shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
@@ -241,8 +260,6 @@ def _evidence(
         return ""  # its repeat agrees
     accused = {groups[name] for name, _ in chosen} | {groups[run]}
     sound = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
-    if demonstrated:
-        return "repeats|repeats of other runs differ by the same"
     return NEIGHBOURS if covers(sound, measured[run]) else ""
 
 
@@ -271,12 +288,12 @@ def conditions(run: Run) -> dict[str, float]:
 class _Solver:
     """Least squares of residuals by tangents of all runs and shapes of single runs.
 
-    Beforehand a fault is thought to be about as large as what is left of its run: offsets of all runs would else be as
-    good as another curve.
+    Beforehand a fault is thought to be about as large as repeats differ by it, which is ``known`` (k,) by kind, else as
+    what is left of its run: offsets of all runs would else be as good as another curve.
     """
 
-    def __init__(self, rows: _Rows) -> None:
-        self.rows = rows
+    def __init__(self, rows: _Rows, known: Mapping[int, Array]) -> None:
+        self.rows, self.known = rows, known
         self.gram: Array = np.sum([tangents @ tangents.T for tangents in rows.tangents.values()], axis=0)
         self.right: Array = np.sum([rows.tangents[run] @ rows.residual[run] for run in rows.residual], axis=0)
         self.square = float(sum(residual @ residual for residual in rows.residual.values()))
@@ -296,9 +313,15 @@ class _Solver:
             for other_number, other in enumerate(keys):
                 if other[0] == key[0]:
                     gram[mine, ends[other_number] : ends[other_number + 1]] = shapes @ self.rows.shapes[other].T
-            expected = float(self.rows.residual[key[0]] @ self.rows.residual[key[0]])
-            gram[mine, mine] += np.diag(np.sum(shapes**2, axis=1)) / max(expected, 1.0)
+            gram[mine, mine] += np.diag(self._precision(key))
         return gram, right
+
+    def _precision(self, key: Key) -> Array:
+        """What is known of the strengths (k,) of a fault beforehand."""
+        if key[1] in self.known:
+            return np.asarray(np.maximum(self.known[key[1]], 1e-300) ** -2.0)
+        expected = float(self.rows.residual[key[0]] @ self.rows.residual[key[0]])
+        return np.asarray(np.sum(self.rows.shapes[key] ** 2, axis=1) / max(expected, 1.0))
 
     def _solved(self, keys: Sequence[Key]) -> tuple[Array, float]:
         gram, right = self._normal(keys)

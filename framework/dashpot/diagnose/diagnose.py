@@ -15,7 +15,7 @@ from dashpot.contract.registry import Registry
 from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
-from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
+from dashpot.diagnose.channel import Accused, accuse, doubts, kinds_of, repeats_of
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST, folds_of
@@ -114,19 +114,20 @@ def find_causes(
 ) -> tuple[Pursuit, list[Accused]]:
     """The best structure, and the faults of single training runs beside it.
 
-    Where repeats of a run disagree, all runs may have that fault while causes are searched; where runs are found at
-    fault in the end, causes are searched again on what is left.
+    Where repeats of a run disagree, all runs may have that fault, as large as they differ, while causes are searched;
+    where runs are found at fault in the end, causes are searched again on what is left.
     """
     model = first_model(fit.declared, fit.fitted)
     folds = folds_of(refitter.runs, groups)
     first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)
-    doubted = [kinds[number].fault for number in disagreeing(refitter, first, kinds, groups)]
+    doubted = doubts(refitter, first, kinds, groups)
+    pairs = repeats_of(refitter, groups)
     pursuit = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted).run(model, None if doubted else first)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
-    accused = accuse(refitter, pursuit.look, kinds, groups, measured, relevance)
+    accused = accuse(refitter, pursuit.look, kinds, groups, measured, doubted, relevance)
     if accused:
-        left = look_for_leftover(_put_right(refitter, accused), pursuit.look, repeats_of(refitter, groups))
+        left = look_for_leftover(_put_right(refitter, accused), pursuit.look, pairs)
         accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
     if accused:
         again = _put_right(refitter, accused)

@@ -52,12 +52,12 @@ class Diagnosis(Findings):
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         removals = [one.network for one in self.removals if one.name == name]
         gain, removal = self._worth(removals)
-        rivals = tuple(word for word, _ in pursuit.replacements(name, self.leftover.share))
+        rivals = tuple(word for word, _ in pursuit.replacements(name))
         return NamedCause(
             cause, tuple(model.terms[number] for number in mine),
             slots_of(self.written, [path for number in mine for path in model.owned[number]]), (),
-            probability, float(cost.sum()), (int(np.sum(cost > 0.0)), cost.size), gain, removal, rivals, evidence_of,
-            told(model.terms[mine[0]]) if evidence_of else "",
+            probability, self.presence(name), float(cost.sum()), (int(np.sum(cost > 0.0)), cost.size), gain, removal,
+            rivals, evidence_of, told(model.terms[mine[0]]) if evidence_of else "",
         )  # fmt: skip
 
     def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
@@ -81,10 +81,10 @@ class Diagnosis(Findings):
         found = []
         for word in words:
             mine = tuple(one for one in self.accused if one.kind.cause.word == word)
-            proof = "; ".join(dict.fromkeys(one.words for one in mine))
+            proof, sure = "; ".join(dict.fromkeys(one.words for one in mine)), max(one.probability for one in mine)
             found.append(NamedCause(
-                mine[0].kind.cause, (), {}, mine, max(one.probability for one in mine), sum(one.nats for one in mine),
-                (0, 0), None, None, (), mine[0].evidence_of, proof,
+                mine[0].kind.cause, (), {}, mine, sure, sure, sum(one.nats for one in mine), (0, 0), None, None, (),
+                mine[0].evidence_of, proof,
             ))  # fmt: skip
         return found
 
@@ -101,14 +101,9 @@ class Diagnosis(Findings):
         return "explained" if self.named else "nothing_missing"
 
     @property
-    def _at_floor(self) -> bool:
-        floor = self.setting.floor.value
-        return False if not floor else self.after.train <= (1.0 + self.relevance) * floor
-
-    @property
     def _far_above_explainable(self) -> bool:
-        known, after = self.explainable.cross_validated, max(self.after.train, self.left_out or 0.0)
-        return known is not None and after > FAR_ABOVE * max(known, self.setting.floor.value or 0.0)
+        known = self.explainable.cross_validated
+        return known is not None and self._unseen > FAR_ABOVE * max(known, self.setting.floor.value or 0.0)
 
     # the result
 

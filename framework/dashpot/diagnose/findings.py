@@ -98,7 +98,24 @@ class Findings:
 
     def probability(self, name: tuple[str, str]) -> float:
         """How sure a cause is, beside the structure that stays unexplained."""
-        return self.pursuit.probability(name, self.leftover.share)
+        return self.pursuit.probability(name, self.unexplained)
+
+    def presence(self, name: tuple[str, str]) -> float:
+        """How sure it is that there is something in the place of a cause."""
+        return self.pursuit.presence(name, self.unexplained)
+
+    @cached_property
+    def unexplained(self) -> float:
+        """The share of the square of the residual on training runs that is structure of unknown cause.
+
+        Structure that the tests find, or what a general model of the past motion explains of the error on runs left
+        out; none where the error is that of the noise.
+        """
+        if self._at_floor:
+            return 0.0
+        floor, known, error = self.setting.floor.value or 0.0, self.explainable.cross_validated, self._unseen
+        explainable = 1.0 - min(max(known, floor) / error, 1.0) ** 2 if known is not None and self.left_out else 0.0
+        return max(self.leftover.share, explainable)
 
     @property
     def fitted_name(self) -> str:
@@ -121,7 +138,7 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        sure = {term.title: self.probability(term.name) > MORE_LIKELY for term in self.pursuit.best.model.terms}
+        sure = {term.title: self.presence(term.name) > MORE_LIKELY for term in self.pursuit.best.model.terms}
         what = "extended by a diagnosis" if sure else "fitted to corrected runs"
         told = [f"{'cause' if likely else 'resembles'}: {title}" for title, likely in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
@@ -188,12 +205,25 @@ class Findings:
         if self._near_floor:
             return None
         groups = {run.name: run.cluster for run in self.setting.dataset.runs}
-        return left_out_error(self.written, self.pursuit.best.model, list(self.corrected.values()), groups, self.jobs)
+        return left_out_error(self.final, self.pursuit.best.model, list(self.corrected.values()), groups, self.jobs)
+
+    @cached_property
+    def _trained(self) -> float:
+        """The RMSE in N of the final network on the training runs."""
+        return measure_errors(self.final, self.after_setting, self.jobs).train
+
+    @property
+    def _unseen(self) -> float:
+        """The RMSE in N on training runs left out in turn, or on all where it is near the noise."""
+        return max(self._trained, self.left_out or 0.0)
 
     @property
     def _near_floor(self) -> bool:
-        floor = self.setting.floor.value
-        return bool(floor) and self.after.train <= NEAR_FLOOR * (floor or 0.0)
+        return self._trained <= NEAR_FLOOR * (self.setting.floor.value or 0.0)
+
+    @property
+    def _at_floor(self) -> bool:
+        return self._trained <= (1.0 + self.relevance) * (self.setting.floor.value or 0.0)
 
     @cached_property
     def explainable(self) -> Explainable:

@@ -32,6 +32,7 @@ RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no
 RIDGE = 1e-9
 LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
 HELD_BYTES = 250e6  # of rows of a look
+REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
 
@@ -58,6 +59,14 @@ class Layout:
     def size(self) -> int:
         """How many columns there are."""
         return self.first_candidate + self.bank
+
+
+@dataclass(frozen=True, eq=False)
+class Doubt:
+    """A fault that every run may have, and the RMS (k,) of its strengths by which repeats differ."""
+
+    fault: ChannelFault
+    strengths: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,13 +111,14 @@ def look_at(
     causes: Sequence[type[Cause]],
     folds: Folds,
     noise: Noise | None = None,
-    faults: Sequence[ChannelFault] = (),
+    doubted: Sequence[Doubt] = (),
     known: Sequence[Candidate] | None = None,
 ) -> Look:
     """Linearise a model on the training runs; without a ``noise`` that of each run is learnt.
 
-    ``folds`` say which parts of the runs are left out together. Without ``causes`` only the model itself is seen.
-    Each run may have each of the ``faults`` at any strength. The candidates may be ``known`` from an earlier look.
+    ``folds`` say which parts of the runs are left out together. Without ``causes`` only the model itself is seen. Each
+    run may have the ``doubted`` faults, as large as repeats differ. The candidates may be ``known`` from an earlier
+    look.
     """
     runs, view = refitter.runs, view_of(model.fitted, refitter.runs, refitter.elements, refitter.jobs)
     steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
@@ -125,16 +135,18 @@ def look_at(
     forces = refitter.term_forces(model) if causes else []
     layout = Layout(own.size, len(forces), candidates[-1].columns.stop if candidates else 0)
     inner = inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None
-    each = len(_shapes(faults, view, runs[0], plain))
-    first = base.size + bent + each * len(runs)  # columns in front, which are projected out
+    faults, free = [doubt.fault for doubt in doubted], base.size + bent
+    precision = _known_beforehand(free, doubted, len(runs))
+    first = precision.size  # columns in front, which are projected out
+    each = (first - free) // len(runs)
     numbers = {run.name: number for number, run in enumerate(runs)}
 
     def rows_of(run: ScoredRun) -> Array:
         name = run.name
         rows = np.zeros((first + layout.size, plain.kept(name, run.samples)))
         rows[: base.size] = tangents[name][base]
-        rows[base.size : base.size + bent] = plain.reduce(name, bends[name])
-        at = base.size + bent + each * numbers[name]
+        rows[base.size : free] = plain.reduce(name, bends[name])
+        at = free + each * numbers[name]
         rows[at : at + each] = _shapes(faults, view, run, plain)
         rows[first] = residual[name]
         rows[first + 1 : first + 1 + own.size] = tangents[name][own]
@@ -153,13 +165,13 @@ def look_at(
     if noise is None:
         noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
     grams, samples, squares = _grams(rows, noise, folds)
-    sizes = np.sqrt(squares[first:])
     of_model = slice(first + 1 + own.size)
-    exact = beside_base(grams[:, of_model, of_model], np.zeros(first), first)[0]
-    grams, precision = with_form_errors(grams, first, layout, model, candidates)
-    projected, moves, prior, occam = beside_base(grams, precision, first)
-    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, folds, sizes,
-                unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
+    exact = beside_base(grams[:, of_model, of_model], precision, free)[0]
+    grams, errors = with_form_errors(grams, first, layout, model, candidates)
+    projected, moves, prior, occam = beside_base(grams, np.concatenate([precision, errors]), free)
+    prior[range(1, 1 + own.size), range(1, 1 + own.size)] += REACH**-2.0
+    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, folds,
+                np.sqrt(squares[first:]), unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
 
 
 class Rows(Mapping[str, Array]):
@@ -180,6 +192,12 @@ class Rows(Mapping[str, Array]):
 
     def __len__(self) -> int:
         return len(self._runs)
+
+
+def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
+    """The precision (f,) of the columns in front: none of the ``free`` ones, then that of the faults of each run."""
+    each = [np.maximum(doubt.strengths, 1e-300) ** -2.0 for doubt in doubted]
+    return np.concatenate([np.zeros(free), *(each * runs)])
 
 
 def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -220,7 +238,7 @@ def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array
 
 def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
                      ) -> tuple[Array, Array]:  # fmt: skip
-    """Gram matrices with the error of the forms of the terms in front, and the precision (f,) of all in front.
+    """Gram matrices with the errors of the forms of the terms behind the first columns, and their precision (k,).
 
     The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
     cause, normal, together ``FORM_ERROR`` of the force of the term.
@@ -238,7 +256,7 @@ def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, can
         places += columns.tolist()
         precision += (columns.size * total[columns] / (FORM_ERROR**2 * size)).tolist()
     order = [*range(first), *places, *range(first, grams.shape[1])]
-    return grams[:, order][:, :, order] if places else grams, np.concatenate([np.zeros(first), precision])
+    return grams[:, order][:, :, order] if places else grams, np.array(precision)
 
 
 def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array, Array, float]:

@@ -22,6 +22,7 @@ MORE_LIKELY = 0.5  # than not
 class NamedCause:
     """A cause with the numbers that it brought, by path, or with the faults of single runs that it stands for.
 
+    ``probability`` is that of its name, ``presence`` that of something in its place, this cause or a rival.
     ``gain`` is what the final files gain by it, ``removal`` the share by which the error grows where it is taken out
     and the rest refitted, both on runs that took no part; ``nats`` is what it predicts of training runs left out,
     ``rivals`` the words of what may stand in its place.
@@ -32,6 +33,7 @@ class NamedCause:
     slots: Mapping[str, Value]
     accused: tuple[Accused, ...]
     probability: float
+    presence: float
     nats: float
     groups: tuple[int, int]
     gain: Gain | None
@@ -42,8 +44,11 @@ class NamedCause:
 
     @property
     def accepted(self) -> bool:
-        """Whether it is more likely than not; what is not describes a part of the force, and its cause stays open."""
-        return self.probability > MORE_LIKELY
+        """Whether something in its place is more likely than not; else it describes a part of the force, no more.
+
+        A fault of the measurement has to be so itself.
+        """
+        return (self.probability if self.cause.kind == "measurement" else self.presence) > MORE_LIKELY
 
     @property
     def site(self) -> Site | None:

@@ -9,14 +9,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, ChannelFault
+from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.look import Look, look_at
+from dashpot.diagnose.look import Doubt, Look, look_at
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
@@ -25,9 +26,10 @@ from dashpot.fit.refine import Outcome
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
+Names = tuple[tuple[str, str], ...]  # words of causes and where they are
 
 REFITTED = 2  # structures with one change, and as many with more, at each look
-TRIED = 5  # for these; some cannot be written, or have no evidence
+TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
 MOST_LOOKS = 12
 DRAWS = 200
 NAMED = 0.9  # of the draws: probability from which on a cause is named
@@ -55,13 +57,18 @@ class Scored:
         """Minus the log of likelihood and prior."""
         return float(self.nats.sum()) + self.errors + self.price
 
-    def drawn(self, weights: Array, share: float = 1.0) -> Array:
-        """The score (draws,) under weights (draws, folds) of the folds, where a ``share`` of all nats is evidence."""
-        return share * (weights @ self.nats + self.errors) + self.price
+    def drawn(self, weights: Array) -> Array:
+        """The score (draws,) under weights (draws, folds) of the folds."""
+        return weights @ self.nats + self.errors + self.price
 
     def drawn_exactly(self, weights: Array) -> Array:
         """The score (draws,) with the laws as they are."""
         return weights @ self.exact + self.price
+
+    def ahead(self, other: Scored, weights: Array) -> NDArray[np.bool_]:
+        """In which draws (draws,) it is more likely than another one, and better with the laws as they are."""
+        likely = self.drawn(weights) < other.drawn(weights)
+        return likely & (self.drawn_exactly(weights) < other.drawn_exactly(weights))
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,33 +100,57 @@ class Pursuit:
     ended: bool
     refused: tuple[tuple[Term, str], ...] = ()
 
-    def winners(self, unexplained: float = 0.0) -> Counter[tuple[tuple[str, str], ...]]:
-        """The names of the best of all these structures in each draw, and in how many.
+    @cached_property
+    def winners(self) -> Counter[Names]:
+        """The names of the structure that the search would take in each draw, and in how many.
 
-        Of the square of the residual the share ``unexplained`` is no noise: it comes again in every run and is no
-        independent evidence.
+        That is the best one, or the likeliest of those that are ahead of it.
         """
-        found = [self.best, *(one.scored for one in self.without), *(one for _, one in self.rivals), *self.others]
-        best = np.argmin([one.drawn(self.weights, 1.0 - unexplained) for one in found], axis=0)
-        return Counter(found[number].model.names for number in best)
+        found = [*(one.scored for one in self.without), *(one for _, one in self.rivals), *self.others]
+        scores = [np.where(one.ahead(self.best, self.weights), one.drawn(self.weights), np.inf) for one in found]
+        taken = np.argmin([self.best.drawn(self.weights), *scores], axis=0)
+        return Counter([self.best, *found][number].model.names for number in taken)
 
     def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """How sure a cause is: the share of draws in which the best structure has it.
 
         Times what the cause explains over that and what stays ``unexplained``, which might be its own.
         """
-        draws = self.winners(unexplained)
-        stable = sum(count for names, count in draws.items() if name in names) / draws.total()
-        explained = self.explained(name)
-        return stable * explained / (explained + unexplained) if unexplained > 0.0 else stable
+        return self._share(lambda names: name in names) * self._own(name, unexplained)
 
-    def replacements(self, name: tuple[str, str], unexplained: float = 0.0) -> tuple[tuple[str, str], ...]:
+    def presence(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
+        """How sure it is that there is something in the place of a cause: it or one that replaces it, if it leads."""
+        if not self.leads(name):
+            return self.probability(name, unexplained)
+        known = set(self.best.model.names)
+        return self._share(lambda names: name in names or bool(set(names) - known)) * self._own(name, unexplained)
+
+    def leads(self, name: tuple[str, str]) -> bool:
+        """Whether no other cause stands in the place of one in more draws than it does itself."""
+        own = self._share(lambda names: name in names)
+        return max(self._in_place_of(name).values(), default=0) <= own * self.winners.total()
+
+    def replacements(self, name: tuple[str, str]) -> tuple[tuple[str, str], ...]:
         """The causes that stand in the place of one in more than one of ten draws."""
-        draws, found = self.winners(unexplained), Counter[tuple[str, str]]()
-        for names, count in draws.items():
+        least = (1.0 - NAMED) * self.winners.total()
+        return tuple(sorted(new for new, count in self._in_place_of(name).items() if count > least))
+
+    def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
+        """In how many draws which causes stand in the place of one."""
+        found = Counter[tuple[str, str]]()
+        for names, count in self.winners.items():
             if name not in names:
                 found.update({new: count for new in names if new not in self.best.model.names})
-        return tuple(sorted(new for new, count in found.items() if count > (1.0 - NAMED) * draws.total()))
+        return found
+
+    def _share(self, held: Callable[[Names], bool]) -> float:
+        """The share of draws whose structure has names of which something holds."""
+        return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
+
+    def _own(self, name: tuple[str, str], unexplained: float) -> float:
+        """What a cause explains over that and what stays unexplained, which might be its own."""
+        explained = self.explained(name)
+        return explained / (explained + unexplained) if unexplained > 0.0 else 1.0
 
     def explained(self, name: tuple[str, str]) -> float:
         """By what share the square of the residual grows without a cause, all else refitted."""
@@ -137,7 +168,7 @@ class Pursuer:
     relevance: float
     seed: int
     watch: Callable[[int, int], None] = lambda looks, terms: None
-    faults: Sequence[ChannelFault] = ()
+    doubted: Sequence[Doubt] = ()
     refused: list[tuple[Term, str]] = field(default_factory=list)
 
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
@@ -168,7 +199,7 @@ class Pursuer:
             looks += 1
             self.watch(looks, len(look.model.terms))
             scores = Scores(look)
-            present = self.scored(look, look.model, scores.odds)
+            present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
             onward = self._next_look(trials, present)
             if onward is None:
@@ -180,15 +211,15 @@ class Pursuer:
         """The look at the best of some structures than the present one, under the noise of the look at either."""
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
-                look = self.look(trial.model)
-                odds = Odds(look.layout.bank)
-                if self._better(self.scored(look, trial.model, odds), self.scored(look, present.model, odds)):
-                    return look
+                scores = Scores(self.look(trial.model))
+                before = self.scored(scores.look, present.model, scores.odds)
+                if self._better(scored_by(scores, scores.odds), before):
+                    return scores.look
         return None
 
     def look(self, model: Model) -> Look:
         """All candidates beside a model."""
-        return look_at(self.refitter, model, self.causes, self.folds, faults=self.faults)
+        return look_at(self.refitter, model, self.causes, self.folds, doubted=self.doubted)
 
     def weights(self, folds: int) -> Array:
         """Random weights (draws, folds) of the folds, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
@@ -203,7 +234,7 @@ class Pursuer:
         """A fitted model under the noise of a look, with the forms of its own causes only."""
         causes = list(dict.fromkeys(term.cause for term in model.terms))
         known = look.candidates
-        return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.faults, known))
+        return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.doubted, known))
 
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted."""
@@ -276,14 +307,16 @@ class Pursuer:
     def rivals(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[tuple[Term, Scored]]:
         """For each term the best structure with another cause in its place, refitted."""
         look = scores.look
-        wanted = set(range(len(look.model.terms)))
+        wanted = dict.fromkeys(range(len(look.model.terms)), TRIED)
         for structure in ranked:
             gone, new = structure.dropped, [look.candidates[k] for k, _ in structure.added]
-            if len(gone) == 1 and len(new) == 1 and gone <= wanted:
+            if len(gone) == 1 and len(new) == 1:
                 (number,) = gone
-                if new[0].name not in look.model.names and (trial := self.refitted(scores, structure)):
-                    wanted -= gone
-                    yield look.model.terms[number], trial
+                if wanted[number] and new[0].name not in look.model.names:
+                    trial = self.refitted(scores, structure)
+                    wanted[number] = 0 if trial else wanted[number] - 1
+                    if trial:
+                        yield look.model.terms[number], trial
 
 
 def scored_by(scores: Scores, odds: Odds) -> Scored:

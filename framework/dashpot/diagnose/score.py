@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.look import Look
+from dashpot.diagnose.look import REACH, Look
 from dashpot.diagnose.term import Model
 
 Array = NDArray[np.float64]
@@ -153,7 +153,8 @@ class Scores:
         scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
         unit = np.outer(scale, scale)
-        left = _left_out(self.look.exact / unit, total / unit, alive, np.eye(scale.size)[0])
+        known = np.diag(np.append(0.0, np.full(scale.size - 1, REACH**-2)))
+        left = _left_out(self.look.exact / unit, (total + known) / unit, alive, np.eye(scale.size)[0])
         squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
         return 0.5 * self.look.samples * np.log(squares)
 

@@ -53,15 +53,7 @@ class Noise:
 
     def filter(self, run: str, reduced: Array) -> Array:
         """Reduced signals (..., kept) in units of the noise; the first values miss their past and are set to zero."""
-        if reduced.size == 0:
-            return reduced.copy()
-        coefficients = self.filters[run]
-        if not coefficients[1:].any():
-            return coefficients[0] * reduced  # asks for no past
-        # all rows in one: what runs over from one into the next is what is set to zero
-        white = np.convolve(reduced.ravel(), coefficients)[: reduced.size].reshape(reduced.shape)
-        white[..., :ORDER] = 0.0
-        return white
+        return filtered(reduced, self.filters[run])
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
@@ -70,6 +62,18 @@ class Noise:
     def with_white(self, deviations: Mapping[str, float]) -> Noise:
         """The same blocks under white noise of the given standard deviations in N."""
         return Noise(self.steps, {run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
+
+
+def filtered(reduced: Array, coefficients: Array) -> Array:
+    """Signals (..., kept) under a filter (order + 1,) of the past; the first values miss theirs and are set to zero."""
+    if reduced.size == 0:
+        return reduced.copy()
+    if not coefficients[1:].any():
+        return coefficients[0] * reduced  # asks for no past
+    # all rows in one: what runs over from one into the next is what is set to zero
+    white = np.convolve(reduced.ravel(), coefficients)[: reduced.size].reshape(reduced.shape)
+    white[..., :ORDER] = 0.0
+    return np.asarray(white, dtype=np.float64)
 
 
 def independent_share(rest: Array) -> float:

