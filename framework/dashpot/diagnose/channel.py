@@ -258,6 +258,8 @@ def _evidence(
         return f"repeats|'{other}' is the same motion, and its force differs"
     if any(run in pair for pair in pairs):
         return ""  # its repeat agrees
+    if len(demonstrated) > 1:
+        return "repeats|repeats of other runs differ by the same"
     accused = {groups[name] for name, _ in chosen} | {groups[run]}
     sound = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
     return NEIGHBOURS if covers(sound, measured[run]) else ""

@@ -108,11 +108,9 @@ class Findings:
     def unexplained(self) -> float:
         """The share of the square of the residual on training runs that is structure of unknown cause.
 
-        Structure that the tests find, or what a general model of the past motion explains of the error on runs left
-        out; none where the error is that of the noise.
+        Structure that the tests find, or, farther from the noise, what a general model of the past motion explains of
+        the error on runs left out.
         """
-        if self._at_floor:
-            return 0.0
         floor, known, error = self.setting.floor.value or 0.0, self.explainable.cross_validated, self._unseen
         explainable = 1.0 - min(max(known, floor) / error, 1.0) ** 2 if known is not None and self.left_out else 0.0
         return max(self.leftover.share, explainable)
