@@ -51,7 +51,9 @@ def test_a_loop_of_ones_own_steps_as_a_whole_record_is_simulated(solver):
 
     out = np.empty(SAMPLES)
     loop(solver.state(), solver.numbers, PLACE, SPEED, out)
-    assert np.array_equal(out, simulated(solver, solver.numbers))
+    # the step is compiled into the loop, where a compiler may join other products and sums
+    expected = simulated(solver, solver.numbers)
+    assert np.max(np.abs(out - expected)) <= 1e-14 * np.max(np.abs(expected))
 
 
 def test_a_record_has_the_force_of_the_kernel(solver):

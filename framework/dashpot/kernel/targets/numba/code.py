@@ -14,7 +14,7 @@ from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
 import numpy as np
 from numba import njit
 
-from dashpot.kernel.targets.numba.borrowed import borrowed
+from dashpot.kernel.targets.numba.borrowed import borrowed, zeros_on_stack
 from dashpot.kernel.targets.numba.packed import packed_0, packed_1, packed_2, packed_3, packed_4
 
 """
@@ -31,7 +31,7 @@ def pack_{omegas}(a, b, c, d):
         return {answers}
     return packed_{omegas}(a, b, c, d)
 """
-AT_EVERY_SAMPLE = frozenset({"advance", "step_"})  # written into the loop that calls them
+AT_EVERY_SAMPLE = frozenset({"advance", "step", "step_"})  # written into the loop that calls them
 
 
 class PythonCode(Code):
@@ -93,10 +93,6 @@ class PythonCode(Code):
     def loop(self, name: str, first: str | int, end: str | int) -> Block:
         """A for."""
         return self.indented(f"for {name} in range({first}, {end}):")
-
-    def part(self, array: str, first: int) -> str:
-        """A slice."""
-        return f"{array}[{first}:]"
 
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """An array, which is a constant of the compiled functions."""

@@ -97,28 +97,25 @@ def write_tabulate(code: Code) -> None:
     """The monotone cubic through the values of a table; see ``kernel.curves``."""
     _write_end_slope(code)
     _write_slope(code)
-    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "first"), ("count", "count"),
-                            ("number", "outside")]  # fmt: skip
-    with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[0]."):
-        code.let("node", code.index(0), "count")
-        for place, row in (("before", "first"), ("behind", "first + count")):
-            if place == "behind":
-                code.set("node", "count - 1")
-            code.let(place, f"t + 4 * ({row})", "count")
-            code.set(f"s[{place}]", "p[node]")
-            code.set(f"s[{place} + 1]", "outside * slope(p, first, count, node)")
-            code.set(f"s[{place} + 2]", "0.0")
-            code.set(f"s[{place} + 3]", "0.0")
+    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "q"), ("count", "first"),
+                            ("count", "count"), ("number", "outside")]  # fmt: skip
+    with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[q]."):
+        code.let("c", "t + 4 * first", "count")
+        with code.loop("k", 0, "count"):
+            code.set("c", "c + 4")
+            code.set("s[c]", "p[q + k]")
+            code.set("s[c + 1]", "slope(p, q, first, count, k)")
+        code.let("before", "t + 4 * first", "count")
+        code.set("s[before]", "p[q]")
+        code.set("s[before + 1]", "outside * s[before + 5]")
         with code.loop("k", 0, "count - 1"):
-            code.let("c", "t + 4 * (first + 1 + k)", "count")
+            code.set("c", "before + 4 * k + 4")
             code.let("width", "knots[first + k + 2] - knots[first + k + 1]")
-            code.let("rise", "(p[k + 1] - p[k]) / width")
-            code.let("left", "slope(p, first, count, k)")
-            code.let("right", "slope(p, first, count, k + 1)")
-            code.set("s[c]", "p[k]")
-            code.set("s[c + 1]", "left")
-            code.set("s[c + 2]", "(3.0 * rise - 2.0 * left - right) / width")
-            code.set("s[c + 3]", "(left + right - 2.0 * rise) / (width * width)")
+            code.let("rise", "(p[q + k + 1] - p[q + k]) / width")
+            code.set("s[c + 2]", "(3.0 * rise - 2.0 * s[c + 1] - s[c + 5]) / width")
+            code.set("s[c + 3]", "(s[c + 1] + s[c + 5] - 2.0 * rise) / (width * width)")
+        code.set("c", "before + 4 * count")
+        code.set("s[c + 1]", "outside * s[c + 1]")
 
 
 def _write_end_slope(code: Code) -> None:
@@ -133,7 +130,7 @@ def _write_end_slope(code: Code) -> None:
 
 
 def _write_slope(code: Code) -> None:
-    arguments: Arguments = [("array", "p"), ("count", "first"), ("count", "count"), ("count", "k")]
+    arguments: Arguments = [("array", "p"), ("count", "q"), ("count", "first"), ("count", "count"), ("count", "k")]
     with code.function("number", "slope", arguments, "The slope at a knot: Fritsch and Butland (1984)."):
         code.let("j", "k", "count")
         with code.when("j > 0"):
@@ -160,4 +157,4 @@ def _write_slope(code: Code) -> None:
 
 def _let_segment(code: Code, number: str, name: str) -> None:
     code.let(f"w{number}", f"knots[first + {name} + 2] - knots[first + {name} + 1]")
-    code.let(f"r{number}", f"(p[{name} + 1] - p[{name}]) / w{number}")
+    code.let(f"r{number}", f"(p[q + {name} + 1] - p[q + {name}]) / w{number}")
