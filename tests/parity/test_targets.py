@@ -8,12 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from parity.c_library import Library
+from parity.cubics import along_cubics
 from parity.random_networks import draw_network
 from seeds import seed_of
 from verification.shipped import NAMES, Dice, filled
 from verification.systems import shipped, system
 
-from dashpot.data.drive import Drive, drive_from_path
+from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
 from dashpot.kernel.jit import jit_network
@@ -135,13 +136,6 @@ def test_numba_agrees_on_networks_with_nodes(name, monkeypatch):
     stepped, alone = walked(spec, cubic, network.start), network.solve(network.prepare(cubic))
     assert error(stepped[:, : len(alone.driven)].T, alone.force[0]) <= TOLERANCE
     assert error(stepped[:, len(alone.driven) :].T, alone.motion[0]) <= TOLERANCE
-
-
-def along_cubics(drive: Drive) -> Drive:
-    """The drive with the accelerations of the cubics through places and velocities, as a solver finds them."""
-    x, v, dt = drive.displacement, drive.velocity, drive.dt
-    bends = (6.0 * (x[:-1] - x[1:]) / dt + 2.0 * v[:-1] + 4.0 * v[1:]) / dt
-    return drive_from_path(dt, x, v, np.concatenate([[0.0], bends]))
 
 
 def walked(spec: NetworkSpec, excitation: Excitation, values: np.ndarray) -> np.ndarray:
