@@ -14,9 +14,12 @@ MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array",
                    ("array", "numbers"), ("array", "out")]  # fmt: skip
 
 
-def print_solver(online: Online) -> str:
+CALLED = ("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")
+
+
+def print_solver(online: Online, kind: type[PythonCode] = PythonCode) -> str:
     """The module of a network that somebody else steps."""
-    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")
+    code = kind(*CALLED)
     write_network(code, online)
     _write_bend(code)
     if len(online.driven) == 1 and not online.loaded:
@@ -53,7 +56,7 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
     about = "The force, and how it changes with the displacement and with the velocity."
     with code.function("number", "tangent_step", ONE, about):
         code.borrow("state")
-        code.let("memory", f"zeros_on_stack({online.size})", "array")
+        code.let("memory", code.zeros(online.size), "array")
         code.let("place", "1e-6 * (fabs(x) + fabs(v) * dt + 1e-3)")
         code.let("speed", "0.0")
         for slope in ("stiffness", "damping"):
@@ -77,7 +80,7 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
     arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
     with code.function("nothing", name, arguments, "The force along a whole record."):
-        code.let("state", f"zeros_on_stack({online.size})", "array")
+        code.let("state", code.zeros(online.size), "array")
         code.borrow("numbers")
         if online.system:
             code.set(f"state[{SPAN}]", f"max({SMALLEST_SPAN}, np.max(x) - np.min(x))")
