@@ -162,7 +162,7 @@ def table(content: dict[str, dict[str, dict[str, float]]]) -> str:
 
 
 def _cell(found: dict[str, float]) -> str:
-    return f"{found['difference']:.0e}, {found['compile_s']:.1f} s, {found['ns']:.3g} ns"
+    return f"{found['difference']:.0e}, {found['compile_s']:.2g} s, {found['ns']:.3g} ns"
 
 
 def main() -> None:

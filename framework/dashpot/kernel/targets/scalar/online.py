@@ -24,6 +24,7 @@ SAMPLE = {
     "monotone.old": "since", "monotone.new": "x", "dt": "dt",
 }  # fmt: skip
 TURN = {"monotone.old": "since", "monotone.new": "x", "dt": "dt"}
+TURNED: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
 Leaf = Callable[[Node], str | None]
 
 
@@ -31,14 +32,15 @@ def write_parallel(code: Code, online: Online) -> None:
     """All functions of a network with two ends."""
     write_common(code, online)
     passes = Passes.of(online.program)
+    correct = _write_correct(code, online, passes)
     if passes.turn:
-        _write_turn(code, online, passes)
+        _write_turn(code, online, passes, correct)
         _write_turns(code)
     with code.function("nothing", "advance", MEMORY, "The step to the inputs: fills the outputs."):
         with code.when(f"s[{DT}] != dt"):
             code.do("prepare(s, dt, p)")
         _read_motion(code, online, bool(passes.turn))
-        _correct(code, online, passes, SAMPLE)
+        _correct(code, online, passes, SAMPLE, correct)
         _step(code, online, passes.step)
 
 
@@ -98,7 +100,25 @@ def _moved(online: Online, layout: Layout) -> dict[str, Node]:
     return {f"s[{online.courses[0] + layout.states[name]}]": node for name, node in layout.updates.items()}
 
 
-def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, str]) -> None:
+def _write_correct(code: Code, online: Online, passes: Passes) -> str:
+    """The function of the corrections that samples and turning points share; none where they differ."""
+    if not passes.turn or passes.correct is None:
+        return ""
+    texts = []
+    for motion in (SAMPLE, TURN):
+        first, code.count = len(code.lines), 0
+        with code.function("nothing", "correct", TURNED, "What comes before the step where the direction changes."):
+            storing(code, online, _moved(online, passes.correct), _leaf(code, online, passes.correct, motion))
+        texts.append(code.lines[first:])
+        del code.lines[first:]
+    read = {name for node in passes.correct.updates.values() for name in symbols_of(node)}
+    if texts[0] != texts[1] or "monotone.old" not in read:
+        return ""
+    code.lines += texts[1]
+    return "correct(s, dt, since, x)"
+
+
+def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, str], call: str) -> None:
     if passes.correct is None:
         return
     known = {*motion, *_following(online, motion)}
@@ -109,7 +129,10 @@ def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, st
     writer = Writer(code, due, leaf)
     condition = " | ".join(f"({writer.value(event)})" for event in due)
     with code.when(condition):
-        storing(code, online, _moved(online, passes.correct), leaf)
+        if call:
+            code.do(call)
+        else:
+            storing(code, online, _moved(online, passes.correct), leaf)
 
 
 def _follow(code: Code, online: Online, motion: Mapping[str, str], layout: Layout) -> None:
@@ -123,11 +146,10 @@ def _following(online: Online, motion: Mapping[str, str]) -> dict[str, str]:
             if symbols_of(online.program.followers[name]) <= set(motion)}  # fmt: skip
 
 
-def _write_turn(code: Code, online: Online, passes: Passes) -> None:
-    arguments: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
-    with code.function("nothing", "turn", arguments, "At a turning point only memories without rates move."):
+def _write_turn(code: Code, online: Online, passes: Passes, correct: str) -> None:
+    with code.function("nothing", "turn", TURNED, "At a turning point only memories without rates move."):
         assert passes.turn is not None
-        _correct(code, online, passes, TURN)
+        _correct(code, online, passes, TURN, correct)
         storing(code, online, _moved(online, passes.turn), _leaf(code, online, passes.turn, TURN), together=True)
         _follow(code, online, TURN, passes.turn)
 
