@@ -63,6 +63,12 @@ def test_a_record_has_the_force_of_the_kernel(solver):
     assert simulated(solver, solver.numbers) == pytest.approx(expected, rel=1e-12, abs=1e-12 * np.ptp(expected))
 
 
+def test_inertia_feels_the_acceleration_of_the_cubics():
+    found = jit_network(network("mass: {element: inerter, inertance: 3 kg}"))
+    bends = (6.0 * (PLACE[:-1] - PLACE[1:]) / STEP + 2.0 * SPEED[:-1] + 4.0 * SPEED[1:]) / STEP
+    assert simulated(found, found.numbers)[1:] == pytest.approx(3.0 * bends, rel=1e-9, abs=1e-9)
+
+
 def test_numbers_have_names_and_move_the_force(solver):
     assert solver.names == compile_network(network(MOUNT)).paths
     numbers = solver.numbers.copy()
