@@ -3,6 +3,7 @@
 - `c`        a header and a source in C99
 - `fmu`      a functional mock-up unit by FMI 3.0, for co-simulation
 - `fmu2`     the same by FMI 2.0
+- `numba`    a Python module for numba
 - `modelica` a sampled Modelica model with flanges of the standard library
 - `gbs`      a bushing property file with a static curve and a constant damping
 - `stiffness_table` dynamic stiffness and loss angle as CSV
@@ -23,6 +24,7 @@ def dashpot_exports() -> list[type]:
     from dashpot_exports.fmu2 import Fmu2
     from dashpot_exports.gbs import Gbs
     from dashpot_exports.modelica import Modelica
+    from dashpot_exports.numba import Numba
     from dashpot_exports.stiffness_table import StiffnessTable
 
-    return [C, Fmu, Fmu2, Gbs, Modelica, StiffnessTable]
+    return [C, Fmu, Fmu2, Gbs, Modelica, Numba, StiffnessTable]

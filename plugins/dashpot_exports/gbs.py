@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import Annotated
 
@@ -16,9 +16,11 @@ from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.targets.c99.header import identifier
 from dashpot.model.network import NetworkSpec
-from dashpot_exports.sines import SAMPLES, require_one_end, sine
+from dashpot_exports.sines import SAMPLES, beyond, preloads_of, require_one_end, sine
 
 Array = NDArray[np.float64]
+Compiled = CompiledNetwork | CompiledSystem
+Sine = tuple[float, float, float]  # frequency, amplitude, preload
 
 POINTS, BETWEEN = 41, 50  # of the static curve, and steps from one to the next
 TURNING = 4  # points beyond each end of the static curve, where the slow loop turns
@@ -32,7 +34,7 @@ TEXT = """\
 $ {title}
 $ Approximated by a static curve and a constant damping; friction, relaxation and all that depends on amplitude or
 $ frequency are left out. The largest error along the sines of {name}_conversion.csv: {worst:.1%} of the dynamic force.
-$ Compression positive.
+$ Compression positive.{outside}
 $------------------------------------------------------------------------- HEADER
 [HEADER]
 FILE_TYPE    = 'gbs'
@@ -73,7 +75,8 @@ class Gbs(Export):
     It follows the public description of the format and holds less than a network: the errors of the conversion along
     sines stand in NAME_conversion.csv, the largest one in its head.
 
-    frequencies, amplitudes, preloads: of the sines; direction: FX, FY or FZ.
+    frequencies, amplitudes, preloads: of the sines; by default the least, the middle and the largest preload of the
+    identification. direction: FX, FY or FZ.
     """
 
     word = "gbs"
@@ -82,61 +85,66 @@ class Gbs(Export):
         self,
         frequencies: Annotated[tuple[float, ...], "Hz"] = (1.0, 5.0, 15.0, 25.0),
         amplitudes: Annotated[tuple[float, ...], "m"] = (5e-4, 2e-3),
-        preloads: Annotated[tuple[float, ...], "m"] = (0.0,),
+        preloads: Annotated[tuple[float, ...], "m"] = (),
         direction: str = "FZ",
     ):
         if min(*frequencies, *amplitudes) <= 0.0:
             raise ValueError("frequencies and amplitudes: expected more than 0")
         if direction not in DIRECTIONS[:3]:
             raise ValueError(f"direction: expected one of {', '.join(DIRECTIONS[:3])}, got '{direction}'")
-        self.sines = tuple(product(frequencies, amplitudes, preloads))
+        self.frequencies, self.amplitudes, self.preloads = frequencies, amplitudes, preloads
         self.direction = direction
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.gbs`` and ``NAME_conversion.csv``."""
         require_one_end(network, "a bushing property file")
         found, name, compiled = exported(network), identifier(network.name), compile_network(network)
-        place, static = self._static(network, compiled)
-        damping, errors = self._damping(compiled, place, static)
+        sines = list(product(self.frequencies, self.amplitudes, self.preloads or preloads_of(network)))
+        place, static = _static(network, compiled, sines)
+        damping, errors = _damping(compiled, sines, place, static)
+        outside = beyond(network, sines)
         text = TEXT.format(
             title=" ".join(found.title.split()), name=name, worst=max(share for _, share in errors),
+            outside=f"\n$ {outside}" if outside else "",
             directions=" ".join(DIRECTIONS), activity="\n".join(self._activity()), direction=self.direction,
             curve="\n".join(f"{1e3 * x!r} {force!r}" for x, force in zip(place.tolist(), static.tolist(), strict=True)),
             damping=1e-3 * damping,
         )  # fmt: skip
-        rows = "\n".join(",".join(map(repr, (*given, *told))) for given, told in zip(self.sines, errors, strict=True))
+        rows = "\n".join(",".join(map(repr, (*given, *told))) for given, told in zip(sines, errors, strict=True))
         return {f"{name}.gbs": text.encode(), f"{name}_conversion.csv": (TABLE + rows + "\n").encode()}
-
-    def _static(self, network: NetworkSpec, compiled: CompiledNetwork | CompiledSystem) -> tuple[Array, Array]:
-        """Places (m) and the mid line (N) of a slow loop through all of them."""
-        recorded = [ends for key, ends in network.identified.range.items() if key.startswith("displacement")]
-        low, high = recorded[0] if recorded else WAY
-        reached = [preload + side * amplitude for _, amplitude, preload in self.sines for side in (-1.0, 1.0)]
-        place = np.linspace(min(low, *reached), max(high, *reached), POINTS)
-        beyond = TURNING * (place[1] - place[0])  # at its ends a loop has no middle
-        there = np.linspace(place[0] - beyond, place[-1] + beyond, (POINTS - 1 + 2 * TURNING) * BETWEEN + 1)
-        path = np.concatenate([there, there[-2::-1], there[1:]])  # the first way leads onto the loop
-        force = compiled.along(drive_from_samples(SLOW / (there.size - 1), path, smooth=False))()
-        once = there.size - 1
-        down, up = force[once : 2 * once + 1][::-1], force[2 * once :]
-        return place, 0.5 * (up + down)[TURNING * BETWEEN :: BETWEEN][:POINTS]
-
-    def _damping(self, compiled: CompiledNetwork | CompiledSystem, place: Array,
-                 static: Array) -> tuple[float, list[tuple[float, float]]]:  # fmt: skip
-        """The damping (N s/m) by least squares in which all sines count alike, and the error (N, share) of each."""
-        rests = []
-        for each in self.sines:
-            drive = sine(*each)
-            x, v, force = (row[-SAMPLES:] for row in (drive.displacement, drive.velocity, compiled.along(drive)()))
-            rests.append((force - _curve(place, static, x), v, float(np.std(force))))
-        damping = sum(rest @ v / size**2 for rest, v, size in rests) / sum(v @ v / size**2 for _, v, size in rests)
-        errors = [float(np.sqrt(np.mean((rest - damping * v) ** 2))) for rest, v, _ in rests]
-        return float(damping), [(error, error / size) for error, (_, _, size) in zip(errors, rests, strict=True)]
 
     def _activity(self) -> Iterator[str]:
         for method in METHODS:
             flags = (int(method in ACTIVE and each == self.direction) for each in DIRECTIONS)
             yield f"'{method}' {' '.join(map(str, flags))}"
+
+
+def _static(network: NetworkSpec, compiled: Compiled, sines: Sequence[Sine]) -> tuple[Array, Array]:
+    """Places (m) and the mid line (N) of a slow loop through all of them."""
+    recorded = [ends for key, ends in network.identified.range.items() if key.startswith("displacement")]
+    low, high = recorded[0] if recorded else WAY
+    reached = [preload + side * amplitude for _, amplitude, preload in sines for side in (-1.0, 1.0)]
+    place = np.linspace(min(low, *reached), max(high, *reached), POINTS)
+    margin = TURNING * (place[1] - place[0])  # at its ends a loop has no middle
+    there = np.linspace(place[0] - margin, place[-1] + margin, (POINTS - 1 + 2 * TURNING) * BETWEEN + 1)
+    path = np.concatenate([there, there[-2::-1], there[1:]])  # the first way leads onto the loop
+    force = compiled.along(drive_from_samples(SLOW / (there.size - 1), path, smooth=False))()
+    once = there.size - 1
+    down, up = force[once : 2 * once + 1][::-1], force[2 * once :]
+    return place, 0.5 * (up + down)[TURNING * BETWEEN :: BETWEEN][:POINTS]
+
+
+def _damping(compiled: Compiled, sines: Sequence[Sine], place: Array,
+             static: Array) -> tuple[float, list[tuple[float, float]]]:  # fmt: skip
+    """The damping (N s/m) by least squares in which all sines count alike, and the error (N, share) of each."""
+    rests = []
+    for each in sines:
+        drive = sine(*each)
+        x, v, force = (row[-SAMPLES:] for row in (drive.displacement, drive.velocity, compiled.along(drive)()))
+        rests.append((force - _curve(place, static, x), v, float(np.std(force))))
+    damping = sum(rest @ v / size**2 for rest, v, size in rests) / sum(v @ v / size**2 for _, v, size in rests)
+    errors = [float(np.sqrt(np.mean((rest - damping * v) ** 2))) for rest, v, _ in rests]
+    return float(damping), [(error, error / size) for error, (_, _, size) in zip(errors, rests, strict=True)]
 
 
 def _curve(place: Array, static: Array, x: Array) -> Array:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive, drive_from_path
+from dashpot.model.identified import outside, quantity_of
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import topology_of
 from dashpot.text.problem import InputError, Place
@@ -22,6 +25,25 @@ def sine(frequency: float, amplitude: float, preload: float) -> Drive:
     x = preload + amplitude * np.sin(phase)
     return drive_from_path(1.0 / (frequency * SAMPLES), x, amplitude * rate * np.cos(phase),
                            -amplitude * rate**2 * np.sin(phase))  # fmt: skip
+
+
+def preloads_of(network: NetworkSpec) -> tuple[float, ...]:
+    """The least, the middle and the largest preload (m) with which a network was identified; 0 where none is known."""
+    ends = [ends for key, ends in network.identified.range.items() if quantity_of(key) == "preload"]
+    low, high = ends[0] if ends else (0.0, 0.0)
+    return (low, 0.5 * (low + high), high) if low < high else (low,)
+
+
+def beyond(network: NetworkSpec, sines: Sequence[tuple[float, float, float]]) -> str:
+    """What of the sines (frequency, amplitude, preload) lies outside the range of identification, in words."""
+    frequencies, amplitudes, preloads = (np.array(row) for row in zip(*sines, strict=True))
+    seen = {"frequency": frequencies, "amplitude": amplitudes, "preload": preloads,
+            "displacement": np.concatenate([preloads - amplitudes, preloads + amplitudes]),
+            "speed": np.append(2.0 * np.pi * frequencies * amplitudes, 0.0)}  # fmt: skip
+    known = network.identified.range
+    ends = {key: (float(seen[quantity_of(key)].min()), float(seen[quantity_of(key)].max())) for key in known}
+    words = outside(ends, known)
+    return f"Sines outside of what the numbers were identified with: {'; '.join(words)}." if words else ""
 
 
 def require_one_end(network: NetworkSpec, what: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import product
 from typing import Annotated
 
 import numpy as np
@@ -13,7 +14,7 @@ from dashpot.kernel.export import exported
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.targets.c99.header import identifier
 from dashpot.model.network import NetworkSpec
-from dashpot_exports.sines import SAMPLES, require_one_end, sine
+from dashpot_exports.sines import SAMPLES, beyond, preloads_of, require_one_end, sine
 
 Array = NDArray[np.float64]
 
@@ -27,7 +28,8 @@ class StiffnessTable(Export):
     """A CSV table of dynamic stiffness and loss angle over frequency, amplitude and preload, for bushing tables.
 
     Sines around each preload, from rest there; the first harmonic of the force in the eighth period. What relaxes more
-    slowly than eight periods is not settled then. frequencies, amplitudes, preloads: of the sines.
+    slowly than eight periods is not settled then. frequencies, amplitudes, preloads: of the sines; by default the
+    least, the middle and the largest preload of the identification.
     """
 
     word = "stiffness_table"
@@ -36,7 +38,7 @@ class StiffnessTable(Export):
         self,
         frequencies: Annotated[tuple[float, ...], "Hz"] = (1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 25.0),
         amplitudes: Annotated[tuple[float, ...], "m"] = (1e-4, 5e-4, 1e-3, 2e-3),
-        preloads: Annotated[tuple[float, ...], "m"] = (0.0,),
+        preloads: Annotated[tuple[float, ...], "m"] = (),
     ):
         if min(*frequencies, *amplitudes) <= 0.0:
             raise ValueError("frequencies and amplitudes: expected more than 0")
@@ -45,20 +47,23 @@ class StiffnessTable(Export):
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME_stiffness.csv``, and beside it a text that says of which network."""
         require_one_end(network, "a table of stiffness")
-        rows = (",".join(f"{number!r}" for number in row) for row in self._rows(network))
+        sines = list(product(self.preloads or preloads_of(network), self.amplitudes, self.frequencies))
+        rows = "".join(f"{','.join(map(repr, row))}\n" for row in _rows(network, sines))
         name = f"{identifier(network.name)}_stiffness"
-        return {f"{name}.csv": (HEAD + "\n".join(rows) + "\n").encode(),
-                f"{name}.txt": (exported(network).title + "\n").encode()}  # fmt: skip
+        told = [exported(network).title, beyond(network, [each[::-1] for each in sines])]
+        return {
+            f"{name}.csv": (HEAD + rows).encode(),
+            f"{name}.txt": "".join(f"{line}\n" for line in told if line).encode(),
+        }
 
-    def _rows(self, network: NetworkSpec) -> Iterator[tuple[float, ...]]:
-        compiled = compile_network(network)
-        for preload in self.preloads:
-            for amplitude in self.amplitudes:
-                for frequency in self.frequencies:
-                    force = compiled.along(sine(frequency, amplitude, preload))()
-                    found = _harmonic(force[-SAMPLES:]) / amplitude
-                    size, angle = abs(found), np.degrees(np.angle(found))
-                    yield (frequency, amplitude, preload, *map(float, (found.real, found.imag, size, angle)))
+
+def _rows(network: NetworkSpec, sines: list[tuple[float, float, float]]) -> Iterator[tuple[float, ...]]:
+    compiled = compile_network(network)
+    for preload, amplitude, frequency in sines:
+        force = compiled.along(sine(frequency, amplitude, preload))()
+        found = _harmonic(force[-SAMPLES:]) / amplitude
+        size, angle = abs(found), np.degrees(np.angle(found))
+        yield (frequency, amplitude, preload, *map(float, (found.real, found.imag, size, angle)))
 
 
 def _harmonic(force: Array) -> complex:

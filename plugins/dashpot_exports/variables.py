@@ -53,9 +53,7 @@ def variables_of(found: Exported) -> list[Variable]:
     outputs = [Variable(name, "output", "at the end of a step", _unit(name)) for name in output_names(found.online)]
     about = "0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite"
     status = Variable("status", "output", about, kind="Integer")
-    about = (
-        "sum of what left the identified range: 1 displacement, 2 speed, 4 amplitude, 8 preload, 16 frequency"
-    )
+    about = "sum of what left the identified range: 1 displacement, 2 speed, 4 amplitude, 8 preload, 16 frequency"
     outside = Variable("outside", "output", about, kind="Integer")
     return [*inputs, *outputs, status, outside, *_numbers(found), Variable("time", "independent", "of the run", "s")]
 

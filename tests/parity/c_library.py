@@ -18,6 +18,17 @@ from dashpot.model.network import NetworkSpec
 
 STRICT = ("-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-pedantic")
 DOUBLES = ctypes.POINTER(ctypes.c_double)
+ALONG = """\
+#include "{name}.h"
+
+void along({name}_network *network, int samples, const double *inputs, double dt, double *outputs);
+void along({name}_network *network, int samples, const double *inputs, double dt, double *outputs)
+{{
+    for (int k = 0; k < samples; ++k) {{
+        {name}_advance(network, inputs + {guard}_INPUTS * k, dt, outputs + {guard}_OUTPUTS * k);
+    }}
+}}
+"""
 
 
 def write_sources(spec: NetworkSpec, folder: Path) -> Exported:
@@ -41,7 +52,8 @@ class Library:
     def build(cls, spec: NetworkSpec, folder: Path) -> Library:
         """Compile a network with all warnings as errors."""
         found, name = write_sources(spec, folder), identifier(spec.name)
-        command = ["cc", *STRICT, "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c", "-lm"]
+        (folder / "along.c").write_text(ALONG.format(name=name, guard=name.upper()))
+        command = ["cc", *STRICT, "-shared", "-fPIC", "-o", f"{name}.so", f"{name}.c", "along.c", "-lm"]
         subprocess.run(command, cwd=folder, check=True)
         return cls(found, name, ctypes.CDLL(str(folder / f"{name}.so")))
 
@@ -55,9 +67,8 @@ class Library:
         inputs = np.column_stack([column for each in drives
                                   for column in (each.displacement, each.velocity, each.acceleration)])  # fmt: skip
         outputs = np.empty((drive.samples, online.before - online.outputs))
-        for given, answer in zip(np.ascontiguousarray(inputs), outputs, strict=True):
-            self._call("advance", memory, given.ctypes.data_as(DOUBLES), ctypes.c_double(drive.dt),
-                       answer.ctypes.data_as(DOUBLES))  # fmt: skip
+        self.functions.along(memory.ctypes.data_as(DOUBLES), drive.samples, inputs.ctypes.data_as(DOUBLES),
+                             ctypes.c_double(drive.dt), outputs.ctypes.data_as(DOUBLES))  # fmt: skip
         return outputs, self._call("status", memory)
 
     def _call(self, function: str, memory: np.ndarray, *more: object) -> int:

@@ -20,7 +20,7 @@ from dashpot.text.problem import nearest
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the target.",
               shell_complete=complete.settings)  # fmt: skip
 @output_option("A folder.")
-@switches("json", "quiet", "force")
+@switches("json", "quiet", "force", "backend")
 def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
     """Write a network for another program, with the numbers of its file.
 

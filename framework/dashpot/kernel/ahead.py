@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dashpot.kernel.network import GROUPS, CompiledNetwork, compile_network
 from dashpot.kernel.parts import take_apart
+from dashpot.kernel.targets.choice import BACKEND, LLVM, backend
 from dashpot.model.network import Characteristic, NetworkSpec, Value
+from dashpot.text.problem import InputError, Place
 
 KNOTS = (0.0, 1e-3)  # a curve along the motion is looked up outside the compiled code, however many knots it has
 
@@ -12,8 +14,12 @@ KNOTS = (0.0, 1e-3)  # a curve along the motion is looked up outside the compile
 def compile_ahead(spec: NetworkSpec) -> None:
     """Compile all that simulations and fits of a network need, for every number of lanes, or find it in the cache.
 
-    Raises InputError for a network that cannot be compiled or where the cache folder cannot be written.
+    Raises InputError for a network that cannot be compiled, where the cache folder cannot be written, and on another
+    backend than LLVM, which compiles when it is called.
     """
+    if backend() != LLVM:
+        message = f"nothing is compiled ahead on the backend '{backend()}', which compiles at the first call"
+        raise InputError.at(Place(BACKEND), message, "run a simulation once: what it compiles is kept")
     filled = with_curves(spec)
     network = compile_network(filled)
     if isinstance(network, CompiledNetwork):

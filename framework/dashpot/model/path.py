@@ -14,7 +14,7 @@ import numpy as np
 from dashpot.model.element import Motion
 
 SERIES_BELOW = 0.5
-TERMS = 14
+LAST = tuple((-1.0) ** j / (factorial(j) * (j + 3)) for j in range(14))
 
 
 def fading_travel(x: Motion, dt: Any, time: Any) -> Any:
@@ -23,17 +23,32 @@ def fading_travel(x: Motion, dt: Any, time: Any) -> Any:
     integral of exp(-(dt - s)/time) v(s) ds over the step, exact for the cubic path and for every ratio dt/time.
     ``dt`` and ``time`` in s.
     """
-    z = dt / time
-    none, one, two = (_moment(order, z) for order in range(3))
+    none, one, two = _moments(dt / time)
     bow = x.travel / dt - 0.5 * (x.velocity_old + x.velocity_new)
     return x.velocity_old * (dt * one) + x.velocity_new * (dt * (none - one)) + bow * (6.0 * dt * (one - two))
 
 
-def _moment(order: int, z: Any) -> Any:
-    """integral of w^order exp(-z w) over w = 0..1, by recurrence where z is large, by its series where z is small."""
-    series = sum((-z) ** j / (factorial(j) * (j + order + 1)) for j in range(1, TERMS)) + 1.0 / (order + 1)
-    far = np.maximum(z, SERIES_BELOW)
-    closed = (1.0 - np.exp(-far)) / far
-    for power in range(1, order + 1):
-        closed = (power * closed - np.exp(-far)) / far
-    return np.where(z < SERIES_BELOW, series, closed)
+def _moments(z: Any) -> tuple[Any, Any, Any]:
+    """integral of w^order exp(-z w) over w = 0..1, for the orders 0, 1 and 2.
+
+    By the recurrence order M(order - 1) = z M(order) + exp(-z): upwards where z is large, downwards from the series of
+    the last one where z is small.
+    """
+    near, far = np.minimum(z, SERIES_BELOW), np.maximum(z, SERIES_BELOW)
+    left, gone = np.exp(-near), np.exp(-far)
+    two = _series(near)
+    one = 0.5 * (near * two + left)
+    low = near * one + left, one, two
+    none = (1.0 - gone) / far
+    one = (none - gone) / far
+    high = none, one, (2.0 * one - gone) / far
+    few, more, most = (np.where(z < SERIES_BELOW, *pair) for pair in zip(low, high, strict=True))
+    return few, more, most
+
+
+def _series(z: Any) -> Any:
+    """The moment of order 2: the sum of (-z)^j / (j! (j + 3))."""
+    total: Any = LAST[-1]
+    for factor in reversed(LAST[:-1]):
+        total = factor + z * total
+    return total

@@ -58,3 +58,9 @@ def test_a_network_with_a_mistake_is_told(call, file):
     file.write_text(NETWORK.replace("maxwell", "maxwel"))
     code, _, error = call("warm", file)
     assert code == 1 and "maxwell" in error
+
+
+def test_a_backend_that_compiles_when_it_is_called_is_told(call, file, monkeypatch):
+    monkeypatch.setenv("DASHPOT_BACKEND", "numba")
+    code, _, error = call("warm", file)
+    assert code == 1 and "nothing is compiled ahead on the backend 'numba'" in error

@@ -11,10 +11,13 @@ import pytest
 from dashpot import declare, load_registry
 
 HEAD = "format: dashpot-network/1\nname: mount\nbranches:\n"
-PLAIN = HEAD + """\
+PLAIN = (
+    HEAD
+    + """\
   rubber: {element: spring, stiffness: 220 N/mm}
   damping: {element: damper, damping: 500 N*s/m}
 """
+)
 DRY = PLAIN + "  friction: {element: dahl, stiffness: 2000 N/mm, limit: 50 N}\n"
 
 
@@ -54,3 +57,17 @@ def test_the_direction_is_the_only_active_one():
     assert curve(text)[-1, 0] == pytest.approx(7.0)
     with pytest.raises(ValueError, match="expected one of FX, FY, FZ, got 'TX'"):
         converted(PLAIN, direction="TX")
+
+
+IDENTIFIED = """
+identified:
+  range: {displacement: [5 mm, 15 mm], speed: [0 m/s, 1 m/s], amplitude: [1 mm, 4 mm], preload: [8 mm, 12 mm]}
+"""
+
+
+def test_sines_stand_at_the_preloads_of_the_identification_and_those_outside_are_told():
+    text, rows = converted(DRY + IDENTIFIED)
+    assert set(rows[:, 2]) == {8e-3, 10e-3, 12e-3}
+    assert "$ Sines outside of what the numbers were identified with: amplitude 0.5 mm to 2 mm" in text
+    text, _ = converted(DRY + IDENTIFIED, amplitudes=(2e-3,), frequencies=(1.0, 5.0))
+    assert "Sines outside" not in text

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import csv
+import shutil
+import subprocess
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from unit.exports.modelica_functions import Array, functions_of
-from unit.exports.mounts import leg, mount, sine
+from unit.exports.mounts import SAMPLES, STEP, leg, mount, sine
 
 from dashpot import declare, load_registry
 from dashpot.data.drive import drive_from_path
@@ -73,8 +78,9 @@ def test_the_functions_solve_for_nodes_under_motions_and_loads():
     assert np.max(np.abs(found[:, :2].T - expected.force[0])) <= 2e-3 * np.max(np.abs(expected.force))
 
 
-@pytest.mark.parametrize("network", [mount(), declare(CURVED), leg(), declare(NODES)],
-                         ids=["mount", "curved", "leg", "nodes"])
+@pytest.mark.parametrize(
+    "network", [mount(), declare(CURVED), leg(), declare(NODES)], ids=["mount", "curved", "leg", "nodes"]
+)
 def test_a_parser_takes_the_text(network):
     parser = pytest.importorskip("pymoca.parser")
     tree = parser.parse(written(network))
@@ -92,3 +98,62 @@ def test_nodes_have_flanges_inputs_and_places():
     assert "Flange_a flange_left;" in text and "flange_right_hand.f = force[2];" in text
     assert 'RealInput load_arm(unit = "N");' in text and "discrete Modelica.Units.SI.Position place_body" in text
     assert "Flange_a flange_a" in written(leg()) and "place_" not in written(leg())
+
+
+def integrated(drive) -> np.ndarray:
+    """The force of the mount by its rate equations, with small steps of a general integrator."""
+    rate, size = 60.0, 2e-3
+
+    def rates(t, state):
+        speed = size * rate * np.cos(rate * t)
+        friction, relaxing = state
+        return speed * 900e3 * (1.0 - np.sign(speed) * friction / 60.0), 150e3 * speed - relaxing / 20e-3
+
+    at = drive.dt * np.arange(drive.samples)
+    friction, relaxing = solve_ivp(rates, (0.0, at[-1]), (0.0, 0.0), t_eval=at, method="DOP853", rtol=1e-9, atol=1e-9,
+                                   max_step=1e-4).y  # fmt: skip
+    return 220e3 * drive.displacement + friction + relaxing
+
+
+def test_the_functions_follow_the_rate_equations_of_the_laws():
+    drive = sine(200)
+    expected = integrated(drive)
+    # between samples the path is a cubic
+    assert np.max(np.abs(run(mount(), [drive], [])[:, 0] - expected)) <= 1e-5 * np.max(np.abs(expected))
+
+
+BENCH = """
+model Bench
+  mount.Specimen specimen(step = 1e-3);
+  Modelica.Blocks.Sources.Sine sine(amplitude = 2e-3, f = 60.0 / (2.0 * Modelica.Constants.pi));
+  Modelica.Mechanics.Translational.Sources.Position move(exact = true);
+  Modelica.Mechanics.Translational.Components.Fixed fixed;
+equation
+  connect(sine.y, move.s_ref);
+  connect(move.flange, specimen.flange_a);
+  connect(specimen.flange_b, fixed.flange);
+end Bench;
+"""
+SCRIPT = """
+loadModel(Modelica); getErrorString();
+loadFile("mount.mo"); getErrorString();
+loadFile("Bench.mo"); getErrorString();
+simulate(Bench, stopTime = 0.4, numberOfIntervals = 400, tolerance = 1e-9, outputFormat = "csv"); getErrorString();
+"""
+
+
+@pytest.mark.skipif(shutil.which("omc") is None, reason="OpenModelica is not installed")
+def test_openmodelica_gives_the_simulated_force(tmp_path):
+    for name, text in (("mount.mo", written(mount())), ("Bench.mo", BENCH), ("run.mos", SCRIPT)):
+        (tmp_path / name).write_text(text)
+    done = subprocess.run(["omc", "run.mos"], cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert (tmp_path / "Bench_res.csv").is_file(), done.stdout
+    with (tmp_path / "Bench_res.csv").open() as stream:
+        rows = list(csv.DictReader(stream))
+    # the last row of a moment is that after its event
+    forces = {round(float(row["time"]) / STEP): float(row["specimen.force[1]"]) for row in rows
+              if abs(float(row["time"]) / STEP - round(float(row["time"]) / STEP)) < 1e-6}  # fmt: skip
+    compiled = compile_network(mount())
+    expected = compiled.simulate(compiled.prepare(sine()))
+    found = np.array([forces[k] for k in range(SAMPLES)])
+    assert np.max(np.abs(found - expected)) <= 1e-6 * np.max(np.abs(expected))

@@ -43,11 +43,21 @@ class Online:
     knots: tuple[float, ...]
 
     @cached_property
+    def read(self) -> frozenset[str]:
+        """The symbols that the program reads."""
+        arguments = [look.argument for look in self.program.lookups]
+        nodes = [*self.program.columns, *self.program.roots, *arguments]
+        return frozenset(name for node in nodes for name in symbols_of(node))
+
+    @cached_property
     def followers(self) -> tuple[str, ...]:
         """Those followers of the drive that the program reads."""
-        read = {name for node in (*self.program.columns, *self.program.roots) for name in symbols_of(node)}
-        read |= {name for look in self.program.lookups for name in symbols_of(look.argument)}
-        return tuple(name for name in self.program.followers if name in read)
+        return tuple(name for name in self.program.followers if name in self.read)
+
+    @property
+    def accelerated(self) -> bool:
+        """Whether the forces depend on the accelerations."""
+        return self.system is not None or any(name.endswith(".acceleration") for name in self.read)
 
     @cached_property
     def known(self) -> tuple[str, ...]:

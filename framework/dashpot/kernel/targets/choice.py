@@ -13,8 +13,8 @@ from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import SystemProgram
 from dashpot.text.problem import InputError, Place, nearest
 
-BACKEND = "DASHPOT_BACKEND"
-TARGETS = ("llvm", "numba")
+BACKEND, LLVM = "DASHPOT_BACKEND", "llvm"
+TARGETS = (LLVM, "numba")
 
 
 class Code(Protocol):

@@ -73,10 +73,6 @@ class CCode(Code):
         """A for."""
         return self.indented(f"for (int {name} = {first}; {name} < {end}; ++{name}) {{", "}")
 
-    def part(self, array: str, first: int) -> str:
-        """A pointer."""
-        return f"{array} + {first}"
-
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """A constant array."""
         self.write(f"static const double {name}[{len(values)}] = {{{', '.join(map(self.number, values))}}};")

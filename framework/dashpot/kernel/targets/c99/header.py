@@ -16,6 +16,10 @@ TEXT = """\
 #ifndef {guard}
 #define {guard}
 
+#ifdef __cplusplus
+extern "C" {{
+#endif
+
 #define {guard}_NUMBERS {numbers}
 #define {guard}_INPUTS {inputs}
 #define {guard}_OUTPUTS {outputs}
@@ -57,6 +61,10 @@ int {name}_outside(const {name}_network *network);
 /* All that a run remembers, to go back to it. */
 void {name}_get_state(const {name}_network *network, double *state);
 void {name}_set_state({name}_network *network, const double *state);
+
+#ifdef __cplusplus
+}}
+#endif
 
 #endif
 """

@@ -109,7 +109,7 @@ void {name}_set_state({name}_network *network, const double *state)
 STEP = """
 double {name}_step({name}_network *network, double x, double v, double dt)
 {{
-    double inputs[3] = {{x, v, {name}_acceleration(network, 0, x, v, dt)}}, outputs[{answers}];
+    double inputs[3] = {{x, v, {acceleration}}}, outputs[{answers}];
     {name}_advance(network, inputs, dt, outputs);
     return outputs[0];
 }}
@@ -126,6 +126,7 @@ def print_source(online: Online, name: str, values: Sequence[float], units: Sequ
     places = {"name": own, "count": len(online.numbers), "size": state_size(online, seen), "inputs": online.inputs,
               "answers": online.before - online.outputs, "outputs": online.outputs, "before": online.before,
               "DT": DT, "SPAN": SPAN, "STATUS": STATUS, "BEGUN": BEGUN, "INPUTS": INPUTS,
+              "acceleration": f"{own}_acceleration(network, 0, x, v, dt)" if online.accelerated else "0.0",
               "NOT_FINITE": NOT_FINITE, "smallest": SMALLEST_SPAN}  # fmt: skip
     step = STEP.format(**places) if single(online) else ""
     watching = watch_call(online, seen, "begun")

@@ -100,10 +100,6 @@ class ModelicaCode(Code):
         """A for."""
         return self.indented(f"for {name} in {first}:({end}) - 1 loop", "end for;")
 
-    def part(self, array: str, first: int) -> str:
-        """A slice."""
-        return f"{array}[{first + 1}:end]"
-
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """A constant array."""
         self.lines += [f"    constant Real {name}[:] = {{{', '.join(map(self.number, values))}}};", ""]

@@ -2,7 +2,7 @@
 
 code     - statements of Python as numba compiles it
 module   - modules, kept by what they are made of
-borrowed - arrays without counted references
+borrowed - arrays without counted references, and on the stack
 packed   - long functions of four arguments in a vector
 block    - blocks of lanes along whole records, as the kernel runs them
 stepping - step and simulate, to be called from anybody's compiled code

@@ -62,14 +62,17 @@ def _run(code: PythonCode, arguments: Arguments) -> Iterator[None]:
 
 @contextmanager
 def _own_memory(code: PythonCode) -> Iterator[None]:
-    # the numbers of a lane side by side
-    code.let("own", "space[l::n].copy()", "array")
-    code.let("own_tables", "all_tables[l::n].copy()", "array")
-    code.let("w", "borrowed(own)", "array")
-    code.let("tables", "borrowed(own_tables)", "array")
+    # the numbers of a lane side by side; a slice would take numba a second to compile
+    pairs = (("own", "space", "w"), ("own_tables", "all_tables", "tables"))
+    for own, array, name in pairs:
+        code.let(own, f"np.empty({array}.size // n)", "array")
+        code.let(name, f"borrowed({own})", "array")
+        with code.loop("k", 0, f"{array}.size // n"):
+            code.set(f"{name}[k]", f"{array}[k * n + l]")
     yield
-    code.set("space[l::n]", "own")
-    code.set("all_tables[l::n]", "own_tables")
+    for own, array, _ in pairs:
+        with code.loop("k", 0, f"{array}.size // n"):
+            code.set(f"{array}[k * n + l]", f"{own}[k]")
 
 
 def _operations(roots: list[Node]) -> set[str]:

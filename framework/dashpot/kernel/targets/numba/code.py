@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import ClassVar
 
 from dashpot.kernel.targets.omega import OMEGA_HIGH
 from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
 
-HEAD = """\
+LIBRARIES = """\
 from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
 
 import numpy as np
 from numba import njit
-
-from dashpot.kernel.targets.numba.borrowed import borrowed
+"""
+HELPERS = """
+from dashpot.kernel.targets.numba.borrowed import borrowed, zeros_on_stack
 from dashpot.kernel.targets.numba.packed import packed_0, packed_1, packed_2, packed_3, packed_4
 
 """
@@ -31,12 +33,13 @@ def pack_{omegas}(a, b, c, d):
         return {answers}
     return packed_{omegas}(a, b, c, d)
 """
-AT_EVERY_SAMPLE = frozenset({"advance", "step_"})  # written into the loop that calls them
+AT_EVERY_SAMPLE = frozenset({"advance", "step", "step_"})  # written into the loop that calls them
 
 
 class PythonCode(Code):
     """A module of compiled functions."""
 
+    head: ClassVar[str] = LIBRARIES + HELPERS
     operations = {**COMMON, "logical_not": "(not {0})", "where": "({1} if {0} else {2})"}
 
     def __init__(self, *called: str) -> None:
@@ -44,7 +47,7 @@ class PythonCode(Code):
         super().__init__()
         self.called = called
         self.packs: set[int] = set()
-        self.lines += HEAD.splitlines()
+        self.lines += self.head.splitlines()
 
     @property
     def text(self) -> str:
@@ -94,10 +97,6 @@ class PythonCode(Code):
         """A for."""
         return self.indented(f"for {name} in range({first}, {end}):")
 
-    def part(self, array: str, first: int) -> str:
-        """A slice."""
-        return f"{array}[{first}:]"
-
     def numbers(self, name: str, values: Sequence[float]) -> None:
         """An array, which is a constant of the compiled functions."""
         self.write(f"{name} = np.array([{', '.join(map(self.number, values))}])")
@@ -127,8 +126,29 @@ class PythonCode(Code):
         for array in arrays:
             self.set(array, f"borrowed({array})")
 
+    def zeros(self, count: int) -> str:
+        """An array for as long as the function runs."""
+        return f"zeros_on_stack({count})"
+
     def number(self, value: float | bool) -> str:
         """A literal."""
         if isinstance(value, bool) or not math.isinf(value):
             return repr(value) if isinstance(value, bool) or value >= 0.0 else f"({value!r})"
         return "inf" if value > 0.0 else "(-inf)"
+
+
+class AloneCode(PythonCode):
+    """The same for a module that needs numba and numpy alone."""
+
+    head = LIBRARIES
+
+    def together(self, calls: Sequence[tuple[str, str]]) -> list[str]:
+        """One function after the other."""
+        return []
+
+    def borrow(self, *arrays: str) -> None:
+        """Arrays as they are."""
+
+    def zeros(self, count: int) -> str:
+        """A new array."""
+        return f"np.zeros({count})"

@@ -5,12 +5,13 @@ from __future__ import annotations
 import hashlib
 import sys
 from functools import lru_cache
+from importlib.resources import files as resources
 from importlib.util import module_from_spec, spec_from_file_location
 from types import ModuleType
 
 from dashpot.kernel.targets.cache import cache_folder, keep
 
-PREFIX = "dashpot_kernel_"
+PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "packed.py")
 
 
 def load_module(text: str) -> ModuleType:
@@ -18,11 +19,18 @@ def load_module(text: str) -> ModuleType:
     return _module(text, str(cache_folder()))
 
 
+@lru_cache
+def _helpers() -> bytes:
+    """What the machine code of every module holds besides its own text."""
+    own = resources(__package__)
+    return b"".join((own / file).read_bytes() for file in HELPERS)
+
+
 @lru_cache(maxsize=256)
 def _module(text: str, folder: str) -> ModuleType:
     from pathlib import Path
 
-    name = PREFIX + hashlib.sha256(text.encode()).hexdigest()[:32]
+    name = PREFIX + hashlib.sha256(text.encode() + _helpers()).hexdigest()[:32]
     file = Path(folder) / "kernels" / f"{name}.py"
     if not file.is_file() or file.read_bytes() != text.encode():
         keep(file, text.encode())

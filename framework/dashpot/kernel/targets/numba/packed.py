@@ -19,7 +19,7 @@ from dashpot.kernel.targets.omega import OMEGA_BOTTOM, OMEGA_LOW, OMEGA_TOP
 
 WIDTH = 4
 LOWEST = -700.0  # below it an exponential is zero for all that is added to it
-TERMS = 14  # of the exponential of half a logarithm of two
+TERMS = 13  # of the exponential of half a logarithm of two
 LOG_HIGH, LOG_LOW = 0.6931471803691238, 1.9082149292705877e-10  # log(2), the first part with zeros at its end
 MAGIC = 6755399441055744.0  # 1.5 * 2^52: a number added to it is rounded, and stands in its lowest bits
 EXPONENT = 52  # of the bits of a number, the first one of its exponent
@@ -43,10 +43,13 @@ class _Vectors:
         return self.builder.call(self._fma, [a, b, c])
 
     def polynomial(self, coefficients: Sequence[float], x: Any) -> Any:
-        total = self.all(coefficients[-1])
-        for coefficient in reversed(coefficients[:-1]):
-            total = self.fma(total, x, self.all(coefficient))
-        return total
+        # in pairs: a sum from the last term on waits for every product
+        terms = [self.all(coefficient) for coefficient in coefficients]
+        while len(terms) > 1:
+            pairs = zip(terms[::2], terms[1::2], strict=False)
+            terms = [self.fma(high, x, low) for low, high in pairs] + terms[len(terms) & ~1 :]
+            x = self.builder.fmul(x, x)
+        return terms[0]
 
     def at_least(self, x: Any, least: float) -> Any:
         return self.builder.select(self.builder.fcmp_ordered("<", x, self.all(least)), self.all(least), x)

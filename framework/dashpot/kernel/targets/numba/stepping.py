@@ -14,9 +14,12 @@ MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array",
                    ("array", "numbers"), ("array", "out")]  # fmt: skip
 
 
-def print_solver(online: Online) -> str:
+CALLED = ("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")
+
+
+def print_solver(online: Online, kind: type[PythonCode] = PythonCode) -> str:
     """The module of a network that somebody else steps."""
-    code = PythonCode("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")
+    code = kind(*CALLED)
     write_network(code, online)
     _write_bend(code)
     if len(online.driven) == 1 and not online.loaded:
@@ -40,7 +43,8 @@ def _write_bend(code: PythonCode) -> None:
 def _write_step(code: PythonCode, online: Online) -> None:
     with code.function("number", "step", ONE, "The force after a step to a displacement and a velocity."):
         code.borrow("state", "numbers")
-        code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x, v, dt)")
+        if online.accelerated:
+            code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x, v, dt)")
         code.set(f"state[{INPUTS}]", "x")
         code.set(f"state[{INPUTS + 1}]", "v")
         code.do("advance(state, dt, numbers)")
@@ -48,37 +52,45 @@ def _write_step(code: PythonCode, online: Online) -> None:
 
 
 def _write_tangent(code: PythonCode, online: Online) -> None:
-    """Central differences of three copies of the memory: turning points and Newton's steps move along."""
+    """Central differences on copies of the memory: turning points and Newton's steps move along."""
     about = "The force, and how it changes with the displacement and with the velocity."
     with code.function("number", "tangent_step", ONE, about):
-        code.let("spread", "1e-6 * (fabs(x) + fabs(v) * dt + 1e-3)")
-        code.let("memory", "np.empty_like(state)", "array")
-        for name, moved in {"up": "x + spread, v", "down": "x - spread, v", "fast": "x, v + spread / dt",
-                            "slow": "x, v - spread / dt"}.items():  # fmt: skip
-            code.set("memory[:]", "state")
-            code.let(name, f"step(memory, {moved}, dt, numbers)")
-        force = "step(state, x, v, dt, numbers)"
-        code.answer(f"{force}, (up - down) / (2.0 * spread), (fast - slow) * dt / (2.0 * spread)")
+        code.borrow("state")
+        code.let("memory", code.zeros(online.size), "array")
+        code.let("place", "1e-6 * (fabs(x) + fabs(v) * dt + 1e-3)")
+        code.let("speed", "0.0")
+        for slope in ("stiffness", "damping"):
+            code.let(slope, "0.0")
+        with code.loop("k", 0, 4):  # ahead and behind in the displacement, then in the velocity
+            with code.loop("i", 0, online.size):
+                code.set("memory[i]", "state[i]")
+            code.let("moved", "step(memory, x + place, v + speed, dt, numbers)")
+            with code.when("k < 2"):
+                code.set("stiffness", "stiffness + 0.5 * moved / place")
+            with code.otherwise():
+                code.set("damping", "damping + 0.5 * moved / speed")
+            with code.when("k == 1"):
+                code.set("speed", "place / dt")
+                code.set("place", "0.0")
+            code.set("place", "-place")
+            code.set("speed", "-speed")
+        code.answer("step(state, x, v, dt, numbers), stiffness, damping")
 
 
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
     arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
     with code.function("nothing", name, arguments, "The force along a whole record."):
-        code.let("memory", f"np.empty({online.size})", "array")  # zeros take a tenth of a second to compile
-        code.let("state", "borrowed(memory)", "array")
-        with code.loop("k", 0, online.size):
-            code.set("state[k]", "0.0")
+        code.let("state", code.zeros(online.size), "array")
         code.borrow("numbers")
         if online.system:
             code.set(f"state[{SPAN}]", f"max({SMALLEST_SPAN}, np.max(x) - np.min(x))")
         with code.loop("k", 0, "x.size"):
             for number, each in enumerate(given):
                 code.set(f"state[{INPUTS + number}]", f"{each}[k]")
-            if len(given) < len(MOTION):
+            if len(given) < len(MOTION) and online.accelerated:
                 code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x[k], v[k], dt)")
             code.do("advance(state, dt, numbers)")
             code.set("out[k]", f"state[{online.outputs}]")
-        code.set("memory[0]", "0.0")  # it has to live until here
 
 
 def _write_status(code: PythonCode, online: Online) -> None:

@@ -15,6 +15,8 @@ Kind = Literal["number", "count", "truth", "array", "nothing"]
 Block = AbstractContextManager[None]
 Arguments = Sequence[tuple[Kind, str]]
 
+MEMORY: Arguments = [("array", "s"), ("number", "dt"), ("array", "p")]  # of a network, the step, its numbers
+
 COMMON = {
     "add": "({0} + {1})", "subtract": "({0} - {1})", "multiply": "({0} * {1})", "divide": "({0} / {1})",
     "negative": "(-{0})", "absolute": "fabs({0})", "less": "({0} < {1})", "less_equal": "({0} <= {1})",
@@ -86,10 +88,6 @@ class Code(ABC):
     @abstractmethod
     def loop(self, name: str, first: str | int, end: str | int) -> Block:
         """What is written inside is done for an index from ``first`` on, as long as it is below ``end``."""
-
-    @abstractmethod
-    def part(self, array: str, first: int) -> str:
-        """An array from an element on."""
 
     @abstractmethod
     def numbers(self, name: str, values: Sequence[float]) -> None:

@@ -22,9 +22,9 @@ from dashpot.kernel.ir.system import (
     UNSOLVED,
     SystemProgram,
 )
-from dashpot.kernel.targets.scalar.code import Arguments, Code
+from dashpot.kernel.targets.scalar.code import MEMORY, Arguments, Code
 from dashpot.kernel.targets.scalar.graph import truth
-from dashpot.kernel.targets.scalar.online import MEMORY, storing, write_common
+from dashpot.kernel.targets.scalar.online import storing, write_common
 
 COURSE: Arguments = [("array", "s"), ("count", "w")]
 PARTS = (2, 4)  # of a sample, for long steps and for short ones

@@ -73,12 +73,7 @@ def _polynomial(coefficients: Sequence[float], x: str) -> str:
 
 
 def write_tables(code: Code, orders: set[int]) -> None:
-    """Finding the place in a table, and its value or slopes there."""
-    with code.function("count", "segment", TABLE[2:], "The segment of a table that x lies in, among all segments."):
-        code.let("k", "first", "count")
-        with code.loop("j", "first + 1", "first + count + 1"), code.when("x >= knots[j]"):
-            code.set("k", "j")
-        code.answer("k")
+    """The value of a table, or its derivatives."""
     for order, value in enumerate((
         "s[c] + u * (s[c + 1] + u * (s[c + 2] + u * s[c + 3]))",
         "s[c + 1] + u * (2.0 * s[c + 2] + 3.0 * u * s[c + 3])",
@@ -87,7 +82,9 @@ def write_tables(code: Code, orders: set[int]) -> None:
         if order not in orders:
             continue
         with code.function("number", f"table{order}", TABLE, "A table at x, or its first or second derivative."):
-            code.let("k", "segment(first, count, x)", "count")
+            code.let("k", "first", "count")
+            with code.loop("j", "first + 1", "first + count + 1"), code.when("x >= knots[j]"):
+                code.set("k", "j")
             code.let("u", "x - knots[k]")
             code.let("c", "t + 4 * k", "count")
             code.answer(value)
@@ -95,45 +92,30 @@ def write_tables(code: Code, orders: set[int]) -> None:
 
 def write_tabulate(code: Code) -> None:
     """The monotone cubic through the values of a table; see ``kernel.curves``."""
-    _write_end_slope(code)
     _write_slope(code)
-    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "first"), ("count", "count"),
-                            ("number", "outside")]  # fmt: skip
-    with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[0]."):
-        code.let("node", code.index(0), "count")
-        for place, row in (("before", "first"), ("behind", "first + count")):
-            if place == "behind":
-                code.set("node", "count - 1")
-            code.let(place, f"t + 4 * ({row})", "count")
-            code.set(f"s[{place}]", "p[node]")
-            code.set(f"s[{place} + 1]", "outside * slope(p, first, count, node)")
-            code.set(f"s[{place} + 2]", "0.0")
-            code.set(f"s[{place} + 3]", "0.0")
+    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "q"), ("count", "first"),
+                            ("count", "count"), ("number", "outside")]  # fmt: skip
+    with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[q]."):
+        code.let("c", "t + 4 * first", "count")
+        with code.loop("k", 0, "count"):
+            code.set("c", "c + 4")
+            code.set("s[c]", "p[q + k]")
+            code.set("s[c + 1]", "slope(p, q, first, count, k)")
+        code.let("before", "t + 4 * first", "count")
+        code.set("s[before]", "p[q]")
+        code.set("s[before + 1]", "outside * s[before + 5]")
         with code.loop("k", 0, "count - 1"):
-            code.let("c", "t + 4 * (first + 1 + k)", "count")
+            code.set("c", "before + 4 * k + 4")
             code.let("width", "knots[first + k + 2] - knots[first + k + 1]")
-            code.let("rise", "(p[k + 1] - p[k]) / width")
-            code.let("left", "slope(p, first, count, k)")
-            code.let("right", "slope(p, first, count, k + 1)")
-            code.set("s[c]", "p[k]")
-            code.set("s[c + 1]", "left")
-            code.set("s[c + 2]", "(3.0 * rise - 2.0 * left - right) / width")
-            code.set("s[c + 3]", "(left + right - 2.0 * rise) / (width * width)")
-
-
-def _write_end_slope(code: Code) -> None:
-    arguments: Arguments = [("number", "w0"), ("number", "w1"), ("number", "r0"), ("number", "r1")]
-    with code.function("number", "end_slope", arguments, "Through three points, as long as the curve stays monotone."):
-        code.let("m", "((2.0 * w0 + w1) * r0 - w0 * r1) / (w0 + w1)")
-        with code.when("m * r0 <= 0.0"):
-            code.set("m", "0.0")
-        with code.when(f"(r0 * r1 <= 0.0) & (fabs(m) > {STEEPER} * fabs(r0))"):
-            code.set("m", f"{STEEPER} * r0")
-        code.answer("m")
+            code.let("rise", "(p[q + k + 1] - p[q + k]) / width")
+            code.set("s[c + 2]", "(3.0 * rise - 2.0 * s[c + 1] - s[c + 5]) / width")
+            code.set("s[c + 3]", "(s[c + 1] + s[c + 5] - 2.0 * rise) / (width * width)")
+        code.set("c", "before + 4 * count")
+        code.set("s[c + 1]", "outside * s[c + 1]")
 
 
 def _write_slope(code: Code) -> None:
-    arguments: Arguments = [("array", "p"), ("count", "first"), ("count", "count"), ("count", "k")]
+    arguments: Arguments = [("array", "p"), ("count", "q"), ("count", "first"), ("count", "count"), ("count", "k")]
     with code.function("number", "slope", arguments, "The slope at a knot: Fritsch and Butland (1984)."):
         code.let("j", "k", "count")
         with code.when("j > 0"):
@@ -147,10 +129,13 @@ def _write_slope(code: Code) -> None:
         _let_segment(code, "1", "i")
         with code.when("count == 2"):
             code.answer("r0")
-        with code.when("k == 0"):
-            code.answer("end_slope(w0, w1, r0, r1)")
         with code.when("k == count - 1"):
-            code.answer("end_slope(w1, w0, r1, r0)")
+            for one, other in (("w0", "w1"), ("r0", "r1")):
+                code.let(f"far_{one}", one)
+                code.set(one, other)
+                code.set(other, f"far_{one}")
+        with code.when("(k == 0) | (k == count - 1)"):
+            _answer_end_slope(code)
         with code.when("r0 * r1 <= 0.0"):
             code.answer("0.0")
         code.let("left", "2.0 * w1 + w0")
@@ -158,6 +143,16 @@ def _write_slope(code: Code) -> None:
         code.answer("(left + right) / (left / r0 + right / r1)")
 
 
+def _answer_end_slope(code: Code) -> None:
+    """Through three points, as long as the curve stays monotone."""
+    code.let("m", "((2.0 * w0 + w1) * r0 - w0 * r1) / (w0 + w1)")
+    with code.when("m * r0 <= 0.0"):
+        code.set("m", "0.0")
+    with code.when(f"(r0 * r1 <= 0.0) & (fabs(m) > {STEEPER} * fabs(r0))"):
+        code.set("m", f"{STEEPER} * r0")
+    code.answer("m")
+
+
 def _let_segment(code: Code, number: str, name: str) -> None:
     code.let(f"w{number}", f"knots[first + {name} + 2] - knots[first + {name} + 1]")
-    code.let(f"r{number}", f"(p[{name} + 1] - p[{name}]) / w{number}")
+    code.let(f"r{number}", f"(p[q + {name} + 1] - p[q + {name}]) / w{number}")

@@ -70,9 +70,12 @@ class Writer:
 
     def store(self, places: Mapping[str, Node]) -> None:
         """New values at some places; all are computed before any is stored."""
-        found = {place: self.code.new(self.number(node)) for place, node in places.items()}
+        found = {place: self._kept(self.number(node)) for place, node in places.items()}
         for place, value in found.items():
             self.code.set(place, value)
+
+    def _kept(self, value: str) -> str:
+        return value if value.isidentifier() else self.code.new(value)
 
     def _count(self, stack: list[Node]) -> None:
         while stack:

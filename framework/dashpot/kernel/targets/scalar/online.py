@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping
 from dashpot.expr.node import Node, symbols_of, walk
 from dashpot.kernel.ir.layout import Layout, Passes
 from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, Online
-from dashpot.kernel.targets.scalar.code import Arguments, Code
+from dashpot.kernel.targets.scalar.code import MEMORY, Arguments, Code
 from dashpot.kernel.targets.scalar.functions import write_functions, write_tables, write_tabulate
 from dashpot.kernel.targets.scalar.graph import Writer, truth
+from dashpot.kernel.targets.scalar.prepare import write_prepare
 
-MEMORY: Arguments = [("array", "s"), ("number", "dt"), ("array", "p")]
 STILL = {"old": "xo", "new": "x", "velocity_old": "vo", "velocity_new": "v", "acceleration": "a"}
 PATH = {"old": "xo", "new": "x", "velocity_old": "wo", "velocity_new": "w", "acceleration": "wa"}
 SAMPLE = {
@@ -24,6 +24,7 @@ SAMPLE = {
     "monotone.old": "since", "monotone.new": "x", "dt": "dt",
 }  # fmt: skip
 TURN = {"monotone.old": "since", "monotone.new": "x", "dt": "dt"}
+TURNED: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
 Leaf = Callable[[Node], str | None]
 
 
@@ -31,14 +32,15 @@ def write_parallel(code: Code, online: Online) -> None:
     """All functions of a network with two ends."""
     write_common(code, online)
     passes = Passes.of(online.program)
+    correct = _write_correct(code, online, passes)
     if passes.turn:
-        _write_turn(code, online, passes)
+        _write_turn(code, online, passes, correct)
         _write_turns(code)
     with code.function("nothing", "advance", MEMORY, "The step to the inputs: fills the outputs."):
         with code.when(f"s[{DT}] != dt"):
             code.do("prepare(s, dt, p)")
         _read_motion(code, online, bool(passes.turn))
-        _correct(code, online, passes, SAMPLE)
+        _correct(code, online, passes, SAMPLE, correct)
         _step(code, online, passes.step)
 
 
@@ -51,18 +53,7 @@ def write_common(code: Code, online: Online) -> None:
         code.numbers("knots", online.knots)
         write_tables(code, {node.payload[1] for node in nodes if node.operation in ("table", "lookup")})
         write_tabulate(code)
-    if online.program.constants:
-        _write_constants(code, online)
-    with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
-        for course, start in enumerate(online.courses):
-            step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
-            if online.program.constants:
-                code.do(f"constants(s, {code.index(start)}, {step}, p)")
-        for path, shelf in online.shelves.items():
-            first = online.numbers.index(f"{path}[0]")
-            place = f"s, {online.tables}, {code.part('p', first)}, {code.index(shelf.base)}, {code.index(shelf.count)}"
-            code.do(f"tabulate({place}, {code.number(0.0 if shelf.level else 1.0)})")
-        code.set(f"s[{DT}]", "dt")
+    write_prepare(code, online)
 
 
 def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf, together: bool = False) -> None:
@@ -87,20 +78,6 @@ def _roots(online: Online) -> list[Node]:
     return [program.force, *program.updates.values(), *program.corrections.values(), *program.events, *laws]
 
 
-def _write_constants(code: Code, online: Online) -> None:
-    known = {"dt": "dt", "gravity": code.number(online.gravity),
-             **{path: f"p[{number}]" for number, path in enumerate(online.numbers)}}  # fmt: skip
-    arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"), ("array", "p")]
-    with code.function("nothing", "constants", arguments, "The first rows of the workspace that begins at w."):
-        writer = Writer(code, online.program.constants, lambda node: _plain(code, node) or known.get(node.payload))
-        for number, node in enumerate(online.program.constants):
-            code.set(f"s[w + {number}]", writer.number(node))
-
-
-def _plain(code: Code, node: Node) -> str | None:
-    return code.number(node.payload) if node.operation == "constant" else None
-
-
 def _leaf(code: Code, online: Online, layout: Layout, motion: Mapping[str, str]) -> Leaf:
     start = online.courses[0]
     known = {**motion, **_following(online, motion)}
@@ -123,7 +100,25 @@ def _moved(online: Online, layout: Layout) -> dict[str, Node]:
     return {f"s[{online.courses[0] + layout.states[name]}]": node for name, node in layout.updates.items()}
 
 
-def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, str]) -> None:
+def _write_correct(code: Code, online: Online, passes: Passes) -> str:
+    """The function of the corrections that samples and turning points share; none where they differ."""
+    if not passes.turn or passes.correct is None:
+        return ""
+    texts = []
+    for motion in (SAMPLE, TURN):
+        first, code.count = len(code.lines), 0
+        with code.function("nothing", "correct", TURNED, "What comes before the step where the direction changes."):
+            storing(code, online, _moved(online, passes.correct), _leaf(code, online, passes.correct, motion))
+        texts.append(code.lines[first:])
+        del code.lines[first:]
+    read = {name for node in passes.correct.updates.values() for name in symbols_of(node)}
+    if texts[0] != texts[1] or "monotone.old" not in read:
+        return ""
+    code.lines += texts[1]
+    return "correct(s, dt, since, x)"
+
+
+def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, str], call: str) -> None:
     if passes.correct is None:
         return
     known = {*motion, *_following(online, motion)}
@@ -134,7 +129,10 @@ def _correct(code: Code, online: Online, passes: Passes, motion: Mapping[str, st
     writer = Writer(code, due, leaf)
     condition = " | ".join(f"({writer.value(event)})" for event in due)
     with code.when(condition):
-        storing(code, online, _moved(online, passes.correct), leaf)
+        if call:
+            code.do(call)
+        else:
+            storing(code, online, _moved(online, passes.correct), leaf)
 
 
 def _follow(code: Code, online: Online, motion: Mapping[str, str], layout: Layout) -> None:
@@ -148,12 +146,11 @@ def _following(online: Online, motion: Mapping[str, str]) -> dict[str, str]:
             if symbols_of(online.program.followers[name]) <= set(motion)}  # fmt: skip
 
 
-def _write_turn(code: Code, online: Online, passes: Passes) -> None:
-    arguments: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
-    with code.function("nothing", "turn", arguments, "At a turning point only memories without rates move."):
+def _write_turn(code: Code, online: Online, passes: Passes, correct: str) -> None:
+    with code.function("nothing", "turn", TURNED, "At a turning point only memories without rates move."):
         assert passes.turn is not None
-        _correct(code, online, passes, TURN)
-        storing(code, online, _moved(online, passes.turn), _leaf(code, online, passes.turn, TURN))
+        _correct(code, online, passes, TURN, correct)
+        storing(code, online, _moved(online, passes.turn), _leaf(code, online, passes.turn, TURN), together=True)
         _follow(code, online, TURN, passes.turn)
 
 
@@ -189,19 +186,19 @@ def _write_roots(code: Code) -> None:
         code.set("root", "first")
         code.set("first", "second")
         code.set("second", "root")
-    with code.when("first != second"):
-        for place in ("first", "second"):
-            with code.when(f"({place} > 0.0) & ({place} < 1.0)"):
-                code.let("there", f"xo + dt * {place} * (vo + {place} * (b / 2.0 + {place} * c / 3.0))")
-                code.do("turn(s, dt, since, there)")
-                code.set("since", "there")
+    with code.when("first != second"), code.loop("k", 0, 2):
+        with code.when("(first > 0.0) & (first < 1.0)"):
+            code.let("there", "xo + dt * first * (vo + first * (b / 2.0 + first * c / 3.0))")
+            code.do("turn(s, dt, since, there)")
+            code.set("since", "there")
+        code.set("first", "second")
 
 
 def _read_motion(code: Code, online: Online, turning: bool) -> None:
     begin = {"x": INPUTS, "v": INPUTS + 1, "a": INPUTS + 2, "xo": online.before, "vo": online.before + 1}
     read = {SAMPLE[name] for root in _roots(online) for name in symbols_of(root) if name in SAMPLE}
-    needed = {"x", "v", "a"} | read | ({"xo", "vo"} if turning else set())
-    needed |= {source for name, source in (("since", "xo"), ("wo", "vo")) if name in needed}
+    needed = {"x", "v"} | read | ({"xo", "vo"} if turning else set())
+    needed |= {source for name, source in (("since", "xo"), ("wo", "vo"), ("wa", "a")) if name in needed}
     for name, place in begin.items():
         if name in needed:
             code.let(name, f"s[{place}]")
@@ -227,5 +224,5 @@ def _step(code: Code, online: Online, layout: Layout) -> None:
     moved = {f"s[{online.outputs}]": online.program.force, **_moved(online, layout)}
     storing(code, online, moved, _leaf(code, online, layout, SAMPLE), together=True)
     _follow(code, online, SAMPLE, layout)
-    for number, name in enumerate(("x", "v", "a")):
+    for number, name in enumerate(("x", "v")):
         code.set(f"s[{online.before + number}]", name)
