@@ -9,7 +9,6 @@ import click
 
 from dashpot.cli import complete
 from dashpot.cli.columns import in_columns
-from dashpot.cli.output import OutputFolder
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Place
@@ -58,8 +57,7 @@ def verb(
     with session.watch("reading the files"):
         imported = import_files(files, session.readers(), reader, read_rate(sampling))
     target = place_of(output, common_folder([run.file for run in imported.runs]))
-    folder = OutputFolder(target.parent, switches.force)
-    folder.claim(target.name)
+    folder = session.claim_beside(target)
     written = folder.write(
         target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")
     )

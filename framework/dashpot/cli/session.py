@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -80,9 +81,16 @@ class Session:
             self.talk.warn(str(problem))
 
     def claim(self, output: Path, *patterns: str) -> OutputFolder:
-        """The folder ``output``, into which files of these names may be written."""
+        """The folder ``output``, into which files of these names may be written, by this call alone until it ends."""
         folder = OutputFolder(output, self.switches.force)
+        click.get_current_context().with_resource(folder.locked())
         folder.claim(*patterns)
+        return folder
+
+    def claim_beside(self, file: Path, *others: str) -> OutputFolder:
+        """The folder of ``file``, which may be written, as may files of other names, while other calls write theirs."""
+        folder = OutputFolder(file.parent, self.switches.force)
+        folder.claim(escape(file.name), *others)
         return folder
 
     def watch(self, what: str, parts: int = 1) -> ProgressBar:

@@ -82,24 +82,26 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     runs = session.runs(dataset)
     require_settings(network, runs.conditions)
     archive = output.suffix == ".npz"
-    files = [output.name] if archive else [f"{name}.csv" for name in runs.names]
-    folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
+    files = [f"{name}.csv" for name in runs.names]
+    others = [ENERGIES] * energy
+    folder = session.claim_beside(output, *others) if archive else session.claim(output, *map(escape, files), *others)
     forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
-    with session.watch("compiling") as progress:
-        for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
-            if archive:
-                forces.add(forces_by_name({run.name: solution}))
-            else:
-                folder.write(f"{run.name}.csv", csv_text(run, solution))
-            names.append(run.name)
-            beyond[run.name] = beyond_range(network, run)
-            error = max(error, *solution.error.values())
-    session.warn_of(runs.problems)
-    warn_of_range(beyond, session)
-    if archive:
-        folder.write_bytes(output.name, forces.content())
-    if energy:
-        write_energies(network, map(Excitation.of_run, runs), folder, session.talk)
+    with folder.together() as results:
+        with session.watch("compiling") as progress:
+            for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
+                if archive:
+                    forces.add(forces_by_name({run.name: solution}))
+                else:
+                    results.write(f"{run.name}.csv", csv_text(run, solution))
+                names.append(run.name)
+                beyond[run.name] = beyond_range(network, run)
+                error = max(error, *solution.error.values())
+        session.warn_of(runs.problems)
+        warn_of_range(beyond, session)
+        if archive:
+            results.write_bytes(output.name, forces.content())
+        if energy:
+            write_energies(network, map(Excitation.of_run, runs), results, session.talk)
     session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
                         content_of(network, names, output, error, beyond))  # fmt: skip
 
@@ -126,12 +128,13 @@ def measure_on(
         runs = virtual_test(network, bench, session.switches.seed, refine, progress)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
-    for name, text in files.items():
-        folder.write(name, text)
     beyond = {planned.name: beyond_range(network, planned.excitation()) for planned in bench.runs()}
     warn_of_range(beyond, session)
-    if energy:
-        write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
+    with folder.together() as results:
+        for name, text in files.items():
+            results.write(name, text)
+        if energy:
+            write_energies(network, (planned.excitation() for planned in bench.runs()), results, session.talk)
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
     session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset, None, beyond))

@@ -809,7 +809,6 @@ def test_a_plugin_that_is_not_installed(blame, monkeypatch):
 
 RECORDS = {
     "of another study": ("study.txt", "another", "its records are of another study", "say --force to begin again"),
-    "damaged": ("n-1-all-1.json", "{", "expected the record of a search, got a damaged file", "say --force"),
 }
 
 
