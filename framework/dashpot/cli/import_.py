@@ -51,7 +51,7 @@ def verb(
     """
     from dashpot.data.importing.files import common_folder
     from dashpot.data.importing.imported import import_files
-    from dashpot.data.importing.text import dataset_text
+    from dashpot.data.importing.text import dataset_text, leads_outside
 
     session = Session(switches)
     with session.watch("reading the files"):
@@ -61,10 +61,11 @@ def verb(
     written = folder.write(
         target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")
     )
+    allowed = " --allow-outside" if leads_outside(imported, target.parent) else ""
     for problem in imported.problems:
         session.talk.warn(f"left out: {problem}")
     session.talk.result(as_text(imported), as_dict(imported, written))
-    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}")
+    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}{allowed}")
 
 
 def read_rate(sampling: str | None) -> float | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -121,10 +121,18 @@ class Results:
 
     def write_bytes(self, name: str, content: bytes | memoryview) -> Path:
         """Add a file. InputError where there is no room for it, or where it may not be written."""
+        return self._write(name, [content])
+
+    def write_pieces(self, name: str, texts: Iterable[str]) -> Path:
+        """Add a text file whose pieces are made one after the other."""
+        return self._write(name, (text.encode("utf-8") for text in texts))
+
+    def _write(self, name: str, pieces: Iterable[bytes | memoryview]) -> Path:
         path = self.folder / name
         self.names.append(name)
-        with _told(path):
-            (self.folder / _part_name(name)).write_bytes(content)
+        with _told(path), (self.folder / _part_name(name)).open("wb") as stream:
+            for piece in pieces:
+                stream.write(piece)
         return path
 
     def publish(self) -> None:

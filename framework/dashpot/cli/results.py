@@ -124,7 +124,8 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
     setting = diagnosis.after_setting
     if diagnosis.corrected_name is not None:
         readers = {word: reader() for word, reader in registry.formats.items()}
-        again = prepare(read_dataset(folder.path / diagnosis.corrected_name, readers), diagnosis.seed)
+        corrected = read_dataset(folder.path / diagnosis.corrected_name, readers, allow_outside=True)
+        again = prepare(corrected, diagnosis.seed)
         setting = replace(setting, scored={run: again.scored[run] for run in setting.scored})
     told, found = diagnosis.after, measure_errors(network, setting, diagnosis.jobs)
     for one, other in ((told.train, found.train), (told.held_out, found.held_out)):

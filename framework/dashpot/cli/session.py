@@ -55,7 +55,7 @@ class Session:
         from dashpot.data.dataset import read_dataset
 
         with self.watch(f"reading {path}"):
-            dataset = read_dataset(path, self.readers())
+            dataset = read_dataset(path, self.readers(), self.switches.allow_outside)
         self.warn_of(dataset.problems)
         return dataset
 
@@ -73,7 +73,7 @@ class Session:
         """The runs of the dataset at ``path`` one at a time; ``warn_of`` its problems when they were read."""
         from dashpot.data.stream import open_dataset
 
-        return open_dataset(path, self.readers())
+        return open_dataset(path, self.readers(), self.switches.allow_outside)
 
     def warn_of(self, problems: Iterable[Problem]) -> None:
         """Tell what is wrong with single runs."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from dashpot.kernel.api import RunSolution
     from dashpot.model.network import NetworkSpec
 
+ROWS = 50_000  # that are written at a time
+
 
 @click.command("simulate")
 @click.argument("spec", shell_complete=complete.networks)
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
 @output_option("A folder; with --data also a file ending in .npz.")
-@switches("seed", "json", "quiet", "force", "backend")
+@switches("seed", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
     spec: str,
     dataset: str | None,
@@ -92,7 +94,7 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
                 if archive:
                     forces.add(forces_by_name({run.name: solution}))
                 else:
-                    results.write(f"{run.name}.csv", csv_text(run, solution))
+                    results.write_pieces(f"{run.name}.csv", csv_pieces(run, solution))
                 names.append(run.name)
                 beyond[run.name] = beyond_range(network, run)
                 error = max(error, *solution.error.values())
@@ -169,9 +171,9 @@ def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float
             "outside_of_identification": {name: words for name, words in beyond.items() if words}}  # fmt: skip
 
 
-def csv_text(run: Run, solution: RunSolution) -> str:
+def csv_pieces(run: Run, solution: RunSolution) -> Iterator[str]:
     """Time (s), measured and simulated displacements (m) and simulated forces (N), as the shortest texts that read back
-    alike.
+    alike, some rows at a time.
     """
     from dashpot.data.excitation import channel_at
 
@@ -179,9 +181,10 @@ def csv_text(run: Run, solution: RunSolution) -> str:
     columns |= {name: ("m", values) for name, values in run.channels.items() if name.startswith("displacement")}
     columns |= {channel_at("displacement", node): ("m", values) for node, values in solution.motion.items()}
     columns |= {channel_at("force", node): ("N", values) for node, values in solution.force.items()}
-    rows = zip(*(values.tolist() for _, values in columns.values()), strict=True)
-    head = [",".join(columns), ",".join(unit for unit, _ in columns.values())]
-    return "\n".join([*head, *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    yield ",".join(columns) + "\n" + ",".join(unit for unit, _ in columns.values()) + "\n"
+    for first in range(0, run.time.size, ROWS):
+        rows = zip(*(values[first : first + ROWS].tolist() for _, values in columns.values()), strict=True)
+        yield "".join(",".join(map(repr, row)) + "\n" for row in rows)
 
 
 def told_error(largest: float) -> str:
