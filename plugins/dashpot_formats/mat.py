@@ -74,7 +74,10 @@ def _flat(content: Mapping[str, Any], above: str = "", depth: int = 0) -> dict[s
 
 
 def read_hdf5(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """The arrays of numbers in a file of version 7.3, those in groups as `group.name`."""
+    """The arrays of numbers in a file of version 7.3, those in groups as `group.name`.
+
+    Raises ReadingError for numbers that the file takes from other files: links are not followed either.
+    """
     import h5py
 
     variables: dict[str, np.ndarray] = {}
@@ -82,6 +85,8 @@ def read_hdf5(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     def keep(name: str, item: Any) -> None:
         # MATLAB counts the first index fastest, HDF5 the last
         if isinstance(item, h5py.Dataset) and item.dtype.kind in "iuf" and not name.startswith("#"):
+            if item.external or item.is_virtual:
+                raise ReadingError(f"'{name}' lies in other files", "save it with its numbers inside")
             if item.attrs.get("MATLAB_class", b"double") not in (b"char", b"cell", b"logical"):
                 variables[name.replace("/", ".")] = item[()].T
 

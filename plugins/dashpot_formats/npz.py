@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 
@@ -13,7 +15,8 @@ from dashpot.contract.reader import Reader, ReadingError, Table
 from dashpot_formats.flatten import choose_variable, columns_of, numbered_columns
 from dashpot_formats.option import check_options, get_option
 
-_LARGEST = 2 * 1024**3
+_LARGEST = 1024**3  # bytes, as numbers of eight bytes, which they become
+_NUMBER = 8
 
 
 class Npz(Reader):
@@ -60,9 +63,28 @@ def _load(path: Path) -> np.ndarray | dict[str, np.ndarray]:
 
 
 def _refuse_bomb(path: Path) -> None:
-    if not zipfile.is_zipfile(path):
-        return
-    with zipfile.ZipFile(path) as archive:
-        size = sum(entry.file_size for entry in archive.infolist())
+    """Refuse, by the heads of the arrays, what would take too much memory: before any of it is taken."""
+    if zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as archive:
+            size = sum(_unpacked(archive, entry) for entry in archive.infolist())
+    else:
+        with path.open("rb") as stream:
+            size = _size(stream)
     if size > _LARGEST:
         raise ReadingError(f"unpacked it would take {size / 1024**3:.1f} GiB", "save it in smaller pieces")
+
+
+def _unpacked(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> int:
+    if not entry.filename.endswith(".npy"):
+        return entry.file_size
+    with archive.open(entry) as stream:
+        return max(entry.file_size, _size(stream))
+
+
+def _size(stream: IO[bytes]) -> int:
+    read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+    version = np.lib.format.read_magic(stream)
+    if version not in read:
+        raise ReadingError("its arrays have names of fields, expected plain numbers", "save plain arrays of numbers")
+    shape, _, kind = read[version](stream)
+    return math.prod(shape) * max(kind.itemsize, _NUMBER)

@@ -40,9 +40,9 @@ def write_records(folder: Path, head: str, records: list[Record]) -> Path:
     for record in records:
         write = _write_csv if record.file.endswith(".csv") else _write_npz
         write(folder / record.file, record)
-    target = folder / "dataset.yaml"
-    target.write_text(head + "".join(record.entry for record in records), encoding="utf-8")
-    return target
+    part = folder / "dataset.part"
+    part.write_text(head + "".join(record.entry for record in records), encoding="utf-8")
+    return part.replace(folder / "dataset.yaml")
 
 
 def _write_npz(path: Path, record: Record) -> None:

@@ -81,8 +81,9 @@ def measure_car(car: Car, folder: Path, seed: int, every: int = 20, axle_sweep: 
     folder.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(seed)
     entries = [*_tire_runs(car, folder, rng, every), *_axle_runs(car, folder, rng, every, axle_sweep)]
-    target.write_text(head + "".join(entries), encoding="utf-8")
-    return target
+    part = target.with_suffix(".part")
+    part.write_text(head + "".join(entries), encoding="utf-8")
+    return part.replace(target)
 
 
 def _tire_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int) -> Iterator[str]:

@@ -72,7 +72,7 @@ def test_ctrl_c_ends_with_a_line_and_leaves_no_half_file(folder, tmp_path, argum
     # the first line comes before the network is compiled: the cache is empty
     code, told, seconds = interrupted(folder, arguments, tmp_path / "cache")
     assert code == 3
-    assert told.endswith("\ninterrupted; what was done is kept\n") and "Traceback" not in told
+    assert told.endswith("\ninterrupted; the same command goes on\n") and "Traceback" not in told
     assert seconds < 20.0
     left = [path for path in (folder / output).rglob("*") if path.is_file()]
     assert all("checkpoint" in path.parts for path in left), left
@@ -85,6 +85,50 @@ def test_an_interrupted_study_keeps_its_checkpoint_and_goes_on(folder, tmp_path)
     assert (folder / "resumed" / "checkpoint" / "study.txt").is_file()
     code, told, _ = interrupted(folder, "study long.yaml -o resumed", tmp_path / "cache")
     assert code == 3 and "another study" not in told
+
+
+SHORT = """\
+format: dashpot-study/1
+name: short
+data: data
+stages: [{name: all, optimizer: cmaes, budget: 200}]
+models: [plain.yaml]
+"""
+PLAIN = """\
+format: dashpot-network/1
+name: plain
+branches: {k: {element: spring, stiffness: {start: 150 N/mm, bounds: [10 N/mm, 1 kN/mm]}}}
+"""
+KILLED = """\
+import os, sys
+replace = os.replace
+def at_a_result(source, target):
+    if str(target).endswith("study.json"):
+        os._exit(137)  # as if the process were killed
+    replace(source, target)
+os.replace = at_a_result
+"""
+
+
+def test_a_study_that_is_killed_while_its_results_are_written_goes_on(folder):
+    (folder / "short.yaml").write_text(SHORT)
+    (folder / "plain.yaml").write_text(PLAIN)
+
+    def call(before: str, output: str) -> subprocess.CompletedProcess:
+        arguments = ["study", "short.yaml", "-o", output]
+        program = [sys.executable, "-c", before + PROGRAM, *arguments]
+        return subprocess.run(program, cwd=folder, capture_output=True, text=True)
+
+    assert call("", "whole").returncode == 0
+    assert call(KILLED, "killed").returncode == 137
+    assert (folder / "killed" / "plain.yaml").exists() and not (folder / "killed" / "study.json").exists()
+    # whatever searches again has no method to do it with: all is answered from the checkpoint
+    no_search = "import dashpot.fit.study.stage as stage; stage.run_search = None\n"
+    again = call(no_search, "killed")
+    assert again.returncode == 0, again.stderr
+    files = {path.relative_to(folder / "whole"): path.read_bytes() for path in (folder / "whole").rglob("*")}
+    assert files == {path.relative_to(folder / "killed"): path.read_bytes() for path in (folder / "killed").rglob("*")}
+    assert "exists already" in call("", "killed").stderr
 
 
 def test_ctrl_c_while_python_still_starts_has_no_traceback(folder):

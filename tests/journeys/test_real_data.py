@@ -44,10 +44,11 @@ def folder(name):
 def told(tmp_path, network, head, runs):
     """The diagnosis of a network on runs, each given as the entries of a dataset file."""
     lines = "\n".join("  - {" + ", ".join(f"{key}: {value}" for key, value in run.items()) + "}" for run in runs)
-    text = f"format: dashpot-dataset/1\nname: real\nallow_outside: true\ndefaults:\n{head}\nruns:\n{lines}\n"
+    text = f"format: dashpot-dataset/1\nname: real\ndefaults:\n{head}\nruns:\n{lines}\n"
     (tmp_path / "dataset.yaml").write_text(text, encoding="utf-8")
     registry = load_registry()
-    dataset = read_dataset(tmp_path / "dataset.yaml", {word: reader() for word, reader in registry.formats.items()})
+    dataset = read_dataset(tmp_path / "dataset.yaml", {word: reader() for word, reader in registry.formats.items()},
+                           allow_outside=True)  # fmt: skip
     return diagnose(parse_network(network, registry.elements), dataset, registry=registry).as_dict()
 
 

@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         from dashpot.cli.shell import run
 
-        kept = "what was done is kept"
+        kept = "the same command goes on"
         return run(arguments)
     except KeyboardInterrupt:
         sys.stderr.write(f"interrupted; {kept}\n")

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     help="Tell what each SPEC has more, less or different than this one.",
     shell_complete=complete.networks,
 )
-@switches("json", "quiet")
+@switches("json", "quiet", "allow_outside")
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
     """Say every mistake and every weakness of network files, each as file:line:column with what to do.
 
@@ -91,7 +91,7 @@ def problems_of_dataset(path: str, session: Session) -> tuple[Problem, ...]:
     from dashpot.data.dataset import read_dataset
     from dashpot.triage.examine import examine
 
-    dataset = read_dataset(path, session.readers())
+    dataset = read_dataset(path, session.readers(), session.switches.allow_outside)
     found = (replace(problem, place=Place(path)) for problem in examine(dataset).problems)
     return (*dataset.problems, *found)
 

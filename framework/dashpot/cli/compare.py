@@ -18,7 +18,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
               shell_complete=complete.datasets)  # fmt: skip
 @output_option("Folder for compare.json, compare.csv and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
     specs: tuple[str, ...],
     dataset: str,

@@ -51,10 +51,9 @@ def verb(specimen: str | None, output: Path, switches: Switches) -> None:
     measured = session.dataset(data)
 
     comparison = session.run(compare, [session.network(name) for name in chosen.networks], measured)
-    with session.watch("writing the report"):
-        first_report = write_comparison(comparison, tables)
     diagnosis = session.run(diagnose, session.network(chosen.suspect), measured)
-    with session.watch("writing the report"):
+    with session.watch("writing the reports"):
+        first_report = write_comparison(comparison, tables)
         second_report = write_diagnosis(diagnosis, causes)
 
     content = {"format": "dashpot-demo/1", "comparison": comparison.as_dict(), "diagnosis": diagnosis.as_dict()}

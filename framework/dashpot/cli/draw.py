@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from glob import escape
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +40,7 @@ def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> Non
         if switches.json:
             return session.talk.result("", content_of(network, None, text))
         return click.echo(text, nl=False)
-    folder = session.claim(output.parent, escape(output.name))
+    folder = session.claim_beside(output)
     text = drawing(network, output.suffix, plain)
     folder.write(output.name, text)
     session.talk.result(f"drawn: {output}", content_of(network, output, text))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from dashpot.cli.output import OutputFolder
+from dashpot.cli.output import Results
 from dashpot.cli.talk import Talk
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 FILE = "energy.csv"
 
 
-def write_energies(network: NetworkSpec, runs: Iterable[Excitation], folder: OutputFolder, talk: Talk) -> None:
+def write_energies(network: NetworkSpec, runs: Iterable[Excitation], results: Results, talk: Talk) -> None:
     """Write the energy of every part in every run, and say that of the runs; a run that fails is warned of."""
     from dashpot.kernel.energy import EnergyCounter
     from dashpot.report.energy import parts_grid, runs_grid
@@ -28,5 +28,5 @@ def write_energies(network: NetworkSpec, runs: Iterable[Excitation], folder: Out
         except ArithmeticError as error:
             talk.warn(str(error))
     grid = parts_grid(balances)
-    folder.write(FILE, to_csv(grid.rows, grid.columns))
+    results.write(FILE, to_csv(grid.rows, grid.columns))
     talk.say(plain_table(runs_grid(balances)))

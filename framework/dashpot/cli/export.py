@@ -46,7 +46,8 @@ def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switch
     with session.watch("exporting"):
         files = export.files(network)
     folder = session.claim(output, *map(escape, files))
-    for name, content in files.items():
-        folder.write_bytes(name, content)
+    with folder.together() as results:
+        for name, content in files.items():
+            results.write_bytes(name, content)
     told = {"format": "dashpot-export/1", "network": network.name, "target": target, "files": sorted(files)}
     session.talk.result(f"exported: {', '.join(str(output / name) for name in sorted(files))}", told)

@@ -17,7 +17,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.argument("dataset", shell_complete=complete.datasets)
 @output_option("Folder for the identified network NAME.yaml, fit.json, tables and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
     spec: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
 ) -> None:

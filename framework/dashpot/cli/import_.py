@@ -9,7 +9,6 @@ import click
 
 from dashpot.cli import complete
 from dashpot.cli.columns import in_columns
-from dashpot.cli.output import OutputFolder
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Place
@@ -52,21 +51,21 @@ def verb(
     """
     from dashpot.data.importing.files import common_folder
     from dashpot.data.importing.imported import import_files
-    from dashpot.data.importing.text import dataset_text
+    from dashpot.data.importing.text import dataset_text, leads_outside
 
     session = Session(switches)
     with session.watch("reading the files"):
         imported = import_files(files, session.readers(), reader, read_rate(sampling))
     target = place_of(output, common_folder([run.file for run in imported.runs]))
-    folder = OutputFolder(target.parent, switches.force)
-    folder.claim(target.name)
+    folder = session.claim_beside(target)
     written = folder.write(
         target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")
     )
+    allowed = " --allow-outside" if leads_outside(imported, target.parent) else ""
     for problem in imported.problems:
         session.talk.warn(f"left out: {problem}")
     session.talk.result(as_text(imported), as_dict(imported, written))
-    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}")
+    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}{allowed}")
 
 
 def read_rate(sampling: str | None) -> float | None:

@@ -15,7 +15,7 @@ from dashpot.cli.switches import Switches, output_option, switches
 @click.command("look")
 @click.argument("dataset", metavar="DATASET", shell_complete=complete.datasets)
 @output_option("Folder for look.json and report.html.")
-@switches("seed", "json", "quiet", "force")
+@switches("seed", "json", "quiet", "force", "allow_outside")
 def verb(dataset: str, output: Path, switches: Switches) -> None:
     """Look at measured runs before any model.
 

@@ -36,7 +36,7 @@ def exit_code_of(work: Callable[[], object]) -> int:
         _tell(str(error))
         return ExitCode.WRONG_INPUT
     except (click.Abort, KeyboardInterrupt):
-        _tell("interrupted; what was done is kept")
+        _tell("interrupted; the same command goes on")
         return ExitCode.INTERRUPTED
     except BrokenPipeError:
         return _end_of_reader()

@@ -43,14 +43,15 @@ def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
     from dashpot.report.tables import to_csv
 
     content, name = fit.as_dict(), f"{fit.declared.name}.yaml"
-    folder.write("fit.json", json_text(content))
-    for grid in (numbers_grid(content), knots_grid(content)):
-        folder.write(grid.csv_name, to_csv(grid.rows, grid.columns))
-    folder.write(name, fit.identified_text)
     comparison = comparison_of(fit)
     patch = {"before": fit.declared.text, "after": fit.identified_text, "before_name": "declared", "after_name": name}
     evidence = with_schematics({**comparison.evidence(), "patch": patch}, {fit.fitted.name: fit.fitted})
-    return folder.write("report.html", render(fit_page(content, comparison.as_dict(), evidence)))
+    with folder.together() as results:
+        results.write("fit.json", json_text(content))
+        for grid in (numbers_grid(content), knots_grid(content)):
+            results.write(grid.csv_name, to_csv(grid.rows, grid.columns))
+        results.write(name, fit.identified_text)
+        return results.write("report.html", render(fit_page(content, comparison.as_dict(), evidence)))
 
 
 def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
@@ -63,10 +64,11 @@ def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
 
     content = comparison.as_dict()
     grid = comparison_grid(content)
-    folder.write("compare.json", json_text(content))
-    folder.write("compare.csv", to_csv(grid.rows, grid.columns))
     evidence = with_schematics(comparison.evidence(), {fit.fitted.name: fit.fitted for fit in comparison.fits})
-    return folder.write("report.html", render(comparison_page(content, evidence)))
+    with folder.together() as results:
+        results.write("compare.json", json_text(content))
+        results.write("compare.csv", to_csv(grid.rows, grid.columns))
+        return results.write("report.html", render(comparison_page(content, evidence)))
 
 
 def write_look(look: Look, folder: OutputFolder) -> Path:
@@ -76,8 +78,9 @@ def write_look(look: Look, folder: OutputFolder) -> Path:
     from dashpot.report.page import render
 
     content = look.as_dict()
-    folder.write("look.json", json_text(content))
-    return folder.write("report.html", render(look_page(content, look_evidence(look))))
+    with folder.together() as results:
+        results.write("look.json", json_text(content))
+        return results.write("report.html", render(look_page(content, look_evidence(look))))
 
 
 def look_evidence(look: Look) -> Evidence:
@@ -97,15 +100,16 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
     from dashpot.report.page import render
 
     content = diagnosis.as_dict()
-    folder.write("diagnosis.json", json_text(content))
-    folder.write(diagnosis.fitted_name, diagnosis.fitted_text)
-    if diagnosis.extended_name is not None and diagnosis.extended_text is not None:
-        folder.write(diagnosis.extended_name, diagnosis.extended_text)
-    if diagnosis.corrected_name is not None:
-        folder.write(diagnosis.corrected_name, diagnosis.corrected_dataset(folder.path))
     title = (diagnosis.extended_name or diagnosis.model.name).removesuffix(".yaml")
     evidence = with_schematics(diagnosis.evidence(), {title: diagnosis.final})
-    return folder.write("report.html", render(diagnosis_page(content, evidence)))
+    with folder.together() as results:
+        results.write("diagnosis.json", json_text(content))
+        results.write(diagnosis.fitted_name, diagnosis.fitted_text)
+        if diagnosis.extended_name is not None and diagnosis.extended_text is not None:
+            results.write(diagnosis.extended_name, diagnosis.extended_text)
+        if diagnosis.corrected_name is not None:
+            results.write(diagnosis.corrected_name, diagnosis.corrected_dataset(folder.path))
+        return results.write("report.html", render(diagnosis_page(content, evidence)))
 
 
 def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> str:
@@ -120,7 +124,8 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
     setting = diagnosis.after_setting
     if diagnosis.corrected_name is not None:
         readers = {word: reader() for word, reader in registry.formats.items()}
-        again = prepare(read_dataset(folder.path / diagnosis.corrected_name, readers), diagnosis.seed)
+        corrected = read_dataset(folder.path / diagnosis.corrected_name, readers, allow_outside=True)
+        again = prepare(corrected, diagnosis.seed)
         setting = replace(setting, scored={run: again.scored[run] for run in setting.scored})
     told, found = diagnosis.after, measure_errors(network, setting, diagnosis.jobs)
     for one, other in ((told.train, found.train), (told.held_out, found.held_out)):

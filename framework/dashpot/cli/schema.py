@@ -50,8 +50,10 @@ def verb(kind: str | None, every: bool, output: Path | None, switches: Switches)
     if output is None:
         return click.echo("".join(texts.values()), nl=False)
     folder = session.claim(output, *texts)
-    for name, text in texts.items():
-        session.talk.say(f"written: {folder.write(name, text)}")
+    with folder.together() as results:
+        written = [results.write(name, text) for name, text in texts.items()]
+    for path in written:
+        session.talk.say(f"written: {path}")
 
 
 def text_of(kind: str, registry: Registry) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -54,7 +55,7 @@ class Session:
         from dashpot.data.dataset import read_dataset
 
         with self.watch(f"reading {path}"):
-            dataset = read_dataset(path, self.readers())
+            dataset = read_dataset(path, self.readers(), self.switches.allow_outside)
         self.warn_of(dataset.problems)
         return dataset
 
@@ -72,7 +73,7 @@ class Session:
         """The runs of the dataset at ``path`` one at a time; ``warn_of`` its problems when they were read."""
         from dashpot.data.stream import open_dataset
 
-        return open_dataset(path, self.readers())
+        return open_dataset(path, self.readers(), self.switches.allow_outside)
 
     def warn_of(self, problems: Iterable[Problem]) -> None:
         """Tell what is wrong with single runs."""
@@ -80,9 +81,16 @@ class Session:
             self.talk.warn(str(problem))
 
     def claim(self, output: Path, *patterns: str) -> OutputFolder:
-        """The folder ``output``, into which files of these names may be written."""
+        """The folder ``output``, into which files of these names may be written, by this call alone until it ends."""
         folder = OutputFolder(output, self.switches.force)
+        click.get_current_context().with_resource(folder.locked())
         folder.claim(*patterns)
+        return folder
+
+    def claim_beside(self, file: Path, *others: str) -> OutputFolder:
+        """The folder of ``file``, which may be written, as may files of other names, while other calls write theirs."""
+        folder = OutputFolder(file.parent, self.switches.force)
+        folder.claim(escape(file.name), *others)
         return folder
 
     def watch(self, what: str, parts: int = 1) -> ProgressBar:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from dashpot.kernel.api import RunSolution
     from dashpot.model.network import NetworkSpec
 
+ROWS = 50_000  # that are written at a time
+
 
 @click.command("simulate")
 @click.argument("spec", shell_complete=complete.networks)
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
 @output_option("A folder; with --data also a file ending in .npz.")
-@switches("seed", "json", "quiet", "force", "backend")
+@switches("seed", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
     spec: str,
     dataset: str | None,
@@ -82,24 +84,26 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     runs = session.runs(dataset)
     require_settings(network, runs.conditions)
     archive = output.suffix == ".npz"
-    files = [output.name] if archive else [f"{name}.csv" for name in runs.names]
-    folder = session.claim(output.parent if archive else output, *map(escape, files), *[ENERGIES] * energy)
+    files = [f"{name}.csv" for name in runs.names]
+    others = [ENERGIES] * energy
+    folder = session.claim_beside(output, *others) if archive else session.claim(output, *map(escape, files), *others)
     forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
-    with session.watch("compiling") as progress:
-        for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
-            if archive:
-                forces.add(forces_by_name({run.name: solution}))
-            else:
-                folder.write(f"{run.name}.csv", csv_text(run, solution))
-            names.append(run.name)
-            beyond[run.name] = beyond_range(network, run)
-            error = max(error, *solution.error.values())
-    session.warn_of(runs.problems)
-    warn_of_range(beyond, session)
-    if archive:
-        folder.write_bytes(output.name, forces.content())
-    if energy:
-        write_energies(network, map(Excitation.of_run, runs), folder, session.talk)
+    with folder.together() as results:
+        with session.watch("compiling") as progress:
+            for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
+                if archive:
+                    forces.add(forces_by_name({run.name: solution}))
+                else:
+                    results.write_pieces(f"{run.name}.csv", csv_pieces(run, solution))
+                names.append(run.name)
+                beyond[run.name] = beyond_range(network, run)
+                error = max(error, *solution.error.values())
+        session.warn_of(runs.problems)
+        warn_of_range(beyond, session)
+        if archive:
+            results.write_bytes(output.name, forces.content())
+        if energy:
+            write_energies(network, map(Excitation.of_run, runs), results, session.talk)
     session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
                         content_of(network, names, output, error, beyond))  # fmt: skip
 
@@ -126,12 +130,13 @@ def measure_on(
         runs = virtual_test(network, bench, session.switches.seed, refine, progress)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
-    for name, text in files.items():
-        folder.write(name, text)
     beyond = {planned.name: beyond_range(network, planned.excitation()) for planned in bench.runs()}
     warn_of_range(beyond, session)
-    if energy:
-        write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
+    with folder.together() as results:
+        for name, text in files.items():
+            results.write(name, text)
+        if energy:
+            write_energies(network, (planned.excitation() for planned in bench.runs()), results, session.talk)
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
     session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset, None, beyond))
@@ -166,9 +171,9 @@ def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float
             "outside_of_identification": {name: words for name, words in beyond.items() if words}}  # fmt: skip
 
 
-def csv_text(run: Run, solution: RunSolution) -> str:
+def csv_pieces(run: Run, solution: RunSolution) -> Iterator[str]:
     """Time (s), measured and simulated displacements (m) and simulated forces (N), as the shortest texts that read back
-    alike.
+    alike, some rows at a time.
     """
     from dashpot.data.excitation import channel_at
 
@@ -176,9 +181,10 @@ def csv_text(run: Run, solution: RunSolution) -> str:
     columns |= {name: ("m", values) for name, values in run.channels.items() if name.startswith("displacement")}
     columns |= {channel_at("displacement", node): ("m", values) for node, values in solution.motion.items()}
     columns |= {channel_at("force", node): ("N", values) for node, values in solution.force.items()}
-    rows = zip(*(values.tolist() for _, values in columns.values()), strict=True)
-    head = [",".join(columns), ",".join(unit for unit, _ in columns.values())]
-    return "\n".join([*head, *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    yield ",".join(columns) + "\n" + ",".join(unit for unit, _ in columns.values()) + "\n"
+    for first in range(0, run.time.size, ROWS):
+        rows = zip(*(values[first : first + ROWS].tolist() for _, values in columns.values()), strict=True)
+        yield "".join(",".join(map(repr, row)) + "\n" for row in rows)
 
 
 def told_error(largest: float) -> str:

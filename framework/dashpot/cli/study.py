@@ -28,7 +28,7 @@ RECORDS = "checkpoint"
               shell_complete=complete.datasets)  # fmt: skip
 @click.option("--dry-run", is_flag=True, help="Only say what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
-@switches("jobs", "json", "quiet", "force", "backend")
+@switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
     """Identify models in stages, as a study file says.
 
@@ -106,11 +106,13 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
 
     content = study_content(result)
     grid = comparison_grid(content)
-    for model in result.models:
-        folder.write(f"{model.fit.declared.name}.yaml", model.fit.identified_text)
-    folder.write("study.json", json_text(content))
-    folder.write("models.csv", to_csv(grid.rows, grid.columns))
-    report = folder.write("report.html", render(study_page(content, study_evidence(result))))
+    page = render(study_page(content, study_evidence(result)))
+    with folder.together() as results:
+        for model in result.models:
+            results.write(f"{model.fit.declared.name}.yaml", model.fit.identified_text)
+        results.write("study.json", json_text(content))
+        results.write("models.csv", to_csv(grid.rows, grid.columns))
+        report = results.write("report.html", page)
     answers = [mass_sentence(mass) for mass in content["masses"]]
     session.talk.result("\n".join([plain_table(grid), *answers]), content)
     session.talk.say(f"report: {report}")

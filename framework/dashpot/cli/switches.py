@@ -25,6 +25,7 @@ class Switches:
     quiet: bool = False
     force: bool = False
     backend: str | None = None
+    allow_outside: bool = False
 
 
 BACKEND = "DASHPOT_BACKEND"
@@ -78,6 +79,11 @@ SWITCHES = {
         type=click.Choice(["llvm", "numba"]),
         callback=use_backend,
         help="What compiles networks; by default llvm, the faster one.",
+    ),
+    "allow_outside": click.option(
+        "--allow-outside",
+        is_flag=True,
+        help="Read measured files that do not lie below the folder of their dataset, which you trust.",
     ),
     "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
 }

@@ -69,7 +69,7 @@ def read_bench(document: Document, rigs: Mapping[str, type[Rig]]) -> Bench:
     problems: list[Problem] = []
     form = Form(document.root, problems, "the bench")
     form.choice("format", (FORMAT,))
-    name, about = form.text("name"), form.text("about", "")
+    name, about = form.name("name"), form.text("about", "")
     tests = form.forms("tests")
     if tests == []:
         form.complain("tests", "expected at least one test, got an empty list", "add one, e.g. '- {rig: WORD}'")

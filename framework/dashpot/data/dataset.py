@@ -62,13 +62,14 @@ class Dataset:
         return tuple(run for run in self.runs if run.kind == "quasi_static")
 
 
-def read_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> Dataset:
+def read_dataset(path: Path | str, readers: Mapping[str, FileReader], allow_outside: bool = False) -> Dataset:
     """Read a dataset: its description, a folder that holds one, or a data file with a sidecar `<file>.yaml`.
 
-    `readers` are the readers of measurement files by their word. A run with a fault is set aside and told of in
+    `readers` are the readers of measurement files by their word. Files outside of the folder of the dataset are
+    read only where `allow_outside` says that its text is to be trusted. A run with a fault is set aside and told of in
     `problems`. Raises InputError, with everything that is wrong, when no run is left.
     """
-    stream = open_dataset(path, readers)
+    stream = open_dataset(path, readers, allow_outside)
     runs = group_repeats(list(stream))
     return Dataset(stream.name, tuple(runs), stream.problems, stream.folder, stream.faults, stream.document,
                    stream.source.file)  # fmt: skip

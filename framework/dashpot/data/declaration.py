@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -10,6 +9,7 @@ from dashpot.data.channel import Channel, read_channels, unit_of_channel
 from dashpot.data.inherit import inherit
 from dashpot.data.run import KINDS
 from dashpot.text.form import Form, read_integer, read_items, read_text
+from dashpot.text.name import RULE, is_name, shown
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place, Problem
@@ -26,9 +26,6 @@ SENSOR_KEYS = {
 
 # what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
 ACCEPTABLE = ("clipping", "units")
-
-# names of runs become names of files
-_SAFE_NAME = re.compile(r"[^./\\:*?\"<>|\x00-\x1f\x7f][^/\\:*?\"<>|\x00-\x1f\x7f]{0,119}")
 
 
 @dataclass(frozen=True)
@@ -127,9 +124,8 @@ def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
 
 def _read_name(form: Form, path: str | None) -> str:
     name = form.text("name", stem_of(path or "run"))
-    if not _SAFE_NAME.fullmatch(name):
-        hint = "leave out / \\ : * ? \" < > | and a leading '.'"
-        form.complain("name", f"'{name}' cannot be the name of a run", hint)
+    if not is_name(name):
+        form.complain("name", f"{shown(name)} cannot be the name of a run", RULE)
     return name
 
 

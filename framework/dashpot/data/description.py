@@ -17,7 +17,7 @@ from dashpot.text.problem import InputError, Place, Problem
 FORMAT = "dashpot-dataset/1"
 
 # keys of a dataset that are no keys of a run, also where dataset and run are one
-_OWN_KEYS = ("format", "folder", "allow_outside")
+_OWN_KEYS = ("format", "folder")
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,6 @@ class Description:
 
     name: str
     folder: str | None
-    allow_outside: bool
     declarations: tuple[RunDeclaration, ...]
     names: tuple[str, ...]
     problems: tuple[Problem, ...]
@@ -57,12 +56,15 @@ def read_description(document: Document, source: Source) -> Description:
     if problems:
         raise InputError(problems)
     name = form.text("name", stem_of(source.file or source.folder.resolve().name))
-    folder, allow_outside = form.text("folder", None), form.flag("allow_outside", False)
+    folder = form.text("folder", None)
+    if form.node("allow_outside") is not None:
+        form.complain("allow_outside", "a dataset cannot allow itself to read files elsewhere",
+                      "say --allow-outside on the command line instead, where you trust it")  # fmt: skip
     nodes, defaults = _many_runs(form) if "runs" in form or not source.file else _single_run(form)
     form.close()
     declarations = tuple(_declare(nodes, defaults, source.file, problems))
     names = tuple(filter(None, (name_of(node, source.file) for node in nodes)))
-    return Description(name, folder, allow_outside, declarations, names, tuple(problems))
+    return Description(name, folder, declarations, names, tuple(problems))
 
 
 def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
@@ -82,7 +84,7 @@ def _read_defaults(node: Node) -> Mapping:
 
 def _single_run(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
     """The whole text declares one run."""
-    entries = {key: form.node(key) for key in form.keys if key not in _OWN_KEYS}
+    entries = {key: form.node(key) for key in form.keys if key not in (*_OWN_KEYS, "allow_outside")}
     return (Mapping(form.place, form.origin.start, form.origin.end, entries, entries),), None
 
 

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.smoothing import gains, half_width, sensor_noise, smooth_path
+from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 
 FEWEST = 25  # samples that are smoothed, if that is asked for
 NOISE_OF_SPAN = 1e-6
+PIECE, MARGIN = 100_000, 100  # samples
 
 
 @dataclass(frozen=True)
@@ -37,12 +39,14 @@ class Drive:
         return self.displacement.size
 
 
-def refined_path(drive: Drive, parts: int) -> tuple[Array, Array, Array]:
-    """Displacement, velocity and acceleration, ((samples - 1) * parts + 1,) each, at equal parts of every step.
+def refined_path(drive: Drive, parts: int, first: int, end: int) -> tuple[Array, Array, Array]:
+    """Displacement, velocity and acceleration, ((end - first - 1) * parts + 1,) each, at equal parts of every step.
 
-    Between two samples they follow the quintic with the given positions, velocities and accelerations.
+    The path goes from the sample ``first`` to the last one before ``end``. Between two samples it follows the quintic
+    with the given positions, velocities and accelerations.
     """
-    x, v, a, dt = drive.displacement, drive.velocity, drive.acceleration, drive.dt
+    x, v, a = (each[first:end] for each in (drive.displacement, drive.velocity, drive.acceleration))
+    dt = drive.dt
     far = x[1:] - x[:-1] - dt * (v[:-1] + 0.5 * dt * a[:-1])
     fast = dt * (v[1:] - v[:-1] - dt * a[:-1])
     bent = 0.5 * dt * dt * (a[1:] - a[:-1])
@@ -62,7 +66,8 @@ def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
 
 
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:
-    """The drive of a path whose rates are known."""
+    """The drive of a path whose rates are known. Raises InputError for fewer than two samples."""
+    _refuse_single(displacement)
     step, place = find_turns(dt, displacement, velocity)
     return Drive(dt, displacement, velocity, acceleration, step, place)
 
@@ -72,19 +77,37 @@ def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = Non
 
     Rates come from the interpolating quintic spline where the samples are clean, or the motion too fast to be smoothed,
     and from local polynomials, which also replace the displacement, where the sensor is noisy; ``smooth`` decides it by
-    hand.
+    hand. Raises InputError for fewer than two samples.
     """
     x = np.ascontiguousarray(displacement, dtype=float)
+    _refuse_single(x)
     if smooth is not False and x.size > FEWEST:
         noise = sensor_noise(x)
         half = half_width(x, noise)
         if smooth or (noise > NOISE_OF_SPAN * np.ptp(x) and gains(x, noise, half)):
             return drive_from_path(dt, *smooth_path(dt, x, half))
+    return drive_from_path(dt, x, *_rates(dt, x))
+
+
+def _rates(dt: float, x: Array) -> tuple[Array, Array]:
+    # velocity and acceleration of the quintic spline through all samples; what lies further away than the margin of a
+    # piece has faded to less than the last digit, by 0.43 each sample
     from scipy.interpolate import make_interp_spline
 
-    time = dt * np.arange(x.size)
-    spline = make_interp_spline(time, x, k=5 if x.size > 5 else 1)
-    return drive_from_path(dt, x, spline(time, 1), spline(time, 2))
+    velocity, acceleration = np.empty((2, x.size))
+    for first in range(0, x.size, PIECE):
+        begin, end = max(first - MARGIN, 0), min(first + PIECE + MARGIN, x.size)
+        time = dt * np.arange(end - begin)
+        spline = make_interp_spline(time, x[begin:end], k=5 if end - begin > 5 else 1)
+        own = slice(first, first + PIECE)
+        velocity[own], acceleration[own] = (spline(time[first - begin :][:PIECE], order) for order in (1, 2))
+    return velocity, acceleration
+
+
+def _refuse_single(displacement: Array) -> None:
+    if displacement.size < 2:
+        raise InputError.at(Place(), f"expected a motion of two samples at least, got {displacement.size}",
+                            "give the samples of a whole record")  # fmt: skip
 
 
 def moved_drive(drive: Drive, change: Array) -> Drive:
@@ -96,6 +119,14 @@ def moved_drive(drive: Drive, change: Array) -> Drive:
 
 def find_turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
     """Where the cubic path turns between samples: step (index of its end) and displacement, in the order of time."""
+    pieces = [(first, *_turns(dt, x[first : first + PIECE + 1], v[first : first + PIECE + 1]))
+              for first in range(0, x.size - 1, PIECE)]  # fmt: skip
+    step, place = (np.concatenate(each) for each in ([first + step for first, step, _ in pieces],
+                                                     [place for *_, place in pieces]))  # fmt: skip
+    return step, place
+
+
+def _turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
     rise = np.diff(x) / dt
     # velocity over u = 0..1: v0 + b u + c u^2
     v0, v1 = v[:-1], v[1:]

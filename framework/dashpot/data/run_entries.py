@@ -93,8 +93,8 @@ def _items(document: Document) -> tuple[Node, ...]:
 
 
 def _single_run(document: Document, root: Mapping, file: str) -> str:
-    head = [key for key in ("format", "allow_outside", "folder") if key in root.entries]
-    own = [key for key in root.entries if key not in ("format", "allow_outside", "folder", "name", "file")]
+    head = [key for key in ("format", "folder") if key in root.entries]
+    own = [key for key in root.entries if key not in ("format", "folder", "name", "file")]
     stated = root.entries.get("file")
     file = stated.written if isinstance(stated, Scalar) else file
     name = flow_text(root.entries["name"], document.text) if "name" in root.entries else plain_or_quoted(stem_of(file))

@@ -20,7 +20,6 @@ def dataset_schema(readers: Collection[str]) -> Schema:
         "format": s.choice((FORMAT,)),
         "name": s.text("the name of the dataset"),
         "folder": s.text("where the measured files lie, if not beside this file"),
-        "allow_outside": s.flag("measured files may lie outside the folder of the dataset"),
     }
     many = s.mapping(
         {**head, "sensors": _sensors(), "defaults": s.part("defaults"), "runs": {"type": "array"}}, ("format", "runs")

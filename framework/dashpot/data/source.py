@@ -11,6 +11,7 @@ from dashpot.data.trouble import Trouble, Unusable
 from dashpot.text.problem import InputError, Place, nearest
 
 DESCRIPTIONS = ("dataset.yaml", "dataset.yml")
+ALLOW = "move it there, or say --allow-outside where you trust the dataset"
 
 
 @dataclass(frozen=True)
@@ -54,8 +55,22 @@ def _neighbour(path: Path) -> str:
     return nearest(path.name, names) or "check the name and the folder"
 
 
+def measured_folder(source: Source, stated: str | None, allow_outside: bool, place: Place) -> Path:
+    """Where the measured files lie, as the description has ``stated`` at ``place``; None: beside it.
+
+    Raises InputError for a folder that lies elsewhere and holds no dataset: a description that somebody else wrote
+    leads to no other files, unless the caller allows it.
+    """
+    folder = source.folder / stated if stated else source.folder
+    below = folder.resolve().is_relative_to(source.folder.resolve())
+    if below or allow_outside or any((folder / name).is_file() for name in DESCRIPTIONS):
+        return folder
+    message = f"expected a folder below that of the dataset, or one that holds a dataset, got '{stated}'"
+    raise InputError.at(place, message, ALLOW)
+
+
 def find_file(file: str, folder: Path, allow_outside: bool, place: Place) -> Path:
-    """The path of a measurement file, below the folder unless said otherwise. Raises Unusable."""
+    """The path of a measurement file, below the folder unless that is allowed. Raises Unusable."""
     path = folder / file
     try:
         is_below = path.resolve().is_relative_to(folder.resolve())
@@ -63,8 +78,7 @@ def find_file(file: str, folder: Path, allow_outside: bool, place: Place) -> Pat
     except (OSError, RuntimeError) as error:
         raise Unusable([Trouble(f"this cannot be a file: {error}", "check its name", place)]) from None
     if not is_below and not allow_outside:
-        hint = "move it there, or write 'allow_outside: true' at the top of the dataset"
-        raise Unusable([Trouble("it lies outside the folder of the dataset", hint, place)])
+        raise Unusable([Trouble("it lies outside the folder of the dataset", ALLOW, place)])
     if not exists:
         raise Unusable([Trouble("there is no such file", _neighbour(path), place)])
     return path

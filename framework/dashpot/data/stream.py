@@ -12,21 +12,22 @@ from dashpot.data.excitation import ORDER, mean_of
 from dashpot.data.groups import resolve_repeats
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
-from dashpot.data.source import Source, choose_reader, find_file, locate
+from dashpot.data.source import Source, choose_reader, find_file, locate, measured_folder
 from dashpot.data.table import FileReader, ReadingError, Table
 from dashpot.data.trouble import Trouble, Unusable
 from dashpot.text.document import Document
+from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.problem import InputError, Problem, in_text_order
 
 
-def open_dataset(path: Path | str, readers: Mapping[str, FileReader]) -> RunStream:
+def open_dataset(path: Path | str, readers: Mapping[str, FileReader], allow_outside: bool = False) -> RunStream:
     """A dataset whose measurement files are still to be read; see `read_dataset`.
 
     Raises InputError when its description cannot be read.
     """
     source = locate(Path(path))
     document = Document.read(source.description)
-    return RunStream(read_description(document, source), source, readers, document)
+    return RunStream(read_description(document, source), source, readers, document, allow_outside)
 
 
 class RunStream:
@@ -37,11 +38,18 @@ class RunStream:
     """
 
     def __init__(
-        self, description: Description, source: Source, readers: Mapping[str, FileReader], document: Document
+        self,
+        description: Description,
+        source: Source,
+        readers: Mapping[str, FileReader],
+        document: Document,
+        allow_outside: bool,
     ) -> None:
         self.name, self.source, self.document = description.name, source, document
-        self.folder = source.folder / description.folder if description.folder else source.folder
-        self._description, self._readers = description, readers
+        root = document.root
+        place = root.entries.get("folder", root).place if isinstance(root, MappingNode) else root.place
+        self.folder = measured_folder(source, description.folder, allow_outside, place)
+        self._description, self._readers, self._allow_outside = description, readers, allow_outside
         self._begin()
 
     def _begin(self) -> None:
@@ -110,7 +118,7 @@ class RunStream:
 
     def _table(self, declaration: RunDeclaration) -> Table:
         place = declaration.place("file")
-        path = find_file(declaration.file, self.folder, self._description.allow_outside, place)
+        path = find_file(declaration.file, self.folder, self._allow_outside, place)
         said = declaration.place("reader" if declaration.reader else "file")
         reader = choose_reader(declaration.file, declaration.reader, self._readers, said)
         wanted = (path, reader, repr(declaration.file_options))

@@ -28,14 +28,15 @@ class Rule:
     swing: Array
 
 
-def alternate(step: float, pairs: int) -> Rule:
+def alternate(step: float, pairs: int, begins: bool = True) -> Rule:
     """The coefficients of ``pairs`` of steps of ``step`` seconds.
 
-    The very first step is a backward Euler one: it needs no acceleration to begin with.
+    Where a record ``begins``, the very first step is a backward Euler one: it needs no acceleration to begin with.
     """
     trapezoidal, backward = np.tile([1.0, 0.0], pairs), np.tile([0.0, 1.0], pairs)
     euler = np.zeros(PAIR * pairs)
-    euler[:1], trapezoidal[:1] = 1.0, 0.0
+    if begins:
+        euler[:1], trapezoidal[:1] = 1.0, 0.0
     return Rule(
         slope=(euler + 2.0 * trapezoidal + 1.5 * backward) / step,
         now=-(euler + 2.0 * trapezoidal + 2.0 * backward) / step,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from functools import cached_property
@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
 PAIRS = 1  # coarse steps in a sample, in pairs
+PIECE = 20_000  # samples that are prepared at a time
+KEPT = 10 * PIECE  # samples of a record that stays prepared; a longer one is prepared piece by piece, each time anew
 
 
 class Status(Enum):
@@ -51,14 +53,35 @@ def status_of(code: float, answer: Array) -> Status:
 
 
 @dataclass(frozen=True, eq=False)
+class Piece:
+    """Samples ``first`` up to ``end`` of a record, and what drives the steps that lead to them."""
+
+    first: int
+    end: int
+    coarse: Array
+    fine: Array
+
+
+@dataclass(frozen=True, eq=False)
 class SystemRows:
-    """The part of the work on a run that depends on its excitation alone."""
+    """The part of the work on a run that depends on its excitation alone; ``pieces`` may be gone through again."""
 
     excitation: Excitation
     pairs: int
     still: Array
-    coarse: Array
-    fine: Array
+    pieces: Iterable[Piece]
+
+
+@dataclass(frozen=True, eq=False)
+class _Pieces:
+    """The pieces of a record, made when they are asked for."""
+
+    samples: int
+    make: Callable[[int, int], Piece]
+
+    def __iter__(self) -> Iterator[Piece]:
+        for first in range(0, self.samples, PIECE):
+            yield self.make(first, min(first + PIECE, self.samples))
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,42 +124,55 @@ class CompiledSystem(Compiled[SystemRows]):
         excitation = whole.at(self.outputs, self.topology.held("loaded"))
         if whole is motion:
             excitation = replace(excitation, settings=used_settings(self.spec, whole.settings, whole.name))
-        return SystemRows(
-            excitation,
-            pairs,
-            self._columns({"dt": excitation.dt, **self._still(excitation)}, 1),
-            self._moved(excitation, PAIR * pairs),
-            self._moved(excitation, 2 * PAIR * pairs),
-        )
+        still = self._columns({"dt": excitation.dt, **self._still(excitation)}, 1)
+        newton, loads = self._newton(excitation), {node: _spline(load) for node, load in excitation.loads.items()}
+
+        def make(first: int, end: int) -> Piece:
+            coarse, fine = (self._moved(excitation, loads, newton, parts, first, end)
+                            for parts in (PAIR * pairs, 2 * PAIR * pairs))  # fmt: skip
+            return Piece(first, end, coarse, fine)
+
+        pieces = _Pieces(excitation.samples, make)
+        return SystemRows(excitation, pairs, still, tuple(pieces) if excitation.samples <= KEPT else pieces)
 
     def with_signals(self, run: SystemRows, signals: Mapping[str, Array]) -> SystemRows:
         """A prepared run with forces (n,) in N for some of the ``signals``, straight from sample to sample."""
         columns = {node.payload: number for number, node in enumerate(self.program.columns) if not node.arguments}
-        still, coarse, fine = run.still.copy(), run.coarse.copy(), run.fine.copy()
-        for signal, given in signals.items():
-            column = columns[driven_symbol(signal, "load")]
+        places = {columns[driven_symbol(signal, "load")]: given for signal, given in signals.items()}
+        still = run.still.copy()
+        for column, given in places.items():
             still[:, column] = given[0]
-            for rows in (coarse, fine):
-                parts = len(rows) // (given.size - 1)
-                rows[:, column] = (given[:-1, None] + np.outer(np.diff(given), np.arange(1, parts + 1) / parts)).ravel()
-        return replace(run, still=still, coarse=coarse, fine=fine)
+
+        def signalled(piece: Piece) -> Piece:
+            coarse, fine = piece.coarse.copy(), piece.fine.copy()
+            for column, given in places.items():
+                own = given[max(piece.first - 1, 0) : piece.end]
+                for rows in (coarse, fine):
+                    parts = len(rows) // max(own.size - 1, 1)
+                    rows[:, column] = (own[:-1, None] + np.outer(np.diff(own), np.arange(1, parts + 1) / parts)).ravel()
+            return Piece(piece.first, piece.end, coarse, fine)
+
+        return replace(run, still=still, pieces=[signalled(piece) for piece in run.pieces])
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
         lanes = self._lanes(run, values)
         samples, driven, unknown = run.excitation.samples, self.outputs, self.topology.unknown
         out = np.empty((lanes.shape[0], len(driven) + len(unknown), samples))
-        error, status = np.empty((lanes.shape[0], len(driven))), np.empty(lanes.shape[0])
-        for block in self._blocks(run, lanes):
-            answer, miss = np.empty((samples, out.shape[1], WIDTH)), np.zeros((len(driven), WIDTH))
-            status[block.place] = self._run(run, block, answer, miss)
-            out[block.place] = answer[:, :, : block.count].transpose(2, 1, 0)
-            error[block.place] = np.sqrt(miss[:, : block.count] / samples).T / 3.0
+        blocks = list(self._blocks(run, lanes))
+        misses, states = np.zeros((len(blocks), len(driven), WIDTH)), np.zeros((len(blocks), WIDTH))
+        for piece in run.pieces:
+            answer = np.empty((piece.end - piece.first, out.shape[1], WIDTH))
+            for block, miss, state in zip(blocks, misses, states, strict=True):
+                self._run(run, piece, block, answer, miss, state)
+                out[block.place, :, piece.first : piece.end] = answer[:, :, : block.count].transpose(2, 1, 0)
+        error = np.sqrt(_of_lanes(misses, lanes.shape[0]) / samples).T / 3.0
+        status = _of_lanes(states, lanes.shape[0])
         force, motion = out[:, : len(driven)], out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
             motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
-        states = tuple(status_of(code, own) for code, own in zip(status, force, strict=True))
-        return Solution(driven, unknown, force, motion, error, states)
+        return Solution(driven, unknown, force, motion, error,
+                        tuple(status_of(code, own) for code, own in zip(status, force, strict=True)))  # fmt: skip
 
     def forces(self, run: SystemRows, values: Array | None = None) -> Array:
         """The forces at the driven nodes (lanes, nodes, samples) in N; a lane that failed answers NaN."""
@@ -159,13 +195,9 @@ class CompiledSystem(Compiled[SystemRows]):
         """
         lanes = self._lanes(run, values)
         zeros = np.zeros((run.excitation.samples, len(self.outputs)))
-        spaces, codes = [], []
-        for block in self._blocks(run, lanes):
-            out, miss = np.zeros((2, len(self.outputs), WIDTH))
-            codes.append(self._run(run, block, out, miss, (zeros, zeros)))
-            spaces.append(block.workspace[..., : block.count])
-        rows = np.concatenate(spaces, axis=2)
-        return {name: rows[:, self.system.row(name)] for name in self.program.states}, np.concatenate(codes)
+        blocks, _, codes = self._scored(run, zeros, zeros, lanes)
+        rows = np.concatenate([block.workspace[..., : block.count] for block in blocks], axis=2)
+        return {name: rows[:, self.system.row(name)] for name in self.program.states}, codes
 
     def number_of(self, end: str) -> int:
         """The place of a driven node among all; a network with a single one has it under any name."""
@@ -184,23 +216,28 @@ class CompiledSystem(Compiled[SystemRows]):
         return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
-        lanes = self._lanes(run, values)
-        total = np.empty((len(self.outputs), lanes.shape[0]))
-        for block in self._blocks(run, lanes):
-            out, miss = np.zeros((2, len(self.outputs), WIDTH))
-            status = self._run(run, block, out, miss, (measured, weight))
-            total[:, block.place] = np.where(status, np.nan, out[:, : block.count])
-        return total
+        _, totals, codes = self._scored(run, measured, weight, self._lanes(run, values))
+        return np.where(codes, np.nan, totals)
 
-    def _run(self, run: SystemRows, block: Block, out: Array, miss: Array,
-             scoring: tuple[Array, Array] | None = None) -> Array:  # fmt: skip
-        status = np.zeros(WIDTH)
-        measured, weight = scoring or (None, None)
+    def _scored(self, run: SystemRows, measured: Array, weight: Array,
+                lanes: Array) -> tuple[list[Block], Array, Array]:  # fmt: skip
+        """The blocks as they are after the last sample, the scores (nodes, lanes), and how each lane ended."""
+        blocks = list(self._blocks(run, lanes))
+        totals, misses = np.zeros((2, len(blocks), len(self.outputs), WIDTH))
+        states = np.zeros((len(blocks), WIDTH))
+        for piece in run.pieces:
+            scoring = measured[piece.first : piece.end], weight[piece.first : piece.end]
+            for block, total, miss, state in zip(blocks, totals, misses, states, strict=True):
+                self._run(run, piece, block, total, miss, state, scoring)
+        return blocks, _of_lanes(totals, lanes.shape[0]), _of_lanes(states, lanes.shape[0])
+
+    def _run(self, run: SystemRows, piece: Piece, block: Block, out: Array, miss: Array, status: Array,
+             scoring: tuple[Array, Array] | tuple[None, None] = (None, None)) -> None:  # fmt: skip
         self.native(
-            run.still, run.coarse, run.fine, PAIR * run.pairs, run.excitation.samples, block.workspace, status,
-            block.tables, self._knots, measured, weight, out, miss, int(scoring is not None), block.count,
+            run.still, piece.coarse, piece.fine, PAIR * run.pairs, piece.end - piece.first, block.workspace, status,
+            block.tables, self._knots, *scoring, out, miss, int(scoring[0] is not None), int(piece.first == 0),
+            block.count,
         )  # fmt: skip
-        return status[: block.count]
 
     def _blocks(self, run: SystemRows, lanes: Array) -> Iterator[Block]:
         step = run.excitation.dt / (PAIR * run.pairs)
@@ -212,20 +249,23 @@ class CompiledSystem(Compiled[SystemRows]):
             self.spec, np.atleast_2d(self.start if values is None else values), run.excitation.settings
         )
 
-    def _moved(self, excitation: Excitation, parts: int) -> Array:
+    def _moved(self, excitation: Excitation, loads: Mapping[str, Callable[[Array], Array]],
+               newton: Mapping[str, float], parts: int, first: int, end: int) -> Array:  # fmt: skip
+        # the steps to the samples from `first` up to `end`, from the sample before
         seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
-        count = (excitation.samples - 1) * parts
+        before = max(first - 1, 0)
+        count = (end - 1 - before) * parts
         for joint in self.outputs:
-            x, v, a = refined_path(excitation.motions[joint], parts)
+            x, v, a = refined_path(excitation.motions[joint], parts, before, end)
             moved = dict(zip(MOVED, (x[:-1], x[1:], v[:-1], v[1:], a[1:]), strict=True))
             seen |= {driven_symbol(joint, key): column for key, column in moved.items()}
         for joint in self.topology.held("loaded"):
-            at = np.arange(1, count + 1) / parts
-            seen[driven_symbol(joint, "load")] = _between(excitation.loads[joint], at)
+            at = np.arange(before * parts + 1, before * parts + count + 1) / parts
+            seen[driven_symbol(joint, "load")] = loads[joint](at)
         seen |= dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
-        rule = alternate(excitation.dt / parts, count // PAIR)
+        rule = alternate(excitation.dt / parts, count // PAIR, begins=before == 0)
         seen |= {f"rule.{key}": getattr(rule, key) for key in ("slope", "now", "before", "swing")}
-        return self._columns({**seen, **self._newton(excitation)}, count)
+        return self._columns({**seen, **newton}, count)
 
     def _still(self, excitation: Excitation) -> dict[str, float]:
         seen = {f"rule.{key}": 0.0 for key in ("now", "before", "swing")} | self._newton(excitation)
@@ -272,7 +312,12 @@ def _by_sample(rows: Array) -> Array:
     return np.ascontiguousarray(np.transpose(rows), dtype=float)
 
 
-def _between(samples: Array, at: Array) -> Array:
+def _of_lanes(blocks: Array, count: int) -> Array:
+    """From numbers (blocks, ..., WIDTH) to those of the lanes (..., lanes) that were asked for."""
+    return np.concatenate(list(blocks), axis=-1)[..., :count]
+
+
+def _spline(samples: Array) -> Callable[[Array], Array]:
     from scipy.interpolate import make_interp_spline
 
-    return make_interp_spline(np.arange(samples.size), samples, k=3 if samples.size > 3 else 1)(at)
+    return make_interp_spline(np.arange(samples.size), samples, k=3 if samples.size > 3 else 1)

@@ -15,10 +15,12 @@ from dashpot.model.joints import read_ends, read_known
 from dashpot.model.network import Branch, Characteristic, Ends, Group, Joint, NetworkSpec, Value
 from dashpot.model.values import ONLY, Copy, Reading, kind_of, read_value
 from dashpot.text.form import Form
+from dashpot.text.name import shown
 from dashpot.text.problem import InputError, Problem, nearest
 
 MAXIMUM_COPIES = 100
-NAME = re.compile(r"\w[\w+-]*")
+MAXIMUM_BRANCHES = 1000  # in a network, with those of the networks that it uses
+NAME = re.compile(r"\w[\w+-]{0,119}")
 WAYS = ("element", "series", "parallel", "use", "same_as")
 FOR_ALL = ("repeat", "about", "scale")
 
@@ -32,6 +34,7 @@ class BranchReader:
     def __init__(self, elements: MappingType[str, type[Element]], problems: list[Problem],
                  use: Callable[[str], NetworkSpec], joints: MappingType[str, Joint]) -> None:  # fmt: skip
         self.elements, self.problems, self.use, self.joints = elements, problems, use, joints
+        self._count_of_branches, self._unsound = 0, set[str]()
         self.ends: dict[str, Ends] = {}
 
     def outermost(self, form: Form) -> tuple[Branch | Group, ...]:
@@ -77,7 +80,7 @@ class BranchReader:
     def _refuse_name(self, name: str, form: Form) -> None:
         if not NAME.fullmatch(name) or name == "measurement":
             form.complain(None, f"expected a name of letters, digits, '_', '-' and '+' other than 'measurement', got "
-                          f"'{name}'", "rename the branch")  # fmt: skip
+                          f"{shown(name)}", "rename the branch")  # fmt: skip
 
     def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
         self._refuse_name(name, form)
@@ -127,13 +130,21 @@ class BranchReader:
                           "leave the key out")  # fmt: skip
         form.close()
         try:
-            spec = self.use(other) if other else None
-            if spec and fixed:
-                spec = fixed_as_found(spec)
-            return Group("", "parallel", spec.root.members, form.place) if spec else None
+            spec = self.use(other) if other and self._count_of_branches <= MAXIMUM_BRANCHES else None
+            if spec is None or not self._room_for(len(list(spec.leaves())), form):
+                return None
+            return Group("", "parallel", (fixed_as_found(spec) if fixed else spec).root.members, form.place)
         except InputError as error:
             self._complain_of_use(other, form, error)
             return None
+
+    def _room_for(self, count: int, form: Form) -> bool:
+        # told once: what is beyond the limit need not be counted
+        self._count_of_branches, before = self._count_of_branches + count, self._count_of_branches
+        if before <= MAXIMUM_BRANCHES < self._count_of_branches:
+            form.complain(None, f"expected {MAXIMUM_BRANCHES} branches at most, with those of used networks, got more",
+                          "use fewer networks in each other")  # fmt: skip
+        return self._count_of_branches <= MAXIMUM_BRANCHES
 
     def _complain_of_use(self, other: str, form: Form, error: InputError) -> None:
         for problem in error.problems:
@@ -142,9 +153,12 @@ class BranchReader:
         placed = [problem for problem in error.problems if problem.place.line is not None]
         if placed:
             form.complain("use", f"'{other}' cannot be used: it has mistakes of its own", "correct them there")
-            self.problems.extend(placed)
+            self.problems.extend(placed if other not in self._unsound else [])
+            self._unsound.add(other)
 
     def _element(self, name: str, form: Form, copy: Copy) -> Branch | None:
+        if not self._room_for(1, form):
+            return None
         word = form.text("element")
         law = self.elements.get(word)
         if law is None:

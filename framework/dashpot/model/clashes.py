@@ -81,12 +81,13 @@ def _curves_from_the_same_data(spec: NetworkSpec) -> Iterator[Problem]:
 
 
 def _shared_numbers(spec: NetworkSpec) -> Iterator[Problem]:
-    # an alias shows one number in two places; the copies of a repeated branch share theirs on purpose
+    # an alias shows one number in two places; the copies of a repeated branch share theirs on purpose, and so do
+    # networks that are used twice, which are looked at by themselves
     homes: dict[int, tuple[str, Node]] = {}
     families = {branch.name: branch.family for branch in spec.leaves()}
     for slot in spec.slots():
         number, node = _number_of(slot.value), slot.value.node
-        if number is None or node is None:
+        if number is None or node is None or (spec.document and node.place.file != spec.document.file):
             continue
         name, _, key = slot.path.partition("[")[0].rpartition(".")
         if slot.of and name not in families:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping as MappingType
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from dashpot.model.branches import BranchReader
@@ -55,22 +55,23 @@ def parse_network(text: str, elements: Elements, file: str | None = None,
     return build_network(Document.parse(text, file), elements, beside=beside)
 
 
-def build_network(document: Document, elements: Elements, trail: tuple[Path, ...] = (),
+def build_network(document: Document, elements: Elements, *,
                   beside: MappingType[str, Document] | None = None) -> NetworkSpec:  # fmt: skip
-    """The network in a document. Raises InputError with every mistake.
+    """The network in a document. Raises InputError with every mistake."""
+    return _build(document, _Uses(document.file, elements, (), beside or {}, {}))
 
-    ``trail`` are the files of the networks that use this one, outermost first.
-    """
+
+def _build(document: Document, uses: _Uses) -> NetworkSpec:
     problems: list[Problem] = []
     form = Form(document.root, problems, "the network")
     form.choice("format", (FORMAT,))
-    name = form.text("name")
+    name = form.name("name")
     about, source = form.text("about", ""), form.text("source", "")
     joints = read_joints(form)
     gravity = form.quantity("gravity", "m/s^2", 0.0)
     if "gravity" in form and "nodes" not in form:
         form.complain("gravity", "gravity pulls at the masses of nodes, but the network has no nodes", "remove it")
-    reader = BranchReader(elements, problems, _Uses(document.file, elements, trail, beside or {}).network, joints)
+    reader = BranchReader(uses.elements, problems, uses.network, joints)
     members = reader.outermost(form)
     measurement = _read_measurement(form, problems)
     identified = read_identified(form)
@@ -119,27 +120,42 @@ def _form_at(path: str, forms: dict[str, Form | None]) -> Form | None:
 
 @dataclass(frozen=True)
 class _Uses:
-    """The networks that a file may use: shipped ones and those in or below its folder."""
+    """The networks that a file may use: shipped ones and those in or below its folder.
+
+    ``trail`` are the files of the networks that use this one, outermost first; ``read`` what became of each file that
+    was used so far: it is read once, however often it is used.
+    """
 
     file: str | None
     elements: Elements
     trail: tuple[Path, ...]
     beside: MappingType[str, Document]
+    read: dict[Path, NetworkSpec | InputError]
 
     def network(self, word: str) -> NetworkSpec:
         """The network that a file calls ``word``. Raises InputError with all that is wrong with it."""
         if word in self.beside:
-            return self._checked(self.beside[word], self.trail)
+            return self._used(self.beside[word], self.trail)
         here = Path(self.file).resolve() if self.file else None
         trail = (*self.trail, here) if here else self.trail
         found = find_used_network(word, here.parent if here else Path.cwd())
         if found.resolve() in trail:
             names = " -> ".join(path.name for path in (*trail, found))
             raise InputError.at(Place(str(found)), f"the network uses itself: {names}", "break the circle")
-        return self._checked(Document.read(found), trail)
+        known = self.read.get(found.resolve()) or self._outcome(found, trail)
+        self.read[found.resolve()] = known
+        if isinstance(known, InputError):
+            raise known
+        return known
 
-    def _checked(self, document: Document, trail: tuple[Path, ...]) -> NetworkSpec:
-        inner = build_network(document, self.elements, trail)
+    def _outcome(self, file: Path, trail: tuple[Path, ...]) -> NetworkSpec | InputError:
+        try:
+            return self._used(Document.read(file), trail)
+        except InputError as error:
+            return error
+
+    def _used(self, document: Document, trail: tuple[Path, ...]) -> NetworkSpec:
+        inner = _build(document, replace(self, file=document.file, trail=trail, beside={}))
         if inner.joints:
             raise InputError.at(document.root.place, "a network that is used has two ends, expected no 'nodes'",
                                 "use a network whose branches all lie between the same two ends")  # fmt: skip

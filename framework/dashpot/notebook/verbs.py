@@ -63,10 +63,11 @@ def declare(text: str, *, registry: Registry | None = None) -> Model:
     return promoted(Model, parse_network(text, (registry or load_registry()).elements))
 
 
-def load_dataset(path: str | Path, *, registry: Registry | None = None) -> Data:
+def load_dataset(path: str | Path, *, allow_outside: bool = False, registry: Registry | None = None) -> Data:
     """The dataset of a folder, of its ``dataset.yaml``, or of a single file with a sidecar.
 
-    Runs with a fault are set aside and told of in ``problems``. InputError when no run is left.
+    Runs with a fault are set aside and told of in ``problems``. ``allow_outside`` also reads files outside of the
+    folder of the dataset. InputError when no run is left.
 
     Examples:
         >>> data = dp.load_dataset("mount")
@@ -74,7 +75,7 @@ def load_dataset(path: str | Path, *, registry: Registry | None = None) -> Data:
         (8, 0)
     """
     readers = {word: reader() for word, reader in (registry or load_registry()).formats.items()}
-    return promoted(Data, read_dataset(path, readers))
+    return promoted(Data, read_dataset(path, readers, allow_outside))
 
 
 def look(data: AnyData, *, seed: int = 0, registry: Registry | None = None) -> Look:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from dashpot.expr.node import TraceError
 from dashpot.kernel.compiler.trace import RATES, trace_network
 from dashpot.model.branches import FOR_ALL, WAYS
 from dashpot.model.element import Curve, Element, Parameter, Scale
 from dashpot.testing.specimen import draw_sizes, draw_specimens
 from dashpot.testing.verdict import Examination
+from dashpot.text.problem import InputError
 from dashpot.text.quantity import is_unit
 
 # what stands beside parameters in a file, and what the motion is called
@@ -77,6 +77,6 @@ def _check_law(examination: Examination) -> None:
     for specimen in draw_specimens(examination.element, rng, draw_sizes(rng)):
         try:
             trace_network(specimen.spec)
-        except TraceError as error:
+        except InputError as error:
             examination.fail(f"with {specimen.form}, its step cannot be traced: {error}",
                              "A step may only compute with numpy functions of its arguments.")  # fmt: skip

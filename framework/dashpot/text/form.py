@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Collection
 from typing import Any, Final, Literal, TypeVar
 
+from dashpot.text.name import RULE, is_name, shown
 from dashpot.text.node import Mapping, Node, Scalar, Sequence
 from dashpot.text.problem import Place, Problem, nearest
 from dashpot.text.quantity import si
@@ -93,6 +94,10 @@ class Form:
         """A text; a number is taken as it is written."""
         return self.take(key, read_text, default)
 
+    def name(self, key: str, default: Any = REQUIRED) -> str | Any:
+        """A text that can be the name of a file."""
+        return self.take(key, read_name, default)
+
     def texts(self, key: str, default: Any = REQUIRED) -> list[str] | Any:
         """A list of texts."""
         return self.take(key, lambda node: [read_text(item) for item in read_items(node)], default)
@@ -163,6 +168,14 @@ def read_text(node: Node) -> str:
     if any(ord(character) < 32 and character not in "\n\t" for character in node.written):
         raise ValueError(f"expected a text without control characters, got {node.written!r}")
     return node.written
+
+
+def read_name(node: Node) -> str:
+    """A text that can be the name of a file."""
+    text = read_text(node)
+    if not is_name(text):
+        raise ValueError(f"{shown(text)} cannot be a name: {RULE}")
+    return text
 
 
 def read_number(node: Node) -> float:

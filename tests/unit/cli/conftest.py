@@ -138,7 +138,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
 
     replaced = {
         "dashpot.model.reading": {"read_network": read},
-        "dashpot.data.dataset": {"read_dataset": lambda path, readers: dataset},
+        "dashpot.data.dataset": {"read_dataset": lambda path, readers, allow_outside: dataset},
         "dashpot.kernel.compiler.trace": {"trace_network": lambda network: ()},
         "dashpot.triage.examine": {"examined": lambda dataset: dataset},
         "dashpot.fit.api": {"fit_network": work("fit")},

@@ -74,9 +74,11 @@ def test_measured_files_stay_as_they_are(call, folder):
 
 def test_a_dataset_elsewhere_leads_to_its_files(call, folder, tmp_path):
     out = tmp_path / "elsewhere" / "my.yaml"
-    assert call("import", folder / "a1.csv", "-o", out)[0] == 0
-    assert "allow_outside: true" in out.read_text() and "../a1.csv" in out.read_text()
-    assert call("check", out)[0] == 0
+    code, said, _ = call("import", folder / "a1.csv", "-o", out)
+    assert code == 0 and f"Next: dashpot check {out} --allow-outside" in said
+    assert "../a1.csv" in out.read_text()
+    assert call("check", out)[0] == 1
+    assert call("check", out, "--allow-outside")[0] == 0
 
 
 def test_the_result_for_programs(call, folder):

@@ -23,8 +23,8 @@ OUTCOMES = {
     "a file not there": (FileNotFoundError(2, "No such file or directory", "x.csv"), 1, "x.csv: No such file or dir"),
     "no space left": (OSError(28, "No space left on device"), 1, "No space left on device"),
     "misuse": (click.UsageError("no such thing"), 2, "Error: no such thing"),
-    "ctrl-c": (KeyboardInterrupt(), 3, "interrupted; what was done is kept\n"),
-    "ctrl-c within click": (click.Abort(), 3, "interrupted; what was done is kept\n"),
+    "ctrl-c": (KeyboardInterrupt(), 3, "interrupted; the same command goes on\n"),
+    "ctrl-c within click": (click.Abort(), 3, "interrupted; the same command goes on\n"),
     "a fault of ours": (
         ZeroDivisionError("division by zero"),
         70,

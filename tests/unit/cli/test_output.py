@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+from contextlib import nullcontext
 
 import pytest
 
-from dashpot.cli.output import OutputFolder
+from dashpot.cli.output import OutputFolder, Results
 from dashpot.text.problem import InputError
 
 
@@ -25,6 +26,7 @@ def test_force_overwrites(tmp_path):
     folder = OutputFolder(tmp_path, force=True)
     folder.claim("b.json")
     assert folder.write("b.json", "new").read_text() == "new"
+    assert os.listdir(tmp_path) == ["b.json"]
 
 
 def test_a_missing_folder_is_made(tmp_path):
@@ -51,3 +53,66 @@ def test_a_failed_write_keeps_the_old_file(tmp_path, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         folder.write("b.json", "new")
     assert (tmp_path / "b.json").read_text() == "old"
+    assert os.listdir(tmp_path) == ["b.json"]
+
+
+def test_a_set_appears_together_or_not_at_all(tmp_path):
+    folder = OutputFolder(tmp_path, force=False)
+    with pytest.raises(ZeroDivisionError), folder.together() as results:
+        results.write("a.json", "1")
+        raise ZeroDivisionError
+    assert os.listdir(tmp_path) == []
+    with folder.together() as results:
+        results.write("a.json", "1")
+        results.write("b.json", "2")
+        assert not (tmp_path / "a.json").exists()
+    assert sorted(os.listdir(tmp_path)) == ["a.json", "b.json"]
+
+
+def die_at(monkeypatch, number):
+    """Let the process end, as far as the folder can see, before renaming for the `number`th time."""
+    left, replace = [number], os.replace
+
+    def dying(*arguments):
+        left[0] -= 1
+        if left[0] < 0:
+            raise SystemExit
+        replace(*arguments)
+
+    monkeypatch.setattr(os, "replace", dying)
+    monkeypatch.setattr(Results, "discard", lambda self: None)
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_after_an_interruption_at_any_rename_the_same_files_may_be_written(tmp_path, monkeypatch, number):
+    names = ("a.json", "b.json", "c.json")
+    folder = OutputFolder(tmp_path, force=False)
+    (tmp_path / "other.json").write_text("complete")
+    with monkeypatch.context() as patched:
+        die_at(patched, number)
+        with pytest.raises(SystemExit) if number < 4 else nullcontext(), folder.together() as results:
+            for name in names:
+                results.write(name, "1")
+    if number == 4:  # one rename for the list of what is unfinished, three for the files
+        with pytest.raises(InputError, match="a.json: exists already"):
+            folder.claim(*names)
+        return
+    with pytest.raises(InputError, match="other.json: exists already"):
+        folder.claim(*names, "other.json")
+    folder.claim(*names)
+    with folder.together() as results:
+        for name in names:
+            results.write(name, "2")
+    assert sorted(os.listdir(tmp_path)) == [*names, "other.json"]
+    assert {(tmp_path / name).read_text() for name in names} == {"2"}
+
+
+def test_of_two_calls_in_one_folder_the_second_is_refused(tmp_path):
+    folder = OutputFolder(tmp_path / "out", force=True)
+    with folder.locked():
+        with pytest.raises(InputError, match="another call of dashpot is writing into this folder"):
+            with OutputFolder(tmp_path / "out", force=True).locked():
+                pass
+    with folder.locked():
+        pass
+    assert os.listdir(folder.path) == []

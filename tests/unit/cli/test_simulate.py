@@ -33,7 +33,7 @@ def solve_each(spec, runs, count, *, refine, progress):
 
 @pytest.fixture(autouse=True)
 def bench(monkeypatch, layers):
-    stream = SimpleNamespace(open_dataset=lambda path, readers: Stream())
+    stream = SimpleNamespace(open_dataset=lambda path, readers, allow_outside: Stream())
     monkeypatch.setitem(sys.modules, "dashpot.data.stream", stream)
     api = SimpleNamespace(
         solve_each=solve_each, forces_by_name=lambda found: {name: each.force[""] for name, each in found.items()}

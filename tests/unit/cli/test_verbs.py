@@ -94,7 +94,7 @@ def test_ctrl_c_keeps_what_was_there_and_says_so(call, layers, tmp_path, monkeyp
     (tmp_path / "mine.txt").write_text("kept")
     code, _, error = call("compare", "spring", "--data", "bench.yaml", "-o", tmp_path)
     assert code == 3
-    assert error.endswith("interrupted; what was done is kept\n")
+    assert error.endswith("interrupted; the same command goes on\n")
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
 
 

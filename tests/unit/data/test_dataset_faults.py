@@ -94,7 +94,7 @@ def told(folder: Path, run: str) -> str:
         ("name: b, file: good.npz, file_options: ^3", "'file_options': expected options as 'key: value'"),
         ("name: ^a/b, file: good.npz", "'a/b' cannot be the name of a run. leave out"),
         ("name: ^.b, file: good.npz", "'.b' cannot be the name of a run. leave out"),
-        ("name: b, file: ^../good.npz", "it lies outside the folder of the dataset. move it there, or write"),
+        ("name: b, file: ^../good.npz", "it lies outside the folder of the dataset. move it there, or say"),
         ('name: b, file: ^"a\\0b"', "'file': expected a text without control characters, got 'a\\x00b'"),
         (f"name: b, file: ^{'x' * 300}.csv", "this cannot be a file"),
         ("name: b, file: ^/etc/passwd", "it lies outside the folder of the dataset"),
@@ -276,7 +276,21 @@ def test_files_outside_are_read_when_allowed(folder, tmp_path_factory):
     write_run(other, "b.npz")
     run = f"  - {{file: '{other / 'b.npz'}'}}\n"
     assert len(read(folder, HEAD + run).runs) == 1
-    assert len(read(folder, "allow_outside: true\n" + HEAD + run).runs) == 2
+    assert len(read_dataset(folder, READERS, allow_outside=True).runs) == 2
+    itself = read(folder, "allow_outside: true\n" + HEAD + run)
+    assert len(itself.runs) == 1
+    assert "cannot allow itself to read files elsewhere. say --allow-outside" in str(itself.problems[0])
+
+
+def test_a_folder_elsewhere_has_to_hold_a_dataset(folder, tmp_path_factory):
+    other = tmp_path_factory.mktemp("other")
+    write_run(other, "good.npz")
+    text = f"folder: '{other}'\n" + HEAD
+    with pytest.raises(InputError, match="expected a folder below that of the dataset, or one that holds a dataset"):
+        read(folder, text)
+    assert len(read_dataset(folder, READERS, allow_outside=True).runs) == 1
+    (other / "dataset.yaml").write_text(HEAD)
+    assert len(read(folder, text).runs) == 1
 
 
 def test_a_link_does_not_lead_outside(folder, tmp_path_factory):

@@ -24,9 +24,9 @@ pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="no folder DASHPOT_SHA
 
 def read(folder: Path, defaults: str, files: list[Path], extra: str = "") -> Dataset:
     runs = "".join(f"  - {{name: '{file.stem}', file: '{file}'{extra}}}\n" for file in files)
-    head = f"format: dashpot-dataset/1\nallow_outside: true\ndefaults: {{{defaults}}}\nruns:\n"
+    head = f"format: dashpot-dataset/1\ndefaults: {{{defaults}}}\nruns:\n"
     (folder / "dataset.yaml").write_text(head + runs)
-    return read_dataset(folder, READERS)
+    return read_dataset(folder, READERS, allow_outside=True)
 
 
 def files_of(name: str, pattern: str) -> list[Path]:

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.interpolate import CubicHermiteSpline
+from scipy.interpolate import CubicHermiteSpline, make_interp_spline
 from seeds import seed_of
 
+from dashpot.data import drive as drive_module
 from dashpot.data.drive import drive_from_path, drive_from_samples, find_turns
+from dashpot.text.problem import InputError
 
 DT = 1e-3
 TIME = DT * np.arange(1000)
@@ -102,3 +104,26 @@ def test_known_rates_are_kept():
     x, v, a = np.sin(TIME), np.cos(TIME), -np.sin(TIME)
     drive = drive_from_path(DT, x, v, a)
     assert drive.displacement is x and drive.velocity is v and drive.acceleration is a
+
+
+def test_a_long_path_has_the_rates_of_the_spline_through_all_samples(monkeypatch):
+    time = 1e-3 * np.arange(2500)
+    x = 1e-3 * np.sin(90.0 * time) + 1e-4 * np.random.default_rng(4).standard_normal(time.size)
+    spline = make_interp_spline(time, x, k=5)
+    monkeypatch.setattr(drive_module, "PIECE", 400)
+    found = drive_from_samples(1e-3, x, smooth=False)
+    assert found.velocity == pytest.approx(spline(time, 1), abs=1e-9 * np.ptp(spline(time, 1)))
+    assert found.acceleration == pytest.approx(spline(time, 2), abs=1e-9 * np.ptp(spline(time, 2)))
+    assert len(found.turn_step) > 1000
+    monkeypatch.undo()
+    whole = drive_from_samples(1e-3, x, smooth=False)
+    assert np.array_equal(found.turn_step, whole.turn_step)
+    assert found.turn_displacement == pytest.approx(whole.turn_displacement, abs=1e-12)
+
+
+@pytest.mark.parametrize("samples", [0, 1])
+def test_a_single_sample_is_no_motion(samples):
+    with pytest.raises(InputError, match=f"expected a motion of two samples at least, got {samples}"):
+        drive_from_samples(1e-3, np.zeros(samples))
+    with pytest.raises(InputError, match=f"expected a motion of two samples at least, got {samples}"):
+        drive_from_path(1e-3, *np.zeros((3, samples)))

@@ -5,6 +5,7 @@ import pytest
 
 from dashpot.contract.reader import ReadingError
 from dashpot_formats.hdf5 import Hdf5
+from dashpot_formats.mat import Mat
 
 h5py = pytest.importorskip("h5py", reason="needs dashpot[matlab73]")
 
@@ -40,3 +41,29 @@ def test_unknown_groups_and_other_files_are_refused(tmp_path):
     (tmp_path / "b.h5").write_text("t,x\n")
     with pytest.raises(ReadingError, match="not a sound HDF5 file"):
         Hdf5().read(tmp_path / "b.h5", {})
+
+
+@pytest.mark.parametrize("suffix", [".h5", ".mat"])
+@pytest.mark.parametrize("kind", ["external", "virtual", "link"])
+def test_numbers_that_lie_in_other_files_are_not_fetched(tmp_path, suffix, kind):
+    secret = tmp_path / "secret"
+    secret.write_bytes(np.arange(1.0, 21.0).tobytes())
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file["F"] = np.arange(1.0, 21.0)
+    path = tmp_path / f"a{suffix}"
+    with h5py.File(path, "w") as file:
+        file["x"] = np.arange(20.0)
+        if kind == "external":
+            file.create_dataset("F", (20,), float, external=[(str(secret), 0, 160)])
+        elif kind == "virtual":
+            layout = h5py.VirtualLayout((20,), float)
+            layout[:] = h5py.VirtualSource(str(tmp_path / "other.h5"), "F", (20,))
+            file.create_virtual_dataset("F", layout)
+        else:
+            file["F"] = h5py.ExternalLink(str(tmp_path / "other.h5"), "F")
+    reader = Hdf5() if suffix == ".h5" else Mat()
+    if kind == "link":
+        assert set(reader.read(path, {}).columns) == {"x"}
+        return
+    with pytest.raises(ReadingError, match="'F' lies in other files"):
+        reader.read(path, {})

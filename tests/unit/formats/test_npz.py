@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zipfile
 
 import numpy as np
@@ -60,4 +61,36 @@ def test_a_broken_file_is_told(tmp_path, content):
 def test_a_file_without_numbers_is_told(tmp_path):
     np.savez(tmp_path / "a.npz", name="text", rate=1.0)
     with pytest.raises(ReadingError, match="no vector or matrix"):
+        Npz().read(tmp_path / "a.npz", {})
+
+
+def head_of(shape: tuple[int, ...], kind: str) -> bytes:
+    """The head of an array, with a few bytes behind it."""
+    content = io.BytesIO()
+    np.lib.format.write_array_header_1_0(content, {"descr": kind, "fortran_order": False, "shape": shape})
+    return content.getvalue() + bytes(64)
+
+
+@pytest.mark.parametrize("shape, kind, told", [
+    ((10**12,), "<f8", "7450.6 GiB"), ((2**28,), "<f8", "2.0 GiB"), ((2**28,), "|i1", "2.0 GiB"),
+    ((2**14, 2**14), "<f4", "2.0 GiB"),
+])  # fmt: skip
+def test_arrays_are_capped_by_what_they_unpack_to(tmp_path, shape, kind, told):
+    (tmp_path / "a.npy").write_bytes(head_of(shape, kind))
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        archive.writestr("F.npy", head_of(shape, kind))
+    for name in ("a.npy", "a.npz"):
+        with pytest.raises(ReadingError, match=f"unpacked it would take {told}"):
+            Npz().read(tmp_path / name, {})
+
+
+def test_zeros_that_pack_well_are_no_way_around_it(tmp_path):
+    # 256 MB of bytes, packed to less than one, would become eight times as many
+    archive = zipfile.ZipFile(tmp_path / "a.npz", "w", zipfile.ZIP_DEFLATED)
+    with archive, archive.open("F.npy", "w") as stream:
+        np.lib.format.write_array_header_1_0(stream, {"descr": "|i1", "fortran_order": False, "shape": (2**28,)})
+        for _ in range(2**8):
+            stream.write(bytes(2**20))
+    assert (tmp_path / "a.npz").stat().st_size < 2**20
+    with pytest.raises(ReadingError, match="unpacked it would take 2.0 GiB"):
         Npz().read(tmp_path / "a.npz", {})

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import hmac
+import os
+import stat
 import subprocess
 import sys
 from pathlib import Path
@@ -12,12 +16,11 @@ from unit.kernel.networks import compiled
 
 from dashpot.data.drive import drive_from_samples
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.targets.cache import cache_folder
+from dashpot.kernel.targets.cache import DIGEST, cache_folder
 from dashpot.kernel.targets.llvm import native
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Group, NetworkSpec, Value
 from dashpot.testing import random_drive
-from dashpot.text.problem import InputError
 
 DAMPER = "it: {element: damper, damping: 5}"
 OTHER = "other: {element: damper, damping: 7}"
@@ -55,7 +58,7 @@ def test_the_cache_lies_where_the_environment_says(monkeypatch):
 def test_networks_that_differ_in_numbers_and_names_share_one_file(folder):
     files = {compiled(branches).native(1).file for branches in (DAMPER, OTHER)}
     assert len(files) == 1
-    assert files == set((folder / "kernels").glob("*"))
+    assert files == set((folder / "kernels").glob("*.o"))
     assert compiled(DAMPER).native(1) is compiled(OTHER).native(1)
 
 
@@ -63,7 +66,7 @@ def test_another_process_takes_the_machine_code_from_the_cache(folder):
     file = Path(compile_elsewhere("{element: damper, damping: 5}"))
     stamp = file.stat().st_mtime_ns
     assert compile_elsewhere("{element: damper, damping: 7}") == str(file)
-    assert file.stat().st_mtime_ns == stamp and list(file.parent.iterdir()) == [file]
+    assert file.stat().st_mtime_ns == stamp and list(file.parent.glob("*.o")) == [file]
 
 
 DAMAGES = [lambda code: code[:-1], lambda code: b"", lambda code: code[:40] + b"!" + code[41:]]
@@ -83,11 +86,72 @@ def test_no_half_written_file_stays_behind(folder):
     assert not list((folder / "kernels").glob("*.part"))
 
 
-def test_a_folder_that_cannot_be_written_is_told_with_the_way_out(tmp_path, monkeypatch):
+BACKENDS = pytest.mark.parametrize("backend", ["llvm", "numba"])
+
+
+@BACKENDS
+def test_without_a_cache_that_can_be_written_networks_run_all_the_same(tmp_path, monkeypatch, backend):
     (tmp_path / "taken").write_text("a file, not a folder")
     monkeypatch.setenv("DASHPOT_CACHE", str(tmp_path / "taken"))
-    with pytest.raises(InputError, match="compiled networks cannot be kept here: .* DASHPOT_CACHE name a folder"):
-        compiled(DAMPER).native(1)
+    monkeypatch.setenv("DASHPOT_BACKEND", backend)
+    drive = random_drive(np.random.default_rng(1), "sweep", 1e-3, 0.01, 50)
+    found = compiled(DAMPER)
+    assert found.simulate(found.prepare(drive)) == pytest.approx(5.0 * drive.velocity)
+
+
+@BACKENDS
+def test_a_disk_that_is_full_keeps_nothing_and_stops_nothing(folder, monkeypatch, backend):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setenv("DASHPOT_BACKEND", backend)
+    network = "it: {element: inerter, inertance: 7}"
+    compiled(network).native(1) if backend == "numba" else monkeypatch.setattr("tempfile.mkstemp", full)
+    native._native.cache_clear()
+    drive = random_drive(np.random.default_rng(1), "sweep", 1e-3, 0.01, 50)
+    found = compiled(network)
+    assert found.simulate(found.prepare(drive)) == pytest.approx(7.0 * drive.acceleration)
+
+
+POSIX = pytest.mark.skipif(os.name != "posix", reason="other systems keep the folders of users apart by themselves")
+
+
+@POSIX
+def test_nobody_else_may_enter_the_folder(folder):
+    (folder / "kernels").mkdir(parents=True, mode=0o777)
+    (folder / "kernels").chmod(0o777)
+    file = compiled(DAMPER).native(1).file
+    assert file.parent == folder / "kernels"
+    assert stat.S_IMODE(file.parent.stat().st_mode) == 0o700
+    assert stat.S_IMODE((file.parent / "key").stat().st_mode) == 0o600
+
+
+@POSIX
+def test_a_folder_that_is_a_link_or_of_somebody_else_is_not_used(folder, tmp_path, monkeypatch):
+    folder.mkdir()
+    (folder / "kernels").symlink_to(tmp_path)
+    assert compiled(DAMPER).native(1).file.parent not in (tmp_path, folder / "kernels")
+    (folder / "kernels").unlink()
+    (folder / "kernels").mkdir()
+    monkeypatch.setattr("os.geteuid", lambda: 12345)
+    assert compiled(DAMPER).native(1).file.parent != folder / "kernels"
+
+
+def test_code_that_was_not_kept_by_this_user_is_not_run(folder):
+    entry, other = "{element: inerter, inertance: 5}", "{element: damper, damping: 5}"
+    file, another = Path(compile_elsewhere(entry)), Path(compile_elsewhere(other))
+    code, foreign = file.read_bytes(), another.read_bytes()
+    for planted in (
+        foreign,  # made by this user for another network
+        hashlib.sha256(foreign[DIGEST:]).digest() + foreign[DIGEST:],  # a digest that anybody can make
+        hmac.digest(bytes(DIGEST), file.name.encode() + b"\0" + foreign[DIGEST:], "sha256") + foreign[DIGEST:],
+    ):
+        file.write_bytes(planted)
+        assert compile_elsewhere(entry) == str(file)
+        assert file.read_bytes() == code
+    (file.parent / "key").unlink()
+    assert compile_elsewhere(entry) == str(file)
+    assert file.read_bytes()[DIGEST:] == code[DIGEST:] and file.read_bytes() != code
 
 
 def test_a_compiled_network_answers_a_lane_and_a_block_alike(folder):
@@ -131,7 +195,7 @@ def test_another_version_of_the_compiler_compiles_again(folder, monkeypatch, cha
     before = compiled(DAMPER).native(1).file
     monkeypatch.setattr(change, (99, 9, 9) if "info" in change else "99.9")
     assert compiled(DAMPER).native(1).file != before
-    assert len(list((folder / "kernels").iterdir())) == 2
+    assert len(list((folder / "kernels").glob("*.o"))) == 2
 
 
 def test_another_processor_compiles_again(folder, monkeypatch):

@@ -9,13 +9,14 @@ import pytest
 from seeds import seed_of
 from unit.kernel.networks import ELEMENTS
 
-from dashpot.data.drive import drive_from_path
+from dashpot.data.drive import drive_from_path, drive_from_samples
 from dashpot.data.excitation import Excitation
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel import system as module
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.system import CompiledSystem, Status
-from dashpot.model.reading import parse_network
+from dashpot.model.reading import parse_network, read_network
 from dashpot.text.problem import InputError
 
 SAMPLES, DT = 120, 1e-3
@@ -180,3 +181,24 @@ def test_halving_the_steps_is_what_the_estimate_comes_from(axle):
     estimates = [axle.solve(axle.prepare(shaken(axle), pairs)).error for pairs in (1, 2, 4)]
     assert np.log2(estimates[0] / estimates[1]) == pytest.approx(np.full((1, 2), 2.0), abs=0.3)
     assert np.log2(estimates[1] / estimates[2]) == pytest.approx(np.full((1, 2), 2.0), abs=0.3)
+
+
+@pytest.mark.parametrize("backend", ["llvm", "numba"])
+def test_a_long_record_goes_through_in_pieces_to_the_same_bits(monkeypatch, backend):
+    monkeypatch.setenv("DASHPOT_BACKEND", backend)
+    network = compile_network(read_network("axle_model_1", ELEMENTS))
+    time = 1e-3 * np.arange(700)
+    motions = {node: drive_from_samples(1e-3, 5e-3 * np.sin(2 * np.pi * f * time) + 1e-3 * np.cos(70.0 * time))
+               for node, f in (("platform_left", 3.0), ("platform_right", 4.3))}  # fmt: skip
+    excitation = Excitation(motions, dt=1e-3, samples=700, settings={"added_mass": 0.0})
+    whole = network.solve(network.prepare(excitation))
+    measured, weight = np.zeros((2, 700)), np.ones((2, 700))
+    score = network.score([network.prepare(excitation)], [measured], [weight], network.start[None])
+    for size, kept in ((300, 0), (300, 1000), (350, 0), (1, 0)):
+        monkeypatch.setattr(module, "PIECE", size)
+        monkeypatch.setattr(module, "KEPT", kept)
+        rows = network.prepare(excitation)
+        found = network.solve(rows)
+        for key in ("force", "motion", "error"):
+            assert getattr(found, key).tobytes() == getattr(whole, key).tobytes(), (size, key)
+        assert network.score([rows], [measured], [weight], network.start[None]).tobytes() == score.tobytes()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from unit.kernel.networks import HEAD, network
 
-from dashpot.expr.node import TraceError, symbols_of
+from dashpot.expr.node import symbols_of
 from dashpot.kernel.compiler.trace import trace_branch, trace_network
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Curve, Element, Parameter, Response, State
@@ -122,5 +122,45 @@ class Confused(Element):
 
 def test_an_element_that_cannot_be_traced_is_named():
     text = f"{HEAD}  it: {{element: confused, stiffness: 5}}\n"
-    with pytest.raises(TraceError, match=r"element 'confused': it declares the states \['force'\] but .*\['power'\]"):
+    with pytest.raises(InputError, match=r"it declares the states \['force'\] but .*\['power'\]") as caught:
         trace_network(parse_network(text, {"confused": Confused}))
+    [problem] = caught.value.problems
+    assert problem.message.startswith("the law of the element 'confused' cannot be used")
+    assert (problem.place.file, problem.place.line) == (__file__, Confused.step.__code__.co_firstlineno)
+
+
+class Branching(Confused):
+    """Asks what cannot be known yet."""
+
+    word = "branching"
+
+    def step(self, x, z, p, dt):
+        slope = p.stiffness
+        if x.new > 0.0:
+            slope = 2.0 * slope
+        return Response(slope * x.new, force=x.new)
+
+
+class Raising(Confused):
+    """Raises in a function of its own."""
+
+    word = "raising"
+
+    def step(self, x, z, p, dt):
+        return Response(self.force_at(x.new), force=x.new)
+
+    def force_at(self, x):
+        return {}["far"] * x
+
+
+@pytest.mark.parametrize("element, line, told", [
+    (Branching, Branching.step.__code__.co_firstlineno + 2, "a law may not branch on a traced value; use np.where"),
+    (Raising, Raising.force_at.__code__.co_firstlineno + 1, "it raises KeyError: 'far'"),
+])  # fmt: skip
+def test_a_law_that_fails_is_told_as_the_fault_of_its_plugin_with_the_line(element, line, told):
+    text = f"{HEAD}  it: {{element: {element.word}, stiffness: 5}}\n"
+    with pytest.raises(InputError, match=told) as caught:
+        trace_network(parse_network(text, {element.word: element}))
+    [problem] = caught.value.problems
+    assert (problem.place.file, problem.place.line) == (__file__, line)
+    assert "a fault of the plugin that gives the element" in problem.hint

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -30,6 +31,44 @@ def test_a_network_is_read_branch_by_branch():
     assert [(branch.name, branch.element.word) for branch in spec.leaves()] == [
         ("rubber", "elastic"), ("friction", "slider")]  # fmt: skip
     assert numbers(spec) == {"rubber.stiffness": 220e3, "friction.stiffness": 6e4, "friction.limit": 15.0}
+
+
+def test_the_name_of_a_network_can_be_that_of_a_file():
+    for name in ("../../evil", "a\u202eb", "x" * 121):
+        with pytest.raises(InputError, match="the network, 'name': .* cannot be a name: leave out"):
+            network = f"format: dashpot-network/1\nname: {json.dumps(name)}\nbranches:\n  k: {{element: elastic}}\n"
+            parse_network(network, ELEMENTS)
+    long = f"{'x' * 121}: {{element: elastic, stiffness: 1}}"
+    assert any("expected a name of letters" in told for told in problems(long))
+
+
+def test_a_network_that_doubles_with_every_file_is_refused_at_once(tmp_path):
+    # 31 files, each of which uses the next one twice: two to the power of thirty branches
+    elastic = "it: {element: elastic, stiffness: 1}"
+    (tmp_path / "n30.yaml").write_text(written(elastic))
+    for level in range(30):
+        following = f"{{use: n{level + 1}.yaml}}"
+        (tmp_path / f"n{level}.yaml").write_text(written(f"a: {following}\nb: {following}"))
+    with pytest.raises(InputError, match="expected 1000 branches at most, with those of used networks, got more"):
+        read_network(tmp_path / "n0.yaml", ELEMENTS)
+    assert len(read_network(tmp_path / "n22.yaml", ELEMENTS).leaves()) == 256
+
+
+def test_a_mistake_in_a_file_that_is_used_often_is_told_once(tmp_path):
+    (tmp_path / "n12.yaml").write_text(written("it: {element: elastic, stifness: 1}"))
+    for level in range(12):
+        following = f"{{use: n{level + 1}.yaml}}"
+        (tmp_path / f"n{level}.yaml").write_text(written(f"a: {following}\nb: {following}"))
+    with pytest.raises(InputError) as caught:
+        read_network(tmp_path / "n0.yaml", ELEMENTS)
+    assert len([problem for problem in caught.value.problems if "stifness" in problem.message]) == 1
+    assert len(caught.value.problems) < 40
+
+
+def test_copies_count_as_branches():
+    entry = "{{element: elastic, stiffness: 1, repeat: 100}}"
+    many = "\n".join(f"a{number}: {entry}".replace("{{", "{").replace("}}", "}") for number in range(11))
+    assert any("expected 1000 branches at most" in told for told in problems(many))
 
 
 def test_every_shipped_network_is_read_under_its_name():

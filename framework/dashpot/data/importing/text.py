@@ -25,12 +25,15 @@ _NEGLIGIBLE = 0.05
 def dataset_text(imported: Imported, folder: Path, name: str) -> str:
     """The dataset file over these runs, to be written into `folder`."""
     common = _common(imported.runs)
-    outside = any(_relative(run.file, folder).startswith("..") for run in imported.runs)
     lines = [*_head(imported), f"format: {FORMAT}", f"name: {quoted(name)}"]
-    lines += ["allow_outside: true"] if outside else []
     lines += ["defaults:", *(f"  {line}" for line in common)] if common else []
     lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, common))]
     return "\n".join(lines) + "\n"
+
+
+def leads_outside(imported: Imported, folder: Path) -> bool:
+    """Whether a measured file does not lie in or below the folder."""
+    return any(_relative(run.file, folder).startswith("..") for run in imported.runs)
 
 
 def _common(runs: Sequence[ImportedRun]) -> list[str]:

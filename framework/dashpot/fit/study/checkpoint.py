@@ -1,11 +1,16 @@
-"""What a study has done so far, on disk: every block of a search as it was answered, every stage as it ended."""
+"""What a study has done so far, on disk: every block of a search as it was answered, every stage as it ended.
+
+Each record carries the digest of its bytes. What an interruption or a faulty disk has spoilt is done again.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import shutil
 from collections.abc import Iterator, Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -15,6 +20,8 @@ from dashpot.fit.replay import Block
 from dashpot.text.problem import InputError, Place
 
 MARK = "study.txt"
+DIGEST = hashlib.sha256().digest_size
+LENGTH = 8  # bytes
 
 
 class Checkpoint:
@@ -59,14 +66,11 @@ class Record:
         """How the search ended, if it did."""
         if self._result is None or not self._result.exists():
             return None
-        try:
-            return json.loads(self._result.read_text(encoding="utf-8"))
-        except ValueError:
-            raise InputError.at(Place(str(self._result)), "expected the record of a search, got a damaged file",
-                                "say --force to begin the study again") from None  # fmt: skip
+        digest, _, text = self._result.read_bytes().partition(b"\n")
+        return json.loads(text) if digest == hashlib.sha256(text).hexdigest().encode() else None
 
     def blocks(self) -> list[Block]:
-        """The whole blocks on disk; what an interruption left of the last one is cut off."""
+        """The blocks on disk up to the first that is not whole, which is cut off with all that follow it."""
         if self._blocks is None or not self._blocks.exists():
             return []
         found = []
@@ -85,15 +89,19 @@ class Record:
         if self._stream is None:
             self._stream = self._blocks.open("ab")
         values = block.values if block.values is not None and block.values.ndim == 1 else np.empty(0)
-        np.save(self._stream, block.points)
-        np.save(self._stream, values)
+        content = BytesIO()
+        np.save(content, block.points)
+        np.save(content, values)
+        whole = content.getvalue()
+        self._stream.write(len(whole).to_bytes(LENGTH, "little") + hashlib.sha256(whole).digest() + whole)
         self._stream.flush()
 
     def finish(self, result: Mapping[str, Any]) -> None:
         """Write the result; the blocks are needed no more."""
         self.close()
         if self._result is not None and self._blocks is not None:
-            _write_whole(self._result, json.dumps(result))
+            text = json.dumps(result)
+            _write_whole(self._result, f"{hashlib.sha256(text.encode()).hexdigest()}\n{text}")
             self._blocks.unlink(missing_ok=True)
 
     def close(self) -> None:
@@ -104,11 +112,13 @@ class Record:
 
 
 def _read_blocks(stream: BinaryIO) -> Iterator[Block]:
-    while True:
-        try:
-            points, values = (np.load(stream, allow_pickle=False) for _ in range(2))
-        except (EOFError, ValueError, OSError):
+    size = os.fstat(stream.fileno()).st_size
+    while head := stream.read(LENGTH + DIGEST):
+        content = stream.read(min(int.from_bytes(head[:LENGTH], "little"), size))
+        if hashlib.sha256(content).digest() != head[LENGTH:]:
             return
+        whole = BytesIO(content)
+        points, values = (np.load(whole, allow_pickle=False) for _ in range(2))
         yield Block(points, values if values.size else None)
 
 

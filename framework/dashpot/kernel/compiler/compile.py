@@ -37,7 +37,7 @@ class _Build:
 
 
 def program_of(spec: NetworkSpec) -> Program:
-    """The program of a network with two ends. Raises TraceError and InputError as tracing does."""
+    """The program of a network with two ends. Raises InputError as tracing does."""
     return _program(_Build(tuple(_structure(branch) for branch in spec.leaves()), spec))
 
 

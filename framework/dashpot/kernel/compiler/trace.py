@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from dashpot.expr.node import Node, TraceError, as_node, symbol, symbols_of, table, walk
 from dashpot.model.element import Motion, Response
+from dashpot.model.law_fault import told_of_law
 from dashpot.model.network import Branch, Characteristic, NetworkSpec
 from dashpot.text.problem import InputError, Place
 
@@ -72,12 +73,9 @@ def refuse_missing_numbers(spec: NetworkSpec) -> None:
 def trace_branch(branch: Branch) -> TracedBranch:
     """The law of a branch, seen as widely as it needs: rates and duration make it follow the whole path.
 
-    Raises TraceError, naming the element, for a law that cannot be traced.
+    Raises InputError, naming the element and the line, for a law that cannot be traced.
     """
-    try:
-        traced = _see(branch)
-    except TraceError as error:
-        raise TraceError(f"element '{branch.element.word}': {error}") from None
+    traced = _see(branch)
     _refuse_moving_tables(branch, traced)
     return traced
 
@@ -92,14 +90,18 @@ def _see(branch: Branch) -> TracedBranch:
 
 
 def trace_along(branch: Branch, sight: Sight) -> TracedBranch:
-    """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on."""
+    """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on.
+
+    Raises InputError, naming the element and the line, for a law that cannot be traced.
+    """
     motion, states = _motion(sight), _states(branch)
-    response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
-    check_states(branch, response)
-    force = as_node(response.force)
+    with told_of_law(branch.element):
+        response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
+        check_states(branch, response)
+        force, answered = as_node(response.force), {states[k]: as_node(v) for k, v in response.states.items()}
     if branch.scale:
         force = force * _scale(branch, motion)
-    return TracedBranch(branch.name, sight, force, {states[k]: as_node(v) for k, v in response.states.items()})
+    return TracedBranch(branch.name, sight, force, answered)
 
 
 def trace_stored(branch: Branch, sight: Sight) -> Node | None:
@@ -109,9 +111,11 @@ def trace_stored(branch: Branch, sight: Sight) -> Node | None:
     others have to say it; a ``scale`` multiplies what they say.
     """
     motion, states = _motion(sight), _states(branch)
-    stored = branch.element().stored(motion, _symbols(states), _parameters(branch))
+    with told_of_law(branch.element):
+        said = branch.element().stored(motion, _symbols(states), _parameters(branch))
+        stored = None if said is None else as_node(said)
     if stored is not None:
-        return as_node(stored) * _scale(branch, motion)
+        return stored * _scale(branch, motion)
     law = trace_along(replace(branch, scale=None), sight)
     moving = symbols_of(law.force) & {*(f"{sight}.{key}" for key in ("old", "new", *RATES)), *states.values(), "dt"}
     if moving <= {f"{sight}.new"}:

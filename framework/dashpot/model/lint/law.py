@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.model.element import Motion
+from dashpot.model.law_fault import told_of_law
 from dashpot.model.network import Branch, Characteristic, Value, branch_slots
 
 Array = NDArray[np.float64]
@@ -45,7 +46,7 @@ class Law:
         states: Mapping[str, Any] = dict.fromkeys(self.branch.element.declares.states, np.zeros(path.shape[1]))
         scale = _curve(f"{self.branch.numbers}.scale", self.branch.scale, self.numbers)
         forces = np.empty((len(path) - 1, path.shape[1]))
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), told_of_law(self.branch.element):
             for k in range(len(forces)):
                 x = Motion(path[k], path[k + 1], velocity[k], velocity[k + 1], acceleration[k + 1])
                 response = law.step(x, SimpleNamespace(**states), given, dt)

@@ -10,7 +10,9 @@ import pytest
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
+from dashpot.fit.replay import Block
 from dashpot.fit.study import run as conduct
+from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.preview import preview_study
 from dashpot.fit.study.reading import parse_study
 from dashpot.fit.study.run import run_study
@@ -155,6 +157,35 @@ def test_an_interrupted_study_goes_on_to_the_same_bits(study, tmp_path, monkeypa
     for model, other in zip(whole.models, resumed.models, strict=True):
         assert model.fit.as_dict() == other.fit.as_dict()
         assert model.stages == other.stages
+
+
+@pytest.mark.parametrize("place", [3, 60, -400, -3])
+def test_a_block_that_the_disk_has_spoilt_is_evaluated_again(tmp_path, place):
+    blocks = [Block(np.random.default_rng(seed).random((4, 3)), np.full(4, seed)) for seed in range(5)]
+    record = Checkpoint(tmp_path).stage("a")
+    for block in blocks:
+        record.keep(block)
+    record.close()
+    file = tmp_path / "a.blocks"
+    content = bytearray(file.read_bytes())
+    size = len(content) // 5
+    assert len(Checkpoint(tmp_path).stage("a").blocks()) == 5
+    content[place] ^= 1
+    file.write_bytes(content)
+    found = Checkpoint(tmp_path).stage("a").blocks()
+    assert len(found) == (place % len(content)) // size
+    for block, kept in zip(blocks, found, strict=False):
+        assert block.points.tobytes() == kept.points.tobytes()
+    assert file.stat().st_size == len(found) * size
+
+
+def test_a_spoilt_result_of_a_search_is_found_again(study, tmp_path):
+    made = study("stages: [{name: a, optimizer: pso, budget: 600}]\nmodels: [two.yaml]\n")
+    first = run(made, checkpoint=tmp_path / "records")
+    [result] = (tmp_path / "records").glob("*.json")
+    result.write_text(result.read_text().replace('"evaluations": 6', '"evaluations": 7', 1))
+    assert Checkpoint(tmp_path / "records").stage(result.stem).result() is None
+    assert run(made, checkpoint=tmp_path / "records").models[0].stages == first.models[0].stages
 
 
 def test_what_is_recorded_is_not_evaluated_again(study, tmp_path, monkeypatch):

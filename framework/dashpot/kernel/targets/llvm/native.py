@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dashpot.kernel.targets.cache import cache_folder, keep
+from dashpot.kernel.targets.cache import keep_sealed, kernel_folder, read_sealed
 
 if TYPE_CHECKING:
     from llvmlite.binding import TargetMachine
 
 EFFORT = 2
-DIGEST = hashlib.sha256().digest_size
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,11 +42,8 @@ def _place(argument: np.ndarray | int | None) -> int | None:
 
 
 def load_native(text: str, count: int) -> Native:
-    """The function ``run`` of a text, with ``count`` arguments, from the cache where it is known.
-
-    Raises InputError when the cache folder cannot be written.
-    """
-    return _native(text, count, str(cache_folder()), (stamp(), *processor()))
+    """The function ``run`` of a text, with ``count`` arguments, from the cache where it is known."""
+    return _native(text, count, kernel_folder(), (stamp(), *processor()))
 
 
 def processor() -> tuple[str, str]:
@@ -67,15 +63,15 @@ def stamp() -> str:
 
 
 @lru_cache(maxsize=256)
-def _native(text: str, count: int, folder: str, maker: tuple[str, str, str]) -> Native:
+def _native(text: str, count: int, folder: Path, maker: tuple[str, str, str]) -> Native:
     from llvmlite import binding
 
     recipe, target = "\n".join([*maker, text]), maker[1:]
-    file = Path(folder) / "kernels" / f"{hashlib.sha256(recipe.encode()).hexdigest()[:32]}.o"
-    code = _kept(file)
+    file = folder / f"{hashlib.sha256(recipe.encode()).hexdigest()[:32]}.o"
+    code = read_sealed(file)
     if code is None:
         code = compiled(text, *target)
-        keep(file, hashlib.sha256(code).digest() + code)
+        keep_sealed(file, code)
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), _machine(*target))
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -115,13 +111,3 @@ def _machine(name: str, features: str) -> TargetMachine:
     _ready()
     target = binding.Target.from_default_triple()
     return target.create_target_machine(cpu=name, features=features, opt=EFFORT, jit=True)
-
-
-def _kept(file: Path) -> bytes | None:
-    # the code is preceded by its digest: a damaged file is as good as none
-    try:
-        content = file.read_bytes()
-    except OSError:
-        return None
-    code = content[DIGEST:]
-    return code if hashlib.sha256(code).digest() == content[:DIGEST] else None

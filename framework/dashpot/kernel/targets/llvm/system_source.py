@@ -23,7 +23,7 @@ from dashpot.kernel.targets.llvm.source import whole
 
 ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples", "ptr %space", "ptr %status",
              "ptr %tables", "ptr %knots", "ptr %measured", "ptr %weight", "ptr %out", "ptr %miss",
-             "i64 %scoring", "i64 %asked")  # fmt: skip
+             "i64 %scoring", "i64 %begins", "i64 %asked")  # fmt: skip
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
@@ -32,8 +32,10 @@ def print_system(system: SystemProgram, vectors: int) -> str:
 
     ``still`` (1, columns), ``coarse`` and ``fine`` (steps, columns) are what drives the steps, ``per`` is the number of
     coarse steps in a sample, ``space`` (2, rows, lanes) is a workspace for each of the two, ``status`` (lanes,) stays 0
-    where all goes well. Without ``scoring`` it fills ``out`` (samples, driven nodes then unknown nodes, lanes); with
-    it, it adds weight * (force - measured)^2 to the first of ``out``, the other two being (samples, driven nodes).
+    where all goes well. Where the record ``begins`` (1), the first of the ``samples`` is the equilibrium; a later
+    piece of it (0) goes on from the workspace as the piece before has left it. Without ``scoring`` it fills ``out``
+    (samples, driven nodes then unknown nodes, lanes); with it, it adds weight * (force - measured)^2 to the first of
+    ``out``, the other two being (samples, driven nodes).
     ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses.
     """
     passes = (_pass(layout, name, vectors) for name, layout in system.passes.items())
@@ -45,16 +47,18 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
     a.do("%left = alloca i64")
     halves = ["%space", a.address("%space", system.rows * width)]
     finer = a.new("mul i64 %per, 2")
-    for space in halves:
-        _call(a, "start", "%still", space)
-        _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, done, vectors)
-        _call(a, "rest", "%still", space)
-        _newton(a, "launch", "%still", space, MOST_PLACES, None, done, vectors)
-        _call(a, "set_off", "%still", space)
+    with a.when(a.new("icmp ne i64 %begins, 0")):
+        for space in halves:
+            _call(a, "start", "%still", space)
+            _newton(a, "settle", "%still", space, MOST_STATIC_STEPS, UNBALANCED, done, vectors)
+            _call(a, "rest", "%still", space)
+            _newton(a, "launch", "%still", space, MOST_PLACES, None, done, vectors)
+            _call(a, "set_off", "%still", space)
     with a.loop(0, "%samples") as k:
-        with a.when(a.new(f"icmp sgt i64 {k}, 0")):
+        before = a.new(f"sub i64 {k}, %begins")
+        with a.when(a.new(f"icmp sge i64 {before}, 0")):
             for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):
-                first = a.product(a.new(f"sub i64 {k}, 1"), count)
+                first = a.product(before, count)
                 with a.loop(first, a.new(f"add i64 {first}, {count}")) as j:
                     row = a.address(columns, a.product(j, len(system.program.columns)))
                     _call(a, "predict", row, space)

@@ -36,7 +36,7 @@ NEWTON: Arguments = [*SYSTEM_PASS, ("array", "status"), ("count", "l")]
 SYSTEM: Arguments = [*(("array", name) for name in ("still", "coarse", "fine")), ("count", "per"), ("count", "samples"),
                      *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight",
                                                     "out", "miss")),
-                     ("count", "scoring"), ("count", "asked"), ("count", "n")]  # fmt: skip
+                     ("count", "scoring"), ("count", "begins"), ("count", "asked"), ("count", "n")]  # fmt: skip
 
 
 def print_network(program: Program) -> str:
@@ -191,17 +191,18 @@ def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int,
 
 def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
     across = len(system.program.columns)
-    for o in (0, system.rows):
-        place = f"w, tables, knots, 0, {code.index(o)}"
-        code.do(f"start_(still, {place})")
-        code.do(f"settle(still, {place}, status, l)")
-        code.do(f"rest_(still, {place})")
-        code.do(f"launch(still, {place}, status, l)")
-        code.do(f"set_off_(still, {place})")
+    with code.when("begins != 0"):
+        for o in (0, system.rows):
+            place = f"w, tables, knots, 0, {code.index(o)}"
+            code.do(f"start_(still, {place})")
+            code.do(f"settle(still, {place}, status, l)")
+            code.do(f"rest_(still, {place})")
+            code.do(f"launch(still, {place}, status, l)")
+            code.do(f"set_off_(still, {place})")
     with code.loop("k", 0, "samples"):
-        with code.when("k > 0"):
+        with code.when("k >= begins"):
             for o, columns, count in ((0, "coarse", "per"), (system.rows, "fine", "2 * per")):
-                with code.loop("j", f"(k - 1) * {count}", f"k * {count}"):
+                with code.loop("j", f"(k - begins) * {count}", f"(k - begins + 1) * {count}"):
                     place = f"{columns}, w, tables, knots, j * {across}, {code.index(o)}"
                     code.do(f"predict_({place})")
                     code.do(f"improve({place}, status, l)")

@@ -7,16 +7,17 @@ import sys
 from functools import lru_cache
 from importlib.resources import files as resources
 from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
 from types import ModuleType
 
-from dashpot.kernel.targets.cache import cache_folder, keep
+from dashpot.kernel.targets.cache import keep, kernel_folder, passing_folder
 
 PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "packed.py")
 
 
 def load_module(text: str) -> ModuleType:
-    """The module of a text. Raises InputError when the cache folder cannot be written."""
-    return _module(text, str(cache_folder()))
+    """The module of a text."""
+    return _module(text, kernel_folder())
 
 
 @lru_cache
@@ -27,12 +28,12 @@ def _helpers() -> bytes:
 
 
 @lru_cache(maxsize=256)
-def _module(text: str, folder: str) -> ModuleType:
-    from pathlib import Path
-
+def _module(text: str, folder: Path) -> ModuleType:
     name = PREFIX + hashlib.sha256(text.encode() + _helpers()).hexdigest()[:32]
-    file = Path(folder) / "kernels" / f"{name}.py"
-    if not file.is_file() or file.read_bytes() != text.encode():
+    file = folder / f"{name}.py"
+    known = file.is_file() and file.read_bytes() == text.encode()
+    if not known and not keep(file, text.encode()):
+        file = passing_folder() / file.name
         keep(file, text.encode())
     spec = spec_from_file_location(name, file)
     assert spec is not None and spec.loader is not None

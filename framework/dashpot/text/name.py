@@ -1,0 +1,23 @@
+"""Names that become names of files and stand in reports: what they may not contain."""
+
+from __future__ import annotations
+
+from unicodedata import category
+
+LONGEST = 120
+UNFIT = frozenset('/\\:*?"<>|')
+# control characters, those that turn the direction of writing or cannot be seen, and ends of lines
+UNSEEN = ("Cc", "Cf", "Cs", "Zl", "Zp")
+RULE = f"leave out / \\ : * ? \" < > |, invisible characters and a leading '.', and take {LONGEST} characters at most"
+
+
+def is_name(text: str) -> bool:
+    """Whether a text can be the name of a network or run, as ``RULE`` says."""
+    fitting = all(sign not in UNFIT and category(sign) not in UNSEEN for sign in text)
+    return fitting and 0 < len(text) <= LONGEST and not text.startswith(".") and text == text.strip()
+
+
+def shown(text: str) -> str:
+    """A text in quotes, with what cannot be seen written out, and not all of it where it is too long."""
+    seen = "".join(sign if category(sign) not in UNSEEN else f"\\u{ord(sign):04x}" for sign in text[:LONGEST])
+    return f"'{seen}'" if len(text) <= LONGEST else f"'{seen}...' of {len(text)} characters"
