@@ -31,6 +31,8 @@ from dashpot.triage.examine import examined
 if TYPE_CHECKING:
     import numpy as np
 
+    from dashpot.kernel.workers import Jobs
+
 AnyModel = NetworkSpec | str | Path
 AnyData = Dataset | str | Path
 
@@ -143,12 +145,13 @@ def fit(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry | None = None,
 ) -> Fit:
     """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
 
-    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them.
+    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them. ``jobs``
+    are threads, or a pool or cluster that does it: an Executor of ``concurrent.futures``, or a client of Dask.
 
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
     starts. InputError for a model that does not compile.
@@ -172,7 +175,7 @@ def compare(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry | None = None,
 ) -> Comparison:
     """Fit every model on the same training runs and judge it on all runs, next to the noise floor.
@@ -197,7 +200,7 @@ def diagnose(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     relevance: float = 1.5e-3,
     registry: Registry | None = None,
 ) -> Diagnosis:
