@@ -1,4 +1,4 @@
-"""What a study has done so far, on disk: every block of a search as it was answered, every stage as it ended."""
+"""What a study or a campaign has done so far, on disk: every block of a search as it was answered, every result."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class Checkpoint:
         self.folder = folder
 
     def open(self, fingerprint: str) -> None:
-        """Begin, or go on where the same study stopped. InputError when the records are of another study."""
+        """Begin, or go on where the same work stopped. InputError when the records are of another one."""
         if self.folder is None:
             return
         mark = self.folder / MARK
         if mark.exists() and mark.read_text(encoding="utf-8") != fingerprint:
             raise InputError.at(
                 Place(str(self.folder)),
-                "its records are of another study: the file, the data, the seed or the version has changed",
+                "its records are of another study or campaign: its file, the data, the seed or the version has changed",
                 "choose another -o, or say --force to begin again",
             )
         self.folder.mkdir(parents=True, exist_ok=True)
@@ -63,7 +63,7 @@ class Record:
             return json.loads(self._result.read_text(encoding="utf-8"))
         except ValueError:
             raise InputError.at(Place(str(self._result)), "expected the record of a search, got a damaged file",
-                                "say --force to begin the study again") from None  # fmt: skip
+                                "say --force to begin again") from None  # fmt: skip
 
     def blocks(self) -> list[Block]:
         """The whole blocks on disk; what an interruption left of the last one is cut off."""
