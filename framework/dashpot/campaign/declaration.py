@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
@@ -21,6 +22,11 @@ class Measured:
     name: str
     data: str
     properties: Mapping[str, float | str] = field(default_factory=dict)
+
+    @property
+    def address(self) -> str:
+        """Where the data are for a worker, which may have been started in another folder."""
+        return self.data if "://" in self.data else os.path.abspath(self.data)
 
 
 @dataclass(frozen=True)
@@ -69,7 +75,7 @@ class CampaignSpec:
         for one in self.specimens:
             for verb in self.verbs:
                 for models in [names] if verb == "compare" else [(name,) for name in names]:
-                    found.append(Job(one.name, one.data, verb, models))
+                    found.append(Job(one.name, one.address, verb, models))
         return found
 
     @property

@@ -46,8 +46,8 @@ def fit_mixed(at: Array, errors: Array, design: Array, weights: Array | None = N
     larger and keeps the covariance positive. The interval of a standard deviation takes the variance of the numbers,
     between specimens and of typical errors together, as a multiple of chi-square, as it is where errors are alike.
 
-    Sources: Laird and Ware, Biometrics 38 (1982) 963; Searle, Casella and McCulloch, Variance components (1992); Higgins
-    and Thompson, Statistics in Medicine 21 (2002) 1539, for the typical error.
+    Sources: Laird and Ware, Biometrics 38 (1982) 963; Searle, Casella and McCulloch, Variance components (1992);
+    Higgins and Thompson, Statistics in Medicine 21 (2002) 1539, for the typical error.
     """
     weights = np.ones(len(at)) if weights is None else weights
     scale = np.sqrt(np.average((at - np.average(at, axis=0, weights=weights)) ** 2, axis=0, weights=weights))

@@ -73,6 +73,8 @@ class _Conduct:
         """The outcomes in the order asked, and the reasons of those that failed."""
         found = {job.name: outcome for job in asked if (outcome := self._recorded(job)) is not None}
         left = [job for job in asked if job.name not in found]
+        if not asked:
+            return {}, {}
         self._tell(len(found), len(asked))
         for number, future in finished(run_job, self.work, left, self.jobs, self.campaign.memory):
             outcome = _outcome_of(future)
@@ -85,7 +87,7 @@ class _Conduct:
 
     def with_common(self, model: str, shared: Shared) -> list[Job]:
         """Every specimen once more, with the numbers held that all have in common."""
-        return [Job(one.name, one.data, "fit", (model,), shared.values) for one in self.campaign.specimens
+        return [Job(one.name, one.address, "fit", (model,), shared.values) for one in self.campaign.specimens
                 if one.name in shared.specimens]  # fmt: skip
 
     def _recorded(self, job: Job) -> Outcome | None:
@@ -96,14 +98,17 @@ class _Conduct:
         return known
 
     def _tell(self, done: int, of: int) -> None:
-        self.progress("jobs", done / max(of, 1))
+        self.progress("jobs", done / of)
 
 
 def _outcome_of(future: Future[Outcome]) -> Outcome:
     try:
         return future.result()
     except CancelledError:
-        raise InputError.at(Place("scheduler"), "the scheduler was lost, what was done is kept",
-                            "start it again and say the same command, which goes on where it stopped") from None
+        raise InputError.at(
+            Place("scheduler"),
+            "the scheduler was lost, what was done is kept",
+            "start it again and say the same command, which goes on where it stopped",
+        ) from None
     except Exception as error:
         return {"failed": f"{type(error).__name__}: {' '.join(str(error).split())}"}

@@ -12,7 +12,6 @@ from dashpot.report.readable import number, percent, quantity, with_interval
 Json = Mapping[str, Any]
 
 MOST_NUMBERS = 8  # that are drawn; the tables have all
-NAMED = 0.95
 CHANCE = 0.01
 LINK = "address"
 
@@ -72,27 +71,34 @@ def shown_grid(content: Json) -> Grid:
     """Every specimen as a reader wants it: rig units, intervals, a link to its own report."""
     named = {one["specimen"]: one["kind"] for one in content["named"]}
     failed = {failure["specimen"]: failure["reason"] for failure in content["failures"]}
+    grouped = {each["model"] for each in content["populations"] if max(each["groups"]) > 1}
     columns = {"specimen": Column("specimen", "specimen", link=LINK), "remark": Column("remark", "remark")}
     rows = []
     for one in content["specimens"]:
-        row = {"specimen": one["specimen"], LINK: f"jobs/{one['jobs'][0]}/report.html" if one["jobs"] else None,
-               "remark": named.get(one["specimen"]) or failed.get(one["specimen"])}  # fmt: skip
-        row["address"] = row["address"] if content["campaign"]["reports"] else None
+        address = f"jobs/{one['jobs'][0]}/report.html" if one["jobs"] and content["campaign"]["reports"] else None
+        remark = named.get(one["specimen"]) or failed.get(one["specimen"])
+        row = {"specimen": one["specimen"], LINK: address, "remark": remark}
         for name, value in one["properties"].items():
             columns.setdefault(name, Column(name, name))
             row[name] = number(value, 4) if isinstance(value, float) else value
         for model, fit in one["models"].items():
-            for path, entry in fit["numbers"].items():
-                columns.setdefault(f"{model}: {path}", Column(f"{model}: {path}", f"{model}: {path}"))
-                row[f"{model}: {path}"] = with_interval(entry["value"], entry["interval"], entry["unit"])
-            columns.setdefault(f"{model}: RMSE", Column(f"{model}: RMSE", f"{model}: RMSE", "N", 3))
-            row[f"{model}: RMSE"] = fit["rmse"]["train"]
-            columns.setdefault(f"{model}: group", Column(f"{model}: group", f"{model}: group", "", 2))
-            row[f"{model}: group"] = fit["group"]
+            _show(columns, row, model, fit, model in grouped)
         rows.append(row)
     caption = "Values with 95 % intervals. A specimen opens its own report."
     used = [column for column in columns.values() if any(row.get(column.key) is not None for row in rows)]
     return Grid("Specimens", used, rows, caption, "specimens.csv")
+
+
+def _show(columns: dict[str, Column], row: dict[str, Any], model: str, fit: Json, grouped: bool) -> None:
+    for path, entry in fit["numbers"].items():
+        heading = f"{model}: {path}"
+        columns.setdefault(heading, Column(heading, heading))
+        row[heading] = with_interval(entry["value"], entry["interval"], entry["unit"])
+    columns.setdefault(f"{model}: RMSE", Column(f"{model}: RMSE", f"{model}: RMSE", "N", 3))
+    row[f"{model}: RMSE"] = fit["rmse"]["train"]
+    if grouped:
+        columns.setdefault(f"{model}: group", Column(f"{model}: group", f"{model}: group"))
+        row[f"{model}: group"] = fit["group"]
 
 
 def population_grid(content: Json) -> Grid:
@@ -173,25 +179,35 @@ def _groups(population: Json) -> str:
 
 def _numbers(content: Json, population: Json) -> Iterator[Figure]:
     for each in population["numbers"][:MOST_NUMBERS]:
-        yield figures.number_over(each, _points(content, population["model"], each["parameter"]))
+        yield number_figure(content, population["model"], each["parameter"])
 
 
 def _over(content: Json, population: Json) -> Iterator[Figure]:
     """The dependences that are certain, over properties that are numbers."""
-    means = {each["parameter"]: each for each in population["numbers"]}
-    for each in [one for one in population["dependence"] if one["certain"]][:MOST_NUMBERS]:
-        points = _points(content, population["model"], each["parameter"], each["property"])
-        if points and all(isinstance(point["at"], float) for point in points):
-            yield figures.number_over(means[each["parameter"]], points, each["property"])
+    numeric = [each for each in population["dependence"] if each["certain"] and ": " not in each["property"]]
+    for each in numeric[:MOST_NUMBERS]:
+        yield number_figure(content, population["model"], each["parameter"], each["property"])
+
+
+def number_figure(content: Json, model: str, path: str, over: str = "") -> Figure:
+    """A number of a model over the specimens, or over one of their properties. ValueError for what none of them has."""
+    told = [each for population in content["populations"] if population["model"] == model
+            for each in population["numbers"] if each["parameter"] == path]  # fmt: skip
+    points = _points(content, model, path, over)
+    if not (told and points):
+        known = [each["parameter"] for population in content["populations"] for each in population["numbers"]]
+        raise ValueError(f"expected a number of {model}{f' and a property {over}' if over else ''}, got '{path}'; "
+                         f"numbers are: {', '.join(known)}")  # fmt: skip
+    return figures.number_over(told[0], points, over)
 
 
 def _points(content: Json, model: str, path: str, over: str = "") -> list[dict[str, Any]]:
-    found = []
+    found, named = [], {one["specimen"] for one in content["named"]}
     for one in content["specimens"]:
         fit = one["models"].get(model)
         if fit and path in fit["numbers"] and (not over or over in one["properties"]):
             at = one["properties"][over] if over else one["specimen"]
-            marks = {"specimen": one["specimen"], "named": fit["unlike"] >= NAMED, "at": at}
+            marks = {"specimen": one["specimen"], "named": one["specimen"] in named, "at": at}
             found.append({**fit["numbers"][path], **marks})
     return found
 

@@ -1,7 +1,7 @@
 """A virtual population of bushings with known truth; it shares nothing with dashpot.
 
-Each bushing is a standard linear solid: the force is k x + k1 (x - y) with T y' = x - y, solved exactly for motions that
-are straight between samples. Its three numbers scatter log-normally about means that depend on temperature.
+Each bushing is a standard linear solid: the force is k x + k1 (x - y) with T y' = x - y, solved exactly for motions
+that are straight between samples. Its three numbers scatter log-normally about means that depend on temperature.
 """
 
 from __future__ import annotations
@@ -59,9 +59,9 @@ FAULTS = {
     3: Fault(factors=(0.65, 1.0, 1.0)),  # torn
     17: Fault(factors=(1.0, 1.8, 1.0)),  # too much carbon black
     22: Fault(play=0.15e-3),  # wrongly mounted: loose
-    31: Fault(gain=1.35),  # the load cell of another range
+    12: Fault(gain=1.35),  # the load cell of another range
 }
-DAMAGED, LOOSE, WRONG_GAIN = ("b03", "b17"), "b22", "b31"
+DAMAGED, LOOSE, WRONG_GAIN = ("b03", "b17"), "b22", "b12"
 
 
 @dataclass(frozen=True)

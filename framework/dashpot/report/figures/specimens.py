@@ -11,7 +11,7 @@ from dashpot.report.parts import Figure
 from dashpot.report.readable import rig_unit
 from dashpot.report.theme import axis, layout, plain
 
-SOUND, NAMED = "belongs to the population", "unlike the others"
+SOUND, NAMED = "belongs to the others", "stands out"
 TWO = 2.0  # standard deviations between specimens, about 95 % of them
 
 
@@ -33,7 +33,9 @@ def number_over(number: Mapping[str, Any], points: Sequence[Mapping[str, Any]], 
     }
     traces = [_points(columns, heading, over or "place", kind) for kind in (SOUND, NAMED)]
     band = {"shapes": _band(number, factor)} if not over else {}
-    across = axis(over) if over else axis(type="category", tickangle=-60, showgrid=False)
+    names = [plain(point["specimen"]) for point in points]
+    in_order = {"categoryorder": "array", "categoryarray": names}
+    across = axis(over) if over else axis(type="category", tickangle=-60, showgrid=False, **in_order)
     caption = "Bars are the 95 % interval of each specimen."
     if not over:
         caption += " The band holds about 95 % of the specimens: the mean and two standard deviations between them."
