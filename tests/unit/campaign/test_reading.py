@@ -57,8 +57,8 @@ def test_a_pattern_names_specimens_after_its_stars(tmp_path):
 
 
 def test_every_verb_and_model_is_a_job_but_a_comparison_takes_all_models(tmp_path):
-    text = HEAD + "specimens: specimens.csv\nmodels: [kelvin_voigt, gehmann]\nverbs: [compare, diagnose]\nmemory: 2 GB\n"
-    found = read(tmp_path, text)
+    asked = "models: [kelvin_voigt, gehmann]\nverbs: [compare, diagnose]\nmemory: 2 GB\n"
+    found = read(tmp_path, HEAD + "specimens: specimens.csv\n" + asked)
     assert [job.name for job in found.jobs if job.specimen == "a"] == [
         "a-compare", "a-diagnose-kelvin_voigt", "a-diagnose-gehmann"]  # fmt: skip
     assert found.memory == 2e9
@@ -102,8 +102,8 @@ def test_all_mistakes_come_at_once(tmp_path):
 
 
 def test_the_schema_takes_what_the_reader_takes(tmp_path):
-    text = HEAD + ("about: x\nspecimens: {pattern: 'm/*', table: t.csv}\nmodels: [a]\nverbs: fit\nseed: 1\nshared: 'a.*'\n"
-                   "dependence: [t]\nbatch: b\nmemory: 2 GB\nreports: false\n")  # fmt: skip
+    text = HEAD + ("about: x\nspecimens: {pattern: 'm/*', table: t.csv}\nmodels: [a]\nverbs: fit\nseed: 1\n"
+                   "shared: 'a.*'\ndependence: [t]\nbatch: b\nmemory: 2 GB\nreports: false\n")  # fmt: skip
     jsonschema.validate(Document.parse(text).root.plain(), campaign_schema())
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(Document.parse(text + "sed: 1\n").root.plain(), campaign_schema())
