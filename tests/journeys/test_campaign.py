@@ -68,11 +68,12 @@ def assert_alike(one: Path, other: Path) -> None:
     assert not [name for name in names if (one / name).read_bytes() != (other / name).read_bytes()]
 
 
-def kill_a_worker(process: int) -> None:
+def kill_the_workers(process: int) -> None:
     workers = [child for child in psutil.Process(process).children(recursive=True)
                if "spawn_main" in " ".join(child.cmdline())]  # fmt: skip
-    assert workers
-    workers[0].kill()
+    assert len(workers) == 2
+    for worker in workers:
+        worker.kill()
 
 
 def kill(process: int) -> None:
@@ -88,10 +89,18 @@ def test_it_was_killed_and_goes_on(folder):
     assert_alike(folder / "cut", folder / "whole")
 
 
-def test_a_worker_died(folder):
-    code, said = interfered(folder, "campaign.yaml", "poorer", "local:2", 1, kill_a_worker)
+def test_all_workers_died(folder):
+    code, said = interfered(folder, "campaign.yaml", "poorer", "local:2", 1, kill_the_workers)
     assert code == 0, said
     assert_alike(folder / "poorer", folder / "whole")
+
+
+def test_an_interrupted_campaign_says_so(folder):
+    code, said = interfered(folder, "plain.yaml", "stopped", "local:2", 1, lambda pid: os.kill(pid, signal.SIGINT))
+    assert code == 3 and "interrupted; what was done is kept" in said
+    code, said = finished(folder, "plain.yaml", "-o", "stopped", "--jobs", "1")
+    assert code == 0, said
+    assert_alike(folder / "stopped", folder / "plain")
 
 
 @contextmanager

@@ -28,9 +28,8 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
     return {
         "format": "dashpot-campaign-result/1",
         "version": dashpot.__version__,
-        "campaign": {"name": campaign.name, "about": campaign.about, "seed": campaign.seed,
-                     "verbs": list(campaign.verbs), "models": [model.name for model in campaign.models],
-                     "batch": campaign.batch, "reports": campaign.reports},
+        "campaign": {**{key: getattr(campaign, key) for key in ("name", "about", "seed", "batch")},
+                     "verbs": list(campaign.verbs), "models": [model.name for model in campaign.models]},
         "specimens": [_specimen(one, result, fits, told) for one in campaign.specimens],
         "populations": [{"model": model, **each.as_dict(),
                          "shared": _shared(model, result.shared.get(model), result.outcomes)}
@@ -55,7 +54,7 @@ def _specimen(
         "models": {model: _fit(one.name, found[one.name], told.get(model)) for model, found in fits.items()
                    if one.name in found},
         "verdicts": {job.models[0]: outcome["verdict"] for job, outcome in mine.items() if "verdict" in outcome},
-        "jobs": [job.name for job in mine],
+        "reports": [job.name for job, outcome in mine.items() if outcome["report"]],
         "remarks": list(dict.fromkeys(remark for outcome in mine.values() for remark in outcome["remarks"])),
     }  # fmt: skip
 

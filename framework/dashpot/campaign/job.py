@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from dashpot.campaign.address import at_hand, state_of
+from dashpot.campaign.address import at_hand, is_remote, state_of
 from dashpot.campaign.declaration import Job
 from dashpot.compare.comparison import Comparison, compare
 from dashpot.contract.registry import Registry, load_registry
@@ -59,11 +59,13 @@ def _result(work: Work, job: Job, registry: Registry) -> Outcome:
     with at_hand(job.data) as path:
         dataset = read_dataset(path, {word: reader() for word, reader in registry.formats.items()})
         found = _done(job, specs, dataset, work, registry)
-        if work.write is not None:
+        # a corrected dataset names the files that it corrects, and those of a copy are gone
+        lasting = not (is_remote(job.data) and isinstance(found, Diagnosis) and found.corrected_name)
+        if work.write is not None and lasting:
             work.write(found, job.name, registry)
         told = _told(found)
         remarks = [remark.replace(str(path), job.data) for remark in told["remarks"]]
-    return {"digest": dataset.digest, **told, "remarks": remarks}
+    return {"digest": dataset.digest, **told, "remarks": remarks, "report": work.write is not None and lasting}
 
 
 def _done(job: Job, specs: Sequence[NetworkSpec], dataset: Dataset, work: Work, registry: Registry) -> Found:

@@ -14,6 +14,7 @@ from dashpot.campaign.job import Outcome
 Array = NDArray[np.float64]
 
 RMSE = "rmse"
+APART = 1e-6  # of a variance, so that numbers that a fit cannot tell apart have a covariance that can be inverted
 RMSE_ERROR = 0.01  # of an error of a model, relative
 MOST_WORDS = 3  # specimens for each word of a property, at least, for a dependence on it
 DECIDED = 1e-9  # of the largest singular value of the properties, scaled alike
@@ -117,4 +118,4 @@ def _covariance(fit: Outcome, paths: Sequence[str]) -> Array:
     errors = np.array([fit["numbers"][path]["error"] for path in paths])
     places = [order.index(path) for path in paths]
     correlation = np.array(fit["correlation"] or np.eye(len(order))).reshape(len(order), len(order))
-    return correlation[np.ix_(places, places)] * np.outer(errors, errors)
+    return (correlation[np.ix_(places, places)] + APART * np.eye(len(paths))) * np.outer(errors, errors)

@@ -73,15 +73,13 @@ class _Conduct:
         """The outcomes in the order asked, and the reasons of those that failed."""
         found = {job.name: outcome for job in asked if (outcome := self._recorded(job)) is not None}
         left = [job for job in asked if job.name not in found]
-        if not asked:
-            return {}, {}
-        self._tell(len(found), len(asked))
-        for number, future in finished(run_job, self.work, left, self.jobs, self.campaign.memory):
+        work, memory = self.work, self.campaign.memory
+        for done, (number, future) in enumerate(finished(run_job, work, left, self.jobs, memory), 1):
             outcome = _outcome_of(future)
             if "failed" not in outcome:
                 self.records.stage(left[number].name).finish(outcome)
             found[left[number].name] = outcome
-            self._tell(len(found), len(asked))
+            self.progress("jobs", done / len(left))
         failures = {job: found[job.name]["failed"] for job in asked if "failed" in found[job.name]}
         return {job: found[job.name] for job in asked if job not in failures}, failures
 
@@ -96,10 +94,6 @@ class _Conduct:
         if known is None or (now["files"] is not None and known["inputs"] != now):
             return None
         return known
-
-    def _tell(self, done: int, of: int) -> None:
-        self.progress("jobs", done / of)
-
 
 def _outcome_of(future: Future[Outcome]) -> Outcome:
     try:

@@ -88,4 +88,9 @@ def _pool_of(jobs: Any, shared: Any, memory: float | None) -> tuple[Executor, An
         return jobs, shared
     told = any(MEMORY in worker["resources"] for worker in jobs.scheduler_info(n_workers=-1)["workers"].values())
     resources = {"resources": {MEMORY: memory}} if memory and told else {}
-    return jobs.get_executor(pure=False, **resources), jobs.scatter(shared, hash=False)
+    # as a task, and not as data that lie with one worker alone, it outlives that worker
+    return jobs.get_executor(pure=False, **resources), jobs.submit(_given, shared, pure=False)
+
+
+def _given(shared: Result) -> Result:
+    return shared

@@ -75,7 +75,7 @@ def shown_grid(content: Json) -> Grid:
     columns = {"specimen": Column("specimen", "specimen", link=LINK), "remark": Column("remark", "remark")}
     rows = []
     for one in content["specimens"]:
-        address = f"jobs/{one['jobs'][0]}/report.html" if one["jobs"] and content["campaign"]["reports"] else None
+        address = f"jobs/{one['reports'][0]}/report.html" if one["reports"] else None
         remark = named.get(one["specimen"]) or failed.get(one["specimen"])
         row = {"specimen": one["specimen"], LINK: address, "remark": remark}
         for name, value in one["properties"].items():

@@ -59,7 +59,7 @@ FAULTS = {
     3: Fault(factors=(0.65, 1.0, 1.0)),  # torn
     17: Fault(factors=(1.0, 1.8, 1.0)),  # too much carbon black
     22: Fault(play=0.15e-3),  # wrongly mounted: loose
-    12: Fault(gain=1.35),  # the load cell of another range
+    12: Fault(gain=1.5),  # the load cell of another range
 }
 DAMAGED, LOOSE, WRONG_GAIN = ("b03", "b17"), "b22", "b12"
 

@@ -19,7 +19,6 @@ from dashpot.campaign.declaration import CampaignSpec
 from dashpot.campaign.preview import preview_campaign, preview_content, preview_text
 from dashpot.campaign.reading import read_campaign
 from dashpot.campaign.run import run_campaign
-from dashpot.campaign.scheduler import scheduled
 from dashpot.data.dataset import read_dataset
 from dashpot.fit.api import fit_network
 from dashpot.model.reading import read_network
@@ -108,7 +107,7 @@ def test_numbers_in_common_are_held_in_a_second_fit(tmp_path):
 def test_the_progress_ends_at_the_whole(campaign):
     told = []
     run_campaign(campaign, progress=lambda stage, done: told.append((stage, done)))
-    assert told == [("jobs", k / FEW) for k in range(FEW + 1)]
+    assert told == [("jobs", k / FEW) for k in range(1, FEW + 1)]
 
 
 def test_a_preview_does_one_job_of_each_kind(campaign):
@@ -151,16 +150,6 @@ def test_an_address_that_cannot_be_reached_is_told():
     with pytest.raises(InputError, match="the data cannot be fetched"), at_hand("nowhere://x"):
         pass
     assert state_of("nowhere://x") is None
-
-
-@pytest.mark.parametrize(("word", "told"), [
-    ("eight", "expected local:N or the address of a scheduler"),
-    ("local:none", "expected a number of workers as in local:8"),
-])  # fmt: skip
-def test_a_scheduler_that_is_none_is_told(word, told):
-    pytest.importorskip("distributed", reason="the extra cluster is not installed")
-    with pytest.raises(InputError, match=told), scheduled(word):
-        pass
 
 
 def test_a_result_is_small(campaign):

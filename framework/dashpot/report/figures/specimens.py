@@ -64,7 +64,7 @@ def _points(columns: Mapping[str, Sequence[Any]], heading: str, over: str, kind:
 
 def _band(number: Mapping[str, Any], factor: float) -> list[dict[str, Any]]:
     mean, scatter = number["mean"], TWO * number["scatter"]
-    low, high = (mean * np.exp([-scatter, scatter]) if number["relative"] else mean + np.array([-scatter, scatter]))
+    low, high = mean * np.exp([-scatter, scatter]) if number["relative"] else mean + np.array([-scatter, scatter])
     whole = {"xref": "paper", "x0": 0.0, "x1": 1.0, "layer": "below"}
     return [
         {"type": "rect", **whole, "y0": factor * low, "y1": factor * high, "fillcolor": "@grid", "line": {"width": 0}},
