@@ -15,7 +15,9 @@ Array = NDArray[np.float64]
 LIMIT = 3.0  # standard errors of a mean
 
 
-def control_charts(numbers: Numbers, means: Array, batches: Sequence[str | None], sound: Array) -> list[dict[str, Any]]:
+def control_charts(
+    numbers: Numbers, means: Array, batches: Sequence[str | None], sound: NDArray[np.bool_]
+) -> list[dict[str, Any]]:
     """For each number its batches in their order: ``mean``, ``low`` and ``high`` limit in SI, ``count``, ``outside``.
 
     ``means`` (q, p) takes out what the numbers owe to properties; only the specimens that are ``sound`` (n,) count.

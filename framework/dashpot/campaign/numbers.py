@@ -55,7 +55,7 @@ def models_of(outcomes: Mapping[Job, Outcome], model: str) -> dict[str, Outcome]
 def numbers_of(fits: Mapping[str, Outcome]) -> Numbers:
     """The numbers that all specimens have, without dependence on anything."""
     every = [set(fit["numbers"]) for fit in fits.values()]
-    first = next(iter(fits.values()), {"numbers": {}})
+    first: Outcome = next(iter(fits.values()), {"numbers": {}})
     paths = tuple(path for path in first["numbers"] if all(path in known for known in every))
     log = np.array([first["numbers"][path]["log"] for path in paths], dtype=bool)
     values = np.array([[fit["numbers"][path]["value"] for path in paths] for fit in fits.values()])

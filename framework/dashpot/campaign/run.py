@@ -95,6 +95,7 @@ class _Conduct:
             return None
         return known
 
+
 def _outcome_of(future: Future[Outcome]) -> Outcome:
     try:
         return future.result()

@@ -141,10 +141,10 @@ def _screened(numbers: Numbers) -> Array:
 
 def _robust_line(design: Array, column: Array) -> Array:
     """Least absolute deviations, by weighted least squares again and again."""
-    weights = np.ones(len(column))
+    line, weights = np.zeros(design.shape[1]), np.ones(len(column))
     for _ in range(30):
         root = np.sqrt(weights)[:, None]
-        line = np.linalg.lstsq(design * root, column * root[:, 0], rcond=None)[0]
+        line[:] = np.linalg.lstsq(design * root, column * root[:, 0], rcond=None)[0]
         rest = np.abs(column - design @ line)
         weights = 1.0 / np.maximum(rest, 1e-6 * max(rest.max(), 1e-300))
     return line

@@ -34,7 +34,7 @@ def number_over(number: Mapping[str, Any], points: Sequence[Mapping[str, Any]], 
     traces = [_points(columns, heading, over or "place", kind) for kind in (SOUND, NAMED)]
     band = {"shapes": _band(number, factor)} if not over else {}
     names = [plain(point["specimen"]) for point in points]
-    in_order = {"categoryorder": "array", "categoryarray": names}
+    in_order: dict[str, Any] = {"categoryorder": "array", "categoryarray": names}
     across = axis(over) if over else axis(type="category", tickangle=-60, showgrid=False, **in_order)
     caption = "Bars are the 95 % interval of each specimen."
     if not over:
