@@ -2,7 +2,8 @@
 
 In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, ``look`` at it, then ``fit``, ``compare`` or
 ``diagnose``; all answers show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure``
-run a model. Studies are ``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
+run a model, ``campaign`` fits or diagnoses many specimens. Studies are ``read_study`` and ``run_study``;
+``energy_balance`` follows the work that is put in.
 
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig`` or ``Export`` and mark its
 hook with ``hookimpl``.
@@ -20,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from dashpot.campaign.reading import read_campaign as read_campaign
     from dashpot.contract.cause import Cause as Cause
     from dashpot.contract.cause import Suspect as Suspect
     from dashpot.contract.cause import View as View
@@ -49,6 +51,7 @@ if TYPE_CHECKING:
     from dashpot.model.picture import Parallel as Parallel
     from dashpot.model.picture import Series as Series
     from dashpot.model.picture import Symbol as Symbol
+    from dashpot.notebook.campaign import Campaign as Campaign
     from dashpot.notebook.comparison import Comparison as Comparison
     from dashpot.notebook.data import Data as Data
     from dashpot.notebook.diagnosis import Diagnosis as Diagnosis
@@ -56,6 +59,7 @@ if TYPE_CHECKING:
     from dashpot.notebook.listing import Listing as Listing
     from dashpot.notebook.look import Look as Look
     from dashpot.notebook.model import Model as Model
+    from dashpot.notebook.verbs import campaign as campaign
     from dashpot.notebook.verbs import compare as compare
     from dashpot.notebook.verbs import declare as declare
     from dashpot.notebook.verbs import diagnose as diagnose
@@ -70,16 +74,18 @@ if TYPE_CHECKING:
 _HOMES = {
     "dashpot.notebook.verbs": (
         *("load", "declare", "load_dataset", "simulate", "measure", "write_dataset"),
-        *("look", "fit", "compare", "diagnose"),
+        *("look", "fit", "compare", "diagnose", "campaign"),
     ),
     "dashpot.notebook.model": ("Model",),
     "dashpot.notebook.data": ("Data",),
     "dashpot.notebook.fit": ("Fit",),
+    "dashpot.notebook.campaign": ("Campaign",),
     "dashpot.notebook.comparison": ("Comparison",),
     "dashpot.notebook.diagnosis": ("Diagnosis",),
     "dashpot.notebook.listing": ("Listing",),
     "dashpot.notebook.look": ("Look",),
     "dashpot.kernel.energy": ("energy_balance",),
+    "dashpot.campaign.reading": ("read_campaign",),
     "dashpot.fit.study.reading": ("read_study",),
     "dashpot.fit.study.run": ("run_study",),
     "dashpot.model.element": ("Element", "Parameter", "Curve", "State", "Motion", "Response"),
@@ -94,7 +100,7 @@ _HOMES = {
     "dashpot.contract.rig": ("PrescribedPath", "PlannedRun", "Rig"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
-_LAYERS = ("fit", "compare", "diagnose")  # names that are both a layer and a verb
+_LAYERS = ("fit", "compare", "diagnose", "campaign")  # names that are both a layer and a verb
 
 __all__ = ["__version__", *_HOME_OF]
 

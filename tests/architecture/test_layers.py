@@ -17,6 +17,7 @@ LAYERS = (
     {"triage"},
     {"compare"},
     {"diagnose", "study"},
+    {"campaign"},
     {"report"},
     {"cli", "notebook"},
 )

@@ -12,6 +12,8 @@ import os
 import random
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -26,11 +28,15 @@ from textbook import RIGS, draw_textbook
 from truth import KINDS_OF_BASE, Case, draw_case
 from truth.design import further
 
+from dashpot.campaign.scheduler import scheduled
+from dashpot.kernel.workers import finished
+
 if TYPE_CHECKING:
     from dashpot.contract.registry import Registry
     from dashpot.data.dataset import Dataset
     from dashpot.diagnose.diagnosis import Diagnosis
     from dashpot.fit.result import FitResult
+    from dashpot.kernel.workers import Jobs
     from dashpot.model.network import NetworkSpec
 
 FLAGS = ("sensors", "without", "follow", "double")
@@ -153,17 +159,31 @@ def main() -> None:
                          "and --diagram; a scenario has its own design, specimens and kinds")  # fmt: skip
     first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
     print(f"seed {first}: --seed {first} repeats this run")
-    bench = Bench(options.design, options.model, **{flag: getattr(options, flag) for flag in FLAGS}, jobs=options.jobs)
-    outcomes = []
-    for number in range(options.cases):
-        outcomes.append(case_of(options, bench, first, number))
-        print(outcomes[-1].line(), flush=True)
-        keep(options, first, outcomes)
-    print_table(outcomes)
+    flags = {flag: getattr(options, flag) for flag in FLAGS}
+    bench = Bench(options.design, options.model, **flags, jobs=1 if options.scheduler else options.jobs)
+    with workers(options) as jobs:
+        found: dict[int, Outcome] = {}
+        for number, future in finished(case_of, (options, bench, first), range(options.cases), jobs):
+            found[number] = future.result()
+            print(found[number].line(), flush=True)
+            keep(options, first, [found[k] for k in sorted(found)])
+    print_table([found[k] for k in sorted(found)])
 
 
-def case_of(options: argparse.Namespace, bench: Bench, first: int, number: int) -> Outcome:
+@contextmanager
+def workers(options: argparse.Namespace) -> Iterator[Jobs]:
+    """Who does the cases: this process one after the other, or a scheduler whose workers find this folder."""
+    if options.scheduler is None:
+        yield options.jobs
+        return
+    with scheduled(options.scheduler) as client:
+        client.run(sys.path.insert, 0, str(Path(__file__).parent))
+        yield client
+
+
+def case_of(shared: tuple[argparse.Namespace, Bench, int], number: int) -> Outcome:
     """The case whose turn it is."""
+    options, bench, first = shared
     if options.scenario:
         turn, place = divmod(number, len(options.scenario))
         return run_scenario(options.scenario[place], first + number, turn, bench, options.strength)
@@ -201,6 +221,7 @@ def parser_of_options() -> argparse.ArgumentParser:
     parser.add_argument("--follow", action="store_true", help="drive the runs that the engine asks for, and ask again")
     parser.add_argument("--double", action="store_true", help="two effects are hidden, one up to ten times the other")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--scheduler", default=None, help="local:N, or the address of a Dask scheduler: cases at once")
     parser.add_argument("--output", type=Path, default=None, help="a JSON file for all outcomes")
     parser.add_argument("--diagram", type=Path, default=None, help="an SVG file for the reliability diagram")
     return parser

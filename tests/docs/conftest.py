@@ -42,13 +42,23 @@ models:
 """
 
 
+CAMPAIGN = """\
+format: dashpot-campaign/1
+name: mounts
+specimens: specimens.csv
+models: [mount.yaml]
+"""
+
+
 @pytest.fixture(scope="session")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with the dataset ``mount/``, the model ``mount.yaml`` that lacks relaxation, and ``ladder.yaml``."""
+    """A folder with the dataset ``mount/``, the model ``mount.yaml`` that lacks relaxation, a study and a campaign."""
     folder = tmp_path_factory.mktemp("bench")
     (folder / "mount.yaml").write_text(MODEL)
     (folder / "ladder.yaml").write_text(STUDY)
     (folder / "bench.yaml").write_text(BENCH)
+    (folder / "mounts.yaml").write_text(CAMPAIGN)
+    (folder / "specimens.csv").write_text("specimen,data,batch\nm01,mount,A\nm02,mount,A\nm03,mount,B\n")
     data = dp.measure(dp.declare(SPECIMEN), str(folder / "bench.yaml"), seed=3)
     dp.write_dataset(data, folder / "mount")
     return folder

@@ -46,6 +46,11 @@ def studies(_: Context, __: Parameter, typed: str) -> list[CompletionItem]:
     return beginning(sorted(path.stem for path in (spec_folder() / "studies").glob("*.yaml")), typed) + files(typed)
 
 
+def campaigns(_: Context, __: Parameter, typed: str) -> list[CompletionItem]:
+    """Files."""
+    return files(typed)
+
+
 def rigs(_: Context, __: Parameter, typed: str) -> list[CompletionItem]:
     """Test procedures, shipped benches, and files."""
     from dashpot.contract.bench import shipped_benches

@@ -28,8 +28,8 @@ Schemas = dict[str, Callable[["Registry"], dict[str, Any]]]
 def verb(kind: str | None, every: bool, output: Path | None, switches: Switches) -> None:
     """Print the JSON schema of a kind of YAML file, so that an editor completes and checks it.
 
-    KIND is network, dataset, rig or study. The schema knows the elements, rigs, optimizers and formats that are
-    installed. Editors with the yaml-language-server use it where the first line of a file says:
+    KIND is network, dataset, rig, study or campaign. The schema knows the elements, rigs, optimizers and formats that
+    are installed. Editors with the yaml-language-server use it where the first line of a file says:
 
     \b
       # yaml-language-server: $schema=schemas/network.schema.json
@@ -91,4 +91,11 @@ def study(registry: Registry) -> dict[str, Any]:
     return study_schema(registry.optimizers, tuple(registry.specimens))
 
 
-KINDS: Schemas = {"network": network, "dataset": dataset, "rig": rig, "study": study}
+def campaign(_: Registry) -> dict[str, Any]:
+    """The schema of a campaign file."""
+    from dashpot.campaign.schema import campaign_schema
+
+    return campaign_schema()
+
+
+KINDS: Schemas = {"network": network, "dataset": dataset, "rig": rig, "study": study, "campaign": campaign}

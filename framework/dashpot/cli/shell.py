@@ -26,6 +26,7 @@ VERBS = (
     "compare",
     "diagnose",
     "study",
+    "campaign",
     "schema",
     "doctor",
     "warm",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,13 +15,16 @@ from dashpot.compare.signals import signal_evidence
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
-from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.api import Progress, Setting, fit_each, prepare, silent
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, floor_of, parameters_of
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +106,7 @@ def compare(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry,
     progress: Progress | None = None,
 ) -> Comparison:
@@ -112,14 +115,11 @@ def compare(
     A network that cannot be fitted is named with its reason; the others go on.
     """
     setting = prepare(dataset, seed)
-    fits, failures = [], {}
-    for spec in specs:
-        method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
-        try:
-            fits.append(fit_prepared(spec, setting, method, seed, jobs, progress or silent))
-        except InputError as error:
-            failures[spec.name] = str(error)
-    return Comparison(setting, tuple(fits), failures, seed, explainable_error(setting, seed))
+    method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
+    found = fit_each(specs, setting, method, seed, jobs, progress or silent)
+    failures = {spec.name: str(each) for spec, each in zip(specs, found, strict=True) if isinstance(each, InputError)}
+    fits = tuple(each for each in found if isinstance(each, FitResult))
+    return Comparison(setting, fits, failures, seed, explainable_error(setting, seed))
 
 
 def comparison_of(fit: FitResult) -> Comparison:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,9 +33,13 @@ from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.workers import threads
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place
 from dashpot.triage.examine import examine
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 ATTEMPTS = 3
 SAME = 1e-3  # of an error
@@ -50,7 +54,7 @@ def diagnose(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry,
     progress: Progress | None = None,
     relevance: float = RELEVANCE,
@@ -58,12 +62,12 @@ def diagnose(
     """Triage the data, fit, search for the causes of what is left, and say how sure that is.
 
     A cause without which the training error grows by less than the share ``relevance`` is not named. Held-out runs take
-    no part before the end. Raises InputError for a network that does not compile on these data, and where no plugin
-    provides a cause.
+    no part before the end. A pool or cluster as ``jobs`` refits without runs left out in turn, when the result is read.
+    Raises InputError for a network that does not compile on these data, and where no plugin provides a cause.
     """
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
-    progress = progress or silent
+    progress, pool, jobs = progress or silent, jobs, threads(jobs)
     triage = examine(one_force_each(dataset))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
@@ -98,7 +102,7 @@ def diagnose(
         causes={cause.word: cause for cause in causes},
         relevance=relevance,
         seed=seed,
-        jobs=jobs,
+        jobs=pool,
     )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +36,9 @@ from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers, rename
 from dashpot.model.reading import parse_network
 from dashpot.triage.examine import Triage
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -72,7 +76,7 @@ class Findings:
     causes: Mapping[str, type[Cause]]
     relevance: float
     seed: int
-    jobs: int = 1
+    jobs: Jobs = 1
 
     @property
     def model(self) -> NetworkSpec:

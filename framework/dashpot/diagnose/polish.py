@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.term import Model
-from dashpot.fit.coordinates import with_point
+from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.coordinates import Coordinates, with_point
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise, refine
 from dashpot.fit.result import with_intervals
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.workers import pieces, threads
 from dashpot.model.network import NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -24,27 +30,36 @@ LEFT_OUT_STEPS = 10
 LEVEL = 0.975
 
 
-def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = STEPS) -> NetworkSpec:
+def polished(model: Model, runs: Sequence[ScoredRun], jobs: Jobs, steps: int = STEPS) -> NetworkSpec:
     """The network of a model with the numbers at which the plain error of the runs is smallest, all weighing alike."""
     objective = Objective(compile_network(model.fitted), runs, jobs)
     found = refine(objective, model.coordinates, model.coordinates.start, steps)
     return with_point(model.fitted, model.coordinates, found.point)
 
 
-def left_out_error(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int
+def left_out_error(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: Jobs
                    ) -> float | None:  # fmt: skip
     """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group."""
-    compiled, coordinates = compile_network(network), model.coordinates
-    start = coordinates.of_values(compiled.start)
     names = list(dict.fromkeys(groups[run.name] for run in runs))
-    squares = []
-    for name in names if len(names) > 1 else ():
-        left_out = [run for run in runs if groups[run.name] == name]
-        others = [run for run in runs if groups[run.name] != name]
-        found = refine(Objective(compiled, others, jobs), coordinates, start, LEFT_OUT_STEPS)
-        error = Objective(compiled, left_out, jobs).losses(coordinates.to_values(found.point))[0]
-        squares += [float(error) ** 2] * len(left_out)
-    return float(np.sqrt(np.mean(squares))) if squares else None
+    if len(names) < 2:
+        return None
+    shared = network, model.coordinates, runs, groups, threads(jobs)
+    return float(np.sqrt(np.mean([square for some in pieces(_left_out, shared, names, jobs) for square in some])))
+
+
+@single_threaded_algebra
+def _left_out(
+    shared: tuple[NetworkSpec, Coordinates, Sequence[ScoredRun], Mapping[str, str], int], name: str
+) -> list[float]:
+    """The squared error in N^2 for each run of a group that took no part in the refit."""
+    network, coordinates, runs, groups, jobs = shared
+    compiled = compile_network(network)
+    left_out = [run for run in runs if groups[run.name] == name]
+    others = [run for run in runs if groups[run.name] != name]
+    start = coordinates.of_values(compiled.start)
+    found = refine(Objective(compiled, others, jobs), coordinates, start, LEFT_OUT_STEPS)
+    error = Objective(compiled, left_out, jobs).losses(coordinates.to_values(found.point))[0]
+    return [float(error) ** 2] * len(left_out)
 
 
 def known(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int,

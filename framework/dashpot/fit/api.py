@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,8 +37,12 @@ from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
+from dashpot.kernel.workers import pieces, threads
 from dashpot.model.network import NetworkSpec, Slot
 from dashpot.text.problem import InputError, Place, Problem
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 Progress = Callable[..., None]
@@ -108,7 +112,7 @@ def fit_network(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry,
     progress: Progress | None = None,
 ) -> FitResult:
@@ -118,7 +122,30 @@ def fit_network(
     Raises InputError for a network that does not compile.
     """
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
-    return fit_prepared(spec, prepare(dataset, seed), method, seed, jobs, progress or silent)
+    [found] = fit_each([spec], prepare(dataset, seed), method, seed, jobs, progress or silent)
+    return _or_raise(found)
+
+
+def fit_each(
+    specs: Sequence[NetworkSpec], setting: Setting, method: Optimizer | None, seed: int, jobs: Jobs, progress: Progress
+) -> list[FitResult | InputError]:
+    """What each network comes to on a dataset made ready, or why it cannot be fitted."""
+    return pieces(_fitted, (setting, method, seed, threads(jobs), progress), specs, jobs)
+
+
+def _fitted(
+    shared: tuple[Setting, Optimizer | None, int, int, Progress], spec: NetworkSpec
+) -> FitResult | InputError:
+    try:
+        return fit_prepared(spec, *shared)
+    except InputError as error:
+        return error
+
+
+def _or_raise(found: FitResult | InputError) -> FitResult:
+    if isinstance(found, InputError):
+        raise found
+    return found
 
 
 @single_threaded_algebra
@@ -159,10 +186,11 @@ def fit_prepared(
         spread=best.spread,
         history=best.history,
         seen=seen_range(spec, setting.train),
+        correlation=known.correlation,
     )
 
 
-def measure_errors(spec: NetworkSpec, setting: Setting, jobs: int = 1) -> Errors:
+def measure_errors(spec: NetworkSpec, setting: Setting, jobs: Jobs = 1) -> Errors:
     """The errors of a network with given numbers on all runs."""
     network = compile_network(spec)
     runs = list(setting.scored.values())

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import refine
+from dashpot.kernel.workers import pieces
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -25,25 +31,27 @@ def bootstrap_intervals(
     groups: Sequence[tuple[str, str]],
     draws: int,
     seed: int,
-    watch: Callable[[int], None] = lambda done: None,
+    jobs: Jobs = 1,
 ) -> tuple[tuple[float, float], ...]:
     """95 % percentile intervals in SI from ``draws`` refits, each from the fitted point (p,).
 
     ``groups`` (runs,) holds for each run of the objective its kind and its group of repeats: whole groups are drawn,
     each kind for itself, so that a kind of test that was made once takes part in every draw. The intervals hold what
-    differs from run to run, such as model errors, beside the noise.
+    differs from run to run, such as model errors, beside the noise. Each refit is a piece of work for ``jobs``.
 
     Source: Davison and Hinkley, Bootstrap methods and their application (1997), section 2.4 and 3.8.
     """
     rng = np.random.default_rng(seed)
-    found = []
-    for number in range(draws):
-        weights = objective.shares * _drawn(groups, rng)
-        refined = refine(objective.weighing(weights), coordinates, point, STEPS, TOLERANCE)
-        found.append(refined.point)
-        watch(number + 1)
+    drawn = [objective.shares * _drawn(groups, rng) for _ in range(draws)]
+    found = pieces(_refitted, (objective, coordinates, point), drawn, jobs)
     low, high = np.percentile(np.array(found), QUANTILES, axis=0)
     return tuple(zip(coordinates.numbers(low), coordinates.numbers(high), strict=True))
+
+
+@single_threaded_algebra
+def _refitted(shared: tuple[Objective, Coordinates, Array], weights: Array) -> Array:
+    objective, coordinates, point = shared
+    return refine(objective.weighing(weights.tolist()), coordinates, point, STEPS, TOLERANCE).point
 
 
 def _drawn(groups: Sequence[tuple[str, str]], rng: np.random.Generator) -> Array:

@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from functools import cached_property
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.columns import Rows
-from dashpot.kernel.network import CompiledNetwork
+from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import Parts, take_apart
 from dashpot.kernel.system import CompiledSystem, SystemRows
-from dashpot.kernel.workers import spread
+from dashpot.kernel.workers import spread, threads
+from dashpot.model.network import NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -46,11 +50,11 @@ class Objective:
         self,
         network: CompiledNetwork | CompiledSystem,
         runs: Sequence[ScoredRun],
-        jobs: int = 1,
+        jobs: Jobs = 1,
         whitening: Whitening | None = None,
         weights: Sequence[float] | None = None,
     ) -> None:
-        self.network, self.runs, self.jobs, self.whitening = network, tuple(runs), jobs, whitening
+        self.network, self.runs, self.jobs, self.whitening = network, tuple(runs), threads(jobs), whitening
         shares = np.ones(len(self.runs)) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
@@ -60,6 +64,10 @@ class Objective:
         if whitening is not None:
             self.pieces = _pieces([whitening.kept(run.name, run.samples) for run in self.runs])
         self.total = self.pieces[-1].stop if self.pieces else 0
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # where it arrives it is compiled for the processor there, and works on one thread
+        return _elsewhere, (self.network.spec, self.runs, self.whitening, self.shares)
 
     def weighing(self, weights: Sequence[float]) -> Objective:
         """The same runs with other weights (runs,); what was prepared is shared."""
@@ -201,6 +209,10 @@ class Objective:
         found = self.network.forces(rows, values)
         for number in team:
             yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
+
+
+def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitening | None, shares: Array) -> Objective:
+    return Objective(compile_network(spec), runs, 1, whitening, shares.tolist())
 
 
 def _pieces(sizes: Sequence[int]) -> list[slice]:

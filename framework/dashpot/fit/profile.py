@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import linearise, refine, unmoved
 from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.kernel.workers import pieces
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -55,6 +62,24 @@ def profile_likelihood(
         (coordinates.number(number, ends[0]), coordinates.number(number, ends[1])),
         (sides[0].open, sides[1].open),
     )
+
+
+def profiles(
+    objective: Objective,
+    coordinates: Coordinates,
+    point: Array,
+    numbers: Sequence[int],
+    noise: float | None = None,
+    jobs: Jobs = 1,
+) -> list[Profile]:
+    """The profile likelihoods of several coordinates, each a piece of work."""
+    return pieces(_profile, (objective, coordinates, point, noise), numbers, jobs)
+
+
+@single_threaded_algebra
+def _profile(shared: tuple[Objective, Coordinates, Array, float | None], number: int) -> Profile:
+    objective, coordinates, point, noise = shared
+    return profile_likelihood(objective, coordinates, point, number, noise)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 import dashpot
 from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
@@ -32,7 +35,8 @@ class FitResult:
 
     ``declared`` is the network as its file has it; ``fitted`` has numbers, intervals and tables. ``spread`` holds the
     losses that different starts ended at, best first: near one another they are evidence of convergence. ``seen`` is
-    the range of the motions of the training runs.
+    the range of the motions of the training runs. ``correlation`` (p, p) is that of the errors of the searched numbers,
+    in the order of their slots and in logarithms where they are searched so.
     """
 
     declared: NetworkSpec
@@ -50,6 +54,7 @@ class FitResult:
     spread: tuple[float, ...] = ()
     history: tuple[tuple[int, float], ...] = field(default=(), repr=False)
     seen: Range = field(default_factory=dict, repr=False)
+    correlation: NDArray[np.float64] | None = field(default=None, repr=False)
 
     @property
     def identified_text(self) -> str:

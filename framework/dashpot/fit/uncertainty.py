@@ -43,6 +43,15 @@ class Uncertainty:
     idle: tuple[str, ...]
     moved: Array
 
+    @property
+    def correlation(self) -> Array:
+        """The correlation (p, p) of the errors of the numbers; of those that the data do not feel 0."""
+        scale = np.sqrt(np.diag(self.covariance))
+        known = np.where(np.isfinite(scale) & (scale > 0.0), scale, np.inf)
+        found = np.where(np.isfinite(self.covariance), self.covariance, 0.0) / np.outer(known, known)
+        np.fill_diagonal(found, 1.0)
+        return found
+
 
 def assess_uncertainty(
     objective: Objective,

@@ -1,17 +1,96 @@
-"""Work on several runs at once, in threads: numpy and compiled loops let go of the interpreter."""
+"""Where work is done: in threads of this process, or piece by piece on somebody's pool or cluster.
+
+Whatever takes ``jobs`` takes a number of threads, a ``concurrent.futures.Executor`` or a client of Dask. Threads share
+the runs of one piece of work, as numpy and compiled loops let go of the interpreter. A pool or a cluster does whole
+pieces, each of them on one thread, so that no processor is asked for twice.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from dashpot.text.problem import InputError, Place
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    Jobs = int | Executor | Client
 
 Result = TypeVar("Result")
 
+MEMORY = "memory"  # the resource by which workers say how many bytes they have
+
+
+def threads(jobs: Jobs) -> int:
+    """The threads for a piece of work in this process. InputError for what can do no work."""
+    if isinstance(jobs, int) and not isinstance(jobs, bool) and jobs > 0:
+        return jobs
+    if isinstance(jobs, Executor) or hasattr(jobs, "get_executor"):
+        return 1
+    raise InputError.at(Place("jobs"), f"expected a number of threads, an Executor or a Dask client, got {jobs!r}")
+
 
 def spread(work: Callable[..., Result], *items: Iterable[Any], jobs: int) -> list[Result]:
-    """What ``work`` makes of each set of items, in their order, no more than ``jobs`` at once."""
+    """What ``work`` makes of each set of items, in their order, no more than ``jobs`` threads at once."""
     if jobs == 1:
         return list(map(work, *items))
     with ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(work, *items))
+
+
+def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: Jobs) -> list[Result]:
+    """``work(shared, one)`` for every one, in their order, one after the other here or side by side elsewhere.
+
+    On processes and clusters ``work`` is a function of a module, and what it takes and gives can be pickled. The first
+    one that fails raises what it failed with.
+    """
+    found = {number: future.result() for number, future in finished(work, shared, each, jobs)}
+    return [found[number] for number in range(len(each))]
+
+
+def finished(
+    work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: Jobs, memory: float | None = None
+) -> Iterator[tuple[int, Future[Result]]]:
+    """The same as it is finished: the number of a piece, and a future with its result or its error.
+
+    ``memory`` is what a piece needs, in bytes, told to a scheduler whose workers say what they have. What is not begun
+    when the caller stops is not done.
+    """
+    if isinstance(jobs, int):
+        threads(jobs)
+        yield from ((number, _done_here(work, shared, one)) for number, one in enumerate(each))
+        return
+    pool, shared = _pool_of(jobs, shared, memory)
+    futures = {pool.submit(work, shared, one): number for number, one in enumerate(each)}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future
+    finally:
+        for future in futures:
+            future.cancel()
+
+
+def _done_here(work: Callable[..., Result], *arguments: Any) -> Future[Result]:
+    future: Future[Result] = Future()
+    try:
+        future.set_result(work(*arguments))
+    except Exception as error:
+        future.set_exception(error)
+    return future
+
+
+def _pool_of(jobs: Any, shared: Any, memory: float | None) -> tuple[Executor, Any]:
+    """Where pieces are handed in, and what they share, which is sent to a cluster once."""
+    threads(jobs)
+    if isinstance(jobs, Executor):
+        return jobs, shared
+    told = any(MEMORY in worker["resources"] for worker in jobs.scheduler_info(n_workers=-1)["workers"].values())
+    resources = {"resources": {MEMORY: memory}} if memory and told else {}
+    # as a task, and not as data that lie with one worker alone, it outlives that worker
+    return jobs.get_executor(pure=False, **resources), jobs.submit(_given, shared, pure=False)
+
+
+def _given(shared: Result) -> Result:
+    return shared

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from dashpot.campaign.reading import read_campaign
+from dashpot.campaign.run import run_campaign
 from dashpot.compare.comparison import compare as compare_networks
 from dashpot.compare.look import look as look_at
 from dashpot.contract.bench import find_bench
@@ -19,6 +21,7 @@ from dashpot.fit.virtual_test import virtual_test
 from dashpot.kernel.api import forces_by_name, solve_runs
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network, read_network
+from dashpot.notebook.campaign import Campaign
 from dashpot.notebook.comparison import Comparison
 from dashpot.notebook.data import Data
 from dashpot.notebook.diagnosis import Diagnosis
@@ -30,6 +33,8 @@ from dashpot.triage.examine import examined
 
 if TYPE_CHECKING:
     import numpy as np
+
+    from dashpot.kernel.workers import Jobs
 
 AnyModel = NetworkSpec | str | Path
 AnyData = Dataset | str | Path
@@ -144,12 +149,13 @@ def fit(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry | None = None,
 ) -> Fit:
     """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
 
-    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them.
+    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them. ``jobs``
+    are threads, or a pool or cluster that does it: an Executor of ``concurrent.futures``, or a client of Dask.
 
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
     starts. InputError for a model that does not compile.
@@ -173,7 +179,7 @@ def compare(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     registry: Registry | None = None,
 ) -> Comparison:
     """Fit every model on the same training runs and judge it on all runs, next to the noise floor.
@@ -198,7 +204,7 @@ def diagnose(
     optimizer: str | None = None,
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     relevance: float = 1.5e-3,
     registry: Registry | None = None,
 ) -> Diagnosis:
@@ -216,6 +222,27 @@ def diagnose(
     made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options, seed=seed,
                             jobs=jobs, registry=found, relevance=relevance)  # fmt: skip
     return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
+
+
+def campaign(
+    file: str | Path, *, jobs: Jobs = 1, checkpoint: str | Path | None = None, registry: Registry | None = None
+) -> Campaign:
+    """Do what a campaign file says with every specimen, and tell what they are as a population.
+
+    ``jobs`` are threads for one job after the other, or who does jobs side by side: a client of Dask, or an Executor of
+    ``concurrent.futures``. With a folder ``checkpoint`` the same call goes on after an interruption, to the same
+    numbers. InputError with every mistake of the file.
+
+    Examples:
+        >>> from concurrent.futures import ThreadPoolExecutor
+        >>> with ThreadPoolExecutor(2) as pool:
+        ...     mounts = dp.campaign("mounts.yaml", jobs=pool)
+        >>> len(mounts.outcomes), len(mounts.failures)
+        (3, 0)
+    """
+    planned = read_campaign(Path(file), registry or load_registry())
+    found = run_campaign(planned, jobs=jobs, checkpoint=Path(checkpoint) if checkpoint else None)
+    return promoted(Campaign, found)
 
 
 def _model(model: AnyModel, registry: Registry | None) -> NetworkSpec:

@@ -15,13 +15,15 @@ NoticeKind = Literal["info", "warning", "good", "bad"]
 class Column:
     """One column of a table.
 
-    `digits` are significant digits; None shows the cell as text. Numbers in the rows are already in `unit`.
+    `digits` are significant digits; None shows the cell as text. Numbers in the rows are already in `unit`. In a page
+    the cell leads to the relative address that the row has under the key `link`.
     """
 
     key: str
     title: str
     unit: str = ""
     digits: int | None = None
+    link: str = ""
 
     @property
     def heading(self) -> str:

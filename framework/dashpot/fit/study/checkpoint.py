@@ -1,4 +1,4 @@
-"""What a study has done so far, on disk: every block of a search as it was answered, every stage as it ended.
+"""What a study or a campaign has done so far, on disk: every block of a search, every result as it ended.
 
 Each record carries the digest of its bytes. What an interruption or a faulty disk has spoilt is done again.
 """
@@ -31,14 +31,14 @@ class Checkpoint:
         self.folder = folder
 
     def open(self, fingerprint: str) -> None:
-        """Begin, or go on where the same study stopped. InputError when the records are of another study."""
+        """Begin, or go on where the same work stopped. InputError when the records are of another one."""
         if self.folder is None:
             return
         mark = self.folder / MARK
         if mark.exists() and mark.read_text(encoding="utf-8") != fingerprint:
             raise InputError.at(
                 Place(str(self.folder)),
-                "its records are of another study: the file, the data, the seed or the version has changed",
+                "its records are of another study or campaign: its file, the data, the seed or the version has changed",
                 "choose another -o, or say --force to begin again",
             )
         self.folder.mkdir(parents=True, exist_ok=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
@@ -16,6 +17,9 @@ from dashpot.fit.study.run import take_numbers
 from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.kernel.network import compile_network
 
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
+
 
 @dataclass(frozen=True)
 class Preview:
@@ -28,7 +32,7 @@ class Preview:
 
 
 @single_threaded_algebra
-def preview_study(study: StudySpec, dataset: Dataset, jobs: int = 1) -> list[Preview]:
+def preview_study(study: StudySpec, dataset: Dataset, jobs: Jobs = 1) -> list[Preview]:
     """One preview for each model. Raises InputError as `run_study` does."""
     whole = study_setting(study, dataset)
     previews = []

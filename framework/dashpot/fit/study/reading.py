@@ -67,11 +67,11 @@ def parse_study(document: Document, folder: Path, registry: Registry) -> StudySp
         data=reader.data(),
         models=reader.models(),
         seed=form.integer("seed", 0),
-        hold_out=_patterns(form, "hold_out", None),
+        hold_out=read_patterns(form, "hold_out", None),
         weights=form.take("weights", _read_weights, {}),
         amplitude=form.quantity("amplitude", "m", None),
         bootstrap=form.integer("bootstrap", 0),
-        profiles=_patterns(form, "profiles", ()),
+        profiles=read_patterns(form, "profiles", ()),
         text=document.text,
     )
     form.close()
@@ -118,7 +118,7 @@ class _Reader:
         word = form.text("network")
         start_from = form.choice("start_from", before, None)
         stages = self._read_stages(form, self._stages)
-        runs = _patterns(form, "runs", ("*",))
+        runs = read_patterns(form, "runs", ("*",))
         parts = form.take("parts", lambda below: _read_parts(below, before), {})
         form.close()
         network = self._network(word, form.place_of("network")) if word else None
@@ -135,12 +135,7 @@ class _Reader:
         return plan
 
     def _network(self, word: str, place: Place) -> NetworkSpec | None:
-        beside = self._folder / word
-        try:
-            return read_network(beside if Path(word).suffix in SUFFIXES else word, self._registry.elements)
-        except InputError as error:
-            self._problems += [_placed(problem, word, place) for problem in error.problems]
-            return None
+        return network_beside(word, place, self._folder, self._registry, self._problems)
 
     def _read_stages(self, form: Form, default: tuple[Stage, ...]) -> tuple[Stage, ...]:
         if "stages" not in form:
@@ -157,8 +152,8 @@ class _Reader:
         runs: Any = form.choice("runs", STAGE_RUNS, "all")
         stage = SearchStage(
             name=name or "",
-            free=_patterns(form, "free", ("*",)),
-            fixed=_patterns(form, "fixed", ()),
+            free=read_patterns(form, "free", ("*",)),
+            fixed=read_patterns(form, "fixed", ()),
             runs=runs,
             optimizer=optimizer,
             options=self._options(form, optimizer),
@@ -183,6 +178,17 @@ class _Reader:
         return options
 
 
+def network_beside(
+    word: str, place: Place, folder: Path, registry: Registry, problems: list[Problem]
+) -> NetworkSpec | None:
+    """The shipped network of a name, or the one in a file of a folder; what is wrong with it is noted."""
+    try:
+        return read_network(folder / word if Path(word).suffix in SUFFIXES else word, registry.elements)
+    except InputError as error:
+        problems += [_placed(problem, word, place) for problem in error.problems]
+        return None
+
+
 def _placed(problem: Problem, word: str, place: Place) -> Problem:
     # what is wrong with a name is wrong in the study
     return problem if problem.place.line else replace(problem, place=place, message=f"'{word}': {problem.message}")
@@ -203,7 +209,9 @@ def _at_least_one(form: Form, key: str, default: int) -> int:
     return number or default
 
 
-def _patterns(form: Form, key: str, default: Any) -> Any:
+def read_patterns(form: Form, key: str, default: Any) -> Any:
+    """One pattern or a list of them, as a tuple."""
+
     def read(node: Node) -> tuple[str, ...]:
         return tuple(map(read_text, [node] if isinstance(node, Scalar) else read_items(node)))
 

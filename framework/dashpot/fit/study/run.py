@@ -7,6 +7,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import dashpot
 from dashpot.contract.registry import Registry
@@ -20,7 +21,7 @@ from dashpot.fit.identifiability import Identifiability, identifiability
 from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
-from dashpot.fit.profile import Profile, profile_likelihood
+from dashpot.fit.profile import Profile, profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
@@ -36,7 +37,11 @@ from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.workers import threads
 from dashpot.model.network import NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 SLOW = ("quasi_static", "hold")
 
@@ -74,7 +79,7 @@ def run_study(
     dataset: Dataset,
     *,
     registry: Registry,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     checkpoint: Path | None = None,
     progress: Progress | None = None,
 ) -> StudyResult:
@@ -112,7 +117,7 @@ class _Conduct:
     study: StudySpec
     setting: Setting
     registry: Registry
-    jobs: int
+    jobs: Jobs
     records: Checkpoint
     progress: Progress
     spent: int = 0
@@ -151,7 +156,7 @@ class _Conduct:
         runs = {"slow": slow, "dynamic": dynamic, "all": train}[stage.runs] or train
         label = f"{plan.name}-{number + 1}-{stage.name}"
         seed = zlib.crc32(label.encode()) ^ self.study.seed
-        task = Task(runs, run_weights(self.study, runs), seed, self.jobs, self.registry.optimizers)
+        task = Task(runs, run_weights(self.study, runs), seed, threads(self.jobs), self.registry.optimizers)
 
         def watch(evaluations: int, loss: float) -> None:
             done = (self.spent + min(evaluations, stage.budget)) / max(self.study.budget, 1)
@@ -211,19 +216,15 @@ class _Conduct:
         groups = [group_of[run.name] for run in objective.runs]
         self._tell(plan, "bootstrap")
         found = bootstrap_intervals(
-            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed
+            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed, self.jobs
         )
         return dict(zip(coordinates.paths, found, strict=True))
 
     def _profiles(self, plan: ModelPlan, objective: Objective, coordinates: Coordinates) -> tuple[Profile, ...]:
         wanted = [number for number, path in enumerate(coordinates.paths) if chosen(path, self.study.profiles)]
-        found = []
-        for number in wanted:
-            self._tell(plan, f"profile of {coordinates.paths[number]}")
-            found.append(
-                profile_likelihood(objective, coordinates, coordinates.start, number, self.setting.floor.value)
-            )
-        return tuple(found)
+        if wanted:
+            self._tell(plan, f"profiles of {', '.join(coordinates.paths[number] for number in wanted)}")
+        return tuple(profiles(objective, coordinates, coordinates.start, wanted, self.setting.floor.value, self.jobs))
 
     def _tell(self, plan: ModelPlan, what: str) -> None:
         self.progress(f"{plan.name}: {what}", self.spent / max(self.study.budget, 1), None, self.setting.floor.value)

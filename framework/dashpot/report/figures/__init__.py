@@ -5,8 +5,10 @@ Simulations come under a *label*: "before", "after", or the name of a model; a l
 
 from __future__ import annotations
 
+from dashpot.report.figures.causes import cause_map
 from dashpot.report.figures.conditions import over_conditions
 from dashpot.report.figures.contact import contact_response
+from dashpot.report.figures.control import control_chart
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
@@ -17,18 +19,22 @@ from dashpot.report.figures.residuals import residual_traces
 from dashpot.report.figures.rmse import rmse_bars
 from dashpot.report.figures.shapes import shape_figure
 from dashpot.report.figures.slow import slow_curves
+from dashpot.report.figures.specimens import number_over
 from dashpot.report.figures.steady import steady_stiffness, stiffness_figures
 from dashpot.report.figures.stiffness import dynamic_stiffness
 from dashpot.report.figures.velocity import velocity_curves
 
 __all__ = [
+    "cause_map",
     "contact_response",
+    "control_chart",
     "convergence_history",
     "dynamic_stiffness",
     "gain_intervals",
     "harmonic_bars",
     "loops",
     "misfit_map",
+    "number_over",
     "over_conditions",
     "residual_map",
     "residual_traces",

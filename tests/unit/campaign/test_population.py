@@ -1,0 +1,100 @@
+"""A virtual population of bushings with known truth, measured, fitted and judged as a user would."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from seeds import seed_of
+from unit.campaign.bushings import (
+    DAMAGED,
+    LOOSE,
+    MEAN,
+    PATHS,
+    SCATTER,
+    TREND,
+    WRONG_GAIN,
+    draw_population,
+    write_population,
+)
+
+from dashpot import load_registry
+from dashpot.campaign.content import campaign_content
+from dashpot.campaign.reading import read_campaign
+from dashpot.campaign.run import run_campaign
+
+
+def content_of(folder: Path, seed: int, count: int, **options: Any) -> dict[str, Any]:
+    """The result of a campaign over the bushings of a seed."""
+    file = write_population(folder, draw_population(seed, count, **options), seed)
+    return campaign_content(run_campaign(read_campaign(file, load_registry())))
+
+
+def named_of(content: dict[str, Any]) -> dict[str, str]:
+    return {one["specimen"]: one["kind"] for one in content["named"]}
+
+
+def held(content: dict[str, Any]) -> np.ndarray:
+    """Whether the intervals of mean trend (3,) and scatter (3,) hold the truth."""
+    [population] = content["populations"]
+    numbers = {each["parameter"]: each for each in population["numbers"]}
+    effects = {each["parameter"]: each for each in population["dependence"]}
+    trend = [effects[path]["interval"][0] <= np.expm1(slope) <= effects[path]["interval"][1]
+             for path, slope in zip(PATHS, TREND, strict=True)]  # fmt: skip
+    scatter = [numbers[path]["scatter_interval"][0] <= size <= numbers[path]["scatter_interval"][1]
+               for path, size in zip(PATHS, SCATTER, strict=True)]  # fmt: skip
+    return np.array([trend, scatter])
+
+
+@pytest.fixture(scope="module")
+def content(tmp_path_factory) -> dict[str, Any]:
+    return content_of(tmp_path_factory.mktemp("bushings"), 3, 24)
+
+
+def test_those_with_a_fault_are_named_and_no_others(content):
+    named = named_of(content)
+    assert set(named) == {*DAMAGED, LOOSE, WRONG_GAIN}
+    assert {named[name] for name in DAMAGED} == {"damaged, or of another make"}
+    assert named[LOOSE] == "damaged or mounted otherwise"
+    assert named[WRONG_GAIN] == "wrong gain of the force or the travel"
+
+
+def test_the_damage_is_in_the_evidence(content):
+    evidence = {one["specimen"]: one["evidence"][0] for one in content["named"]}
+    assert evidence["b03"].startswith("rubber.stiffness is ") and evidence["b17"].startswith("slow.stiffness is ")
+
+
+def test_trend_and_scatter_are_those_of_the_truth(content):
+    assert held(content).sum() >= 5
+    [population] = content["populations"]
+    assert all(each["certain"] for each in population["dependence"] if each["parameter"] != PATHS[2])
+
+
+def test_means_batches_and_groups(content):
+    [population] = content["populations"]
+    for each, mean in zip(population["numbers"], np.exp(MEAN), strict=True):
+        assert each["mean"] == pytest.approx(mean, rel=0.1)
+    assert [len(chart["batches"]) for chart in population["charts"]] == [5, 5, 5]
+    assert max(population["groups"]) == 1
+
+
+@pytest.mark.slow
+def test_over_seeds_faults_are_found_and_intervals_hold(tmp_path):
+    base = seed_of("populations of bushings")
+    found = [content_of(tmp_path / str(k), base + k, 40) for k in range(10)]
+    for content in found:
+        named = named_of(content)
+        assert {*DAMAGED, LOOSE, WRONG_GAIN} <= set(named)
+        assert named[WRONG_GAIN] == "wrong gain of the force or the travel"
+    assert sum(len(named_of(content)) - 4 for content in found) <= 1
+    # 30 answers each at 95 %: four standard deviations below are 79 %
+    assert (np.mean([held(content) for content in found], axis=(0, 2)) >= 0.79).all()
+
+
+@pytest.mark.slow
+def test_none_of_a_hundred_sound_bushings_is_named(tmp_path):
+    content = content_of(tmp_path, seed_of("sound bushings"), 100, faults={})
+    assert named_of(content) == {}
+    assert held(content).sum() >= 5

@@ -1,0 +1,99 @@
+"""Pieces of work give the same in this process, in a pool and on a cluster."""
+
+from __future__ import annotations
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
+
+import numpy as np
+import pytest
+
+from dashpot import load_registry
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.fit.api import prepare
+from dashpot.fit.bootstrap import bootstrap_intervals
+from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.objective import Objective
+from dashpot.fit.profile import profiles
+from dashpot.fit.ranges import natural_sizes, with_ranges
+from dashpot.kernel.network import compile_network
+from dashpot.kernel.workers import finished, pieces, threads
+from dashpot.model.reading import parse_network
+from dashpot.text.problem import InputError
+
+VOIGT = """\
+format: dashpot-network/1
+name: voigt
+branches:
+  rubber: {element: spring, stiffness: {start: 100 N/mm}}
+  oil: {element: damper, damping: {start: 50 N*s/m}}
+"""
+
+
+@pytest.fixture(scope="module", params=["threads", "processes", "dask"])
+def pool(request):
+    """Two workers of each kind."""
+    if request.param == "threads":
+        made = ThreadPoolExecutor(2)
+    elif request.param == "processes":
+        made = ProcessPoolExecutor(2, mp_context=get_context("spawn"))
+    else:
+        distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
+        made = distributed.Client(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None)
+    with made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def fitted():
+    """An objective near its minimum on a noisy measurement of a spring and a damper."""
+    time, rng = np.arange(1500) / 1000.0, np.random.default_rng(1)
+    runs = []
+    for number, hertz in enumerate((2.0, 5.0, 9.0)):
+        x = 1e-3 * np.sin(2.0 * np.pi * hertz * time)
+        force = 2e5 * x + 400.0 * np.gradient(x, time) + rng.normal(0.0, 2.0, x.size)
+        runs.append(Run(f"r{number}", "dynamic", time, {"displacement": x, "force": force}, group=f"r{number}"))
+    setting = prepare(Dataset("rig", tuple(runs)))
+    scored = list(setting.scored.values())
+    spec = with_ranges(parse_network(VOIGT, load_registry().elements), natural_sizes(scored))
+    coordinates = search_coordinates(spec)
+    truth = {"rubber.stiffness": 2e5, "oil.damping": 400.0}
+    point = np.array([np.log(truth[path]) if log else truth[path]
+                      for path, log in zip(coordinates.paths, coordinates.log, strict=True)])  # fmt: skip
+    return Objective(compile_network(spec), scored, 2), coordinates, point
+
+
+def halved(shared: float, one: float) -> float:
+    if one < 0.0:
+        raise ValueError(f"{one} is below 0")
+    return one / shared
+
+
+def test_pieces_come_in_their_order(pool):
+    assert pieces(halved, 2.0, [6.0, 4.0, 8.0], pool) == pieces(halved, 2.0, [6.0, 4.0, 8.0], 2) == [3.0, 2.0, 4.0]
+
+
+def test_what_fails_raises_its_error(pool):
+    with pytest.raises(ValueError, match="below 0"):
+        pieces(halved, 2.0, [1.0, -1.0], pool)
+    outcomes = {number: future.exception() for number, future in finished(halved, 2.0, [1.0, -1.0], pool)}
+    assert outcomes[0] is None and isinstance(outcomes[1], ValueError)
+
+
+def test_a_pool_gives_each_piece_one_thread(pool):
+    assert threads(pool) == 1 and threads(3) == 3
+
+
+@pytest.mark.parametrize("wrong", [0, -1, True, "four", None])
+def test_what_cannot_work_is_refused(wrong):
+    with pytest.raises(InputError, match="expected a number of threads, an Executor or a Dask client"):
+        threads(wrong)
+
+
+def test_bootstrap_and_profiles_are_the_same_bits_everywhere(pool, fitted):
+    groups = [("dynamic", str(number)) for number in range(3)]
+    here = bootstrap_intervals(*fitted, groups, 4, 7)
+    assert bootstrap_intervals(*fitted, groups, 4, 7, pool) == here
+    assert here[0] == pytest.approx((2e5, 2e5), rel=1e-3) and here[0][0] < here[0][1]
+    assert profiles(*fitted, [0, 1], jobs=pool) == profiles(*fitted, [0, 1])
