@@ -141,14 +141,15 @@ def write_campaign(result: CampaignResult, folder: OutputFolder, parquet: bool, 
     with session.watch("looking at the population"):
         content = campaign_content(result)
     specimens, population = specimens_grid(content), population_grid(content)
-    folder.write("campaign.json", json_text(content))
-    for grid in (specimens, population):
-        folder.write(grid.csv_name, to_csv(grid.rows, grid.columns))
-    if parquet:
-        from dashpot.report.parquet import to_parquet
+    with folder.together() as results:
+        results.write("campaign.json", json_text(content))
+        for grid in (specimens, population):
+            results.write(grid.csv_name, to_csv(grid.rows, grid.columns))
+        if parquet:
+            from dashpot.report.parquet import to_parquet
 
-        folder.write_bytes("specimens.parquet", to_parquet(specimens))
-    report = folder.write("campaign.html", render(campaign_page(content)))
+            results.write_bytes("specimens.parquet", to_parquet(specimens))
+        report = results.write("campaign.html", render(campaign_page(content)))
     tables = [plain_table(grid) for grid in (population, named_grid(content)) if grid.rows]
     session.talk.result("\n".join([*tables, campaign_headline(content)]), content)
     for failure in content["failures"]:
