@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 
 from dashpot.expr.node import Node, symbols_of
@@ -33,15 +34,17 @@ def write_prepare(code: Code, online: Online) -> None:
 def _write_constants(code: Code, online: Online) -> None:
     given = {"dt": "dt", "gravity": code.number(online.gravity)}
     known = given | {path: f"p[{number}]" for number, path in enumerate(online.numbers)}
-    bodies: dict[str, str] = {}
-    calls, rest = [], dict[int, Node]()
-    for rows, paths in _of_branches(online):
-        names = {path: f"n{number}" for number, path in enumerate(paths)}
-        name = _shared(code, rows, given, names, bodies) if paths else ""
-        if name:
-            calls.append(f"{name}(s, w + {min(rows)}, dt, {', '.join(known[path] for path in paths)})")
-        else:
+    groups = [(rows, paths, _text(code, rows, paths, given)) for rows, paths in _of_branches(online)]
+    often = Counter(text for _, _, text in groups)
+    names, calls, rest = dict[str, str](), [], dict[int, Node]()
+    for rows, paths, text in groups:
+        if not paths or often[text] == 1 or text.count("\n") < SHARED:
             rest |= rows
+            continue
+        if text not in names:
+            names[text] = f"constants_{len(names)}"
+            _write_function(code, names[text], rows, paths, given)
+        calls.append(f"{names[text]}(s, w + {min(rows)}, dt, {', '.join(known[path] for path in paths)})")
     arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"), ("array", "p")]
     with code.function("nothing", "constants", arguments, "The first rows of the workspace that begins at w."):
         for call in calls:
@@ -60,22 +63,23 @@ def _of_branches(online: Online) -> Iterator[tuple[dict[int, Node], list[str]]]:
         yield dict(rows), paths
 
 
-def _shared(code: Code, rows: Mapping[int, Node], given: Mapping[str, str], names: Mapping[str, str],
-            bodies: dict[str, str]) -> str:  # fmt: skip
-    """The function that computes constants of some numbers; none where it would be short."""
-    name, first, count = f"constants_{len(bodies)}", len(code.lines), code.count
+def _text(code: Code, rows: Mapping[int, Node], paths: Sequence[str], given: Mapping[str, str]) -> str:
+    """The text of a function for constants of some numbers, which branches of one make share; nothing is written."""
+    first = len(code.lines)
+    _write_function(code, "constants_of", rows, paths, given)
+    text = "\n".join(code.lines[first:])
+    del code.lines[first:]
+    return text
+
+
+def _write_function(code: Code, name: str, rows: Mapping[int, Node], paths: Sequence[str],
+                    given: Mapping[str, str]) -> None:  # fmt: skip
+    names = {path: f"n{number}" for number, path in enumerate(paths)}
     arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"),
                             *(("number", each) for each in names.values())]  # fmt: skip
     code.count = 0
     with code.function("nothing", name, arguments, "Constants of a branch, from w on."):
         _set_rows(code, {row - min(rows): node for row, node in rows.items()}, {**given, **names})
-    text = "\n".join(code.lines[first:]).replace(name, "")
-    if len(code.lines) - first < SHARED or text in bodies:
-        del code.lines[first:]
-        code.count = count
-        return bodies.get(text, "")
-    bodies[text] = name
-    return name
 
 
 def _set_rows(code: Code, rows: Mapping[int, Node], known: Mapping[str, str]) -> None:
