@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -36,9 +36,15 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
                         for model, each in told.items()],
         "named": [vars(one) for one in _named(result, fits, told)],
         "causes": causes_found(result.outcomes),
-        "failures": [{"job": job.name, "specimen": job.specimen, "reason": reason}
-                     for job, reason in result.failures.items()],
+        "failures": [{"job": job.name, "specimen": job.specimen, "reason": reason} for job, reason in _failed(result)],
     }  # fmt: skip
+
+
+def _failed(result: CampaignResult) -> Iterator[tuple[Job, str]]:
+    """The jobs that failed, and those of whose models some could not be fitted."""
+    yield from result.failures.items()
+    for job, outcome in result.outcomes.items():
+        yield from ((job, f"{model}: {reason}") for model, reason in outcome.get("failures", {}).items())
 
 
 def _specimen(

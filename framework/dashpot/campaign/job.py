@@ -103,7 +103,7 @@ def _model(fit: FitResult) -> dict[str, Any]:
     searched = [slot for slot in fit.fitted.slots() if slot.value.searched]
     tables = {path for path, curve in fit.fitted.curves().items() if curve.form == "table"}
     kept = [number for number, slot in enumerate(searched)
-            if slot.path.partition("[")[0] not in tables and slot.value.interval is not None]  # fmt: skip
+            if slot.path.partition("[")[0] not in tables and _is_known(slot)]  # fmt: skip
     correlation = fit.correlation
     return {
         "name": fit.declared.name,
@@ -115,15 +115,17 @@ def _model(fit: FitResult) -> dict[str, Any]:
     }
 
 
+def _is_known(slot: Slot) -> bool:
+    return slot.value.interval is not None and slot.value.interval[0] < slot.value.interval[1]
+
+
 def _number(slot: Slot, at_bound: bool) -> dict[str, Any]:
     """A number with its standard error, in logarithms where it is searched so."""
     value, log = slot.value, slot.value.scale == "log"
     assert value.interval is not None
     ends = [math.log(end) if log else end for end in (value.number, *value.interval)]
-    error = max(ends[0] - ends[1], ends[2] - ends[0]) / NORMAL
-    return {"value": value.number, "unit": value.unit, "log": log, "interval": list(value.interval),
-            "error": max(error, 1e-9 * (1.0 if log else abs(value.number))) * (AT_BOUND if at_bound else 1.0)
-            }  # fmt: skip
+    error = max(ends[0] - ends[1], ends[2] - ends[0]) / NORMAL * (AT_BOUND if at_bound else 1.0)
+    return {"value": value.number, "unit": value.unit, "log": log, "interval": list(value.interval), "error": error}
 
 
 def _plain(outcome: Outcome) -> Outcome:

@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from glob import glob
 from pathlib import Path
 
 from dashpot.campaign.address import file_system, is_remote
@@ -51,7 +52,7 @@ def specimens_of_pattern(pattern: str, folder: Path, place: Place) -> tuple[Meas
                             "such as 'measured/*/dataset.yaml'")  # fmt: skip
     expression = re.compile("([^/]*)".join(map(re.escape, full.replace("\\", "/").split("*"))))
     found = []
-    for path in _matching(full):
+    for path in _matching(pattern, folder):
         if match := expression.fullmatch(path.replace("\\", "/")):
             found.append(Measured("-".join(filter(None, match.groups())), path))
     if not found:
@@ -69,30 +70,25 @@ def with_properties(found: tuple[Measured, ...], table: Path) -> tuple[Measured,
     return tuple(replace(one, properties=known[one.name]) for one in found)
 
 
-def _matching(full: str) -> list[str]:
-    if is_remote(full):
-        files, place = file_system(full)
+def _matching(pattern: str, folder: Path) -> list[str]:
+    if is_remote(pattern):
+        files, place = file_system(pattern)
         return sorted(files.unstrip_protocol(name) for name in files.glob(place))
-    anchor = Path(full[: full.index("*")]).parent if not full[: full.index("*")].endswith("/") else Path(
-        full[: full.index("*")])  # fmt: skip
-    return sorted(str(path) for path in anchor.glob(str(Path(full).relative_to(anchor))))
+    return sorted(str(folder / name) for name in glob(pattern, root_dir=folder))
 
 
 def _rows_of(path: Path) -> tuple[list[str], list[tuple[int, Mapping[str, str]]]]:
+    """The headings of a table, and its rows with the numbers of their lines."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
         raise InputError.at(Place(str(path)), f"expected a table as CSV in UTF-8, it cannot be read: {error}") from None
-    lines = text.splitlines()
-    delimiter = max(",;\t", key=(lines[0] if lines else "").count)
-    reader = csv.reader(lines, delimiter=delimiter)
-    headings = [heading.strip() for heading in next(reader, [])]
-    wrong = [number for number, cells in enumerate(reader, 2) if cells and len(cells) != len(headings)]
+    delimiter = max(",;\t", key="".join(lines[:1]).count)
+    headings, *rows = [[cell.strip() for cell in row] for row in csv.reader(lines, delimiter=delimiter)] or [[]]
+    wrong = [number for number, row in enumerate(rows, 2) if row and len(row) != len(headings)]
     if wrong:
         raise InputError.at(Place(str(path), wrong[0]), f"expected {len(headings)} cells, as in the first line")
-    cells = list(csv.reader(lines, delimiter=delimiter))[1:]
-    return headings, [(number, dict(zip(headings, map(str.strip, row), strict=True)))
-                      for number, row in enumerate(cells, 2) if row]  # fmt: skip
+    return headings, [(number, dict(zip(headings, row, strict=True))) for number, row in enumerate(rows, 2) if row]
 
 
 def _beside(data: str, folder: Path) -> str:

@@ -93,6 +93,14 @@ def test_a_job_that_fails_is_set_aside_and_tried_again(campaign, tmp_path):
     assert not run_campaign(campaign, checkpoint=records).failures
 
 
+def test_a_model_that_a_comparison_could_not_fit_is_told(campaign):
+    found = run_campaign(replace(campaign, specimens=campaign.specimens[:1], verbs=("compare",)))
+    [(job, outcome)] = found.outcomes.items()
+    told = replace(found, outcomes={job: {**outcome, "failures": {"other": "lacks a setting"}}})
+    assert campaign_content(told)["failures"] == [
+        {"job": "b00-compare", "specimen": "b00", "reason": "other: lacks a setting"}]  # fmt: skip
+
+
 def test_numbers_in_common_are_held_in_a_second_fit(tmp_path):
     text = CAMPAIGN + "shared: slow.*\n"
     campaign = read_campaign(write_population(tmp_path / "few", draw_population(1, FEW, {}), 1, text), load_registry())

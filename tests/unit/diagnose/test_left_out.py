@@ -1,5 +1,8 @@
 """The error on runs left out in turn against plain least squares."""
 
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
 import numpy as np
 import pytest
 from unit.diagnose.rig import bench, dataset, friction, plain
@@ -22,6 +25,14 @@ def test_a_network_is_fitted_to_the_other_groups_and_judged_on_each():
         squares.append(np.mean((force - numbers @ motion) ** 2))
     found = left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1)
     assert found == pytest.approx(np.sqrt(np.mean(squares)), rel=1e-3)
+
+
+def test_groups_are_left_out_on_a_pool_with_the_same_result():
+    made = bench(dataset(lambda motion: plain(motion) + friction(motion)))
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        here, there = (left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, jobs)
+                       for jobs in (1, pool))  # fmt: skip
+    assert here == there
 
 
 def test_a_single_group_cannot_be_left_out():

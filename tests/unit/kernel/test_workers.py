@@ -11,7 +11,7 @@ import pytest
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
-from dashpot.fit.api import prepare
+from dashpot.fit.api import fit_network, prepare
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.objective import Objective
@@ -46,15 +46,21 @@ def pool(request):
 
 
 @pytest.fixture(scope="module")
-def fitted():
-    """An objective near its minimum on a noisy measurement of a spring and a damper."""
+def measured() -> Dataset:
+    """A noisy measurement of a spring and a damper."""
     time, rng = np.arange(1500) / 1000.0, np.random.default_rng(1)
     runs = []
     for number, hertz in enumerate((2.0, 5.0, 9.0)):
         x = 1e-3 * np.sin(2.0 * np.pi * hertz * time)
         force = 2e5 * x + 400.0 * np.gradient(x, time) + rng.normal(0.0, 2.0, x.size)
         runs.append(Run(f"r{number}", "dynamic", time, {"displacement": x, "force": force}, group=f"r{number}"))
-    setting = prepare(Dataset("rig", tuple(runs)))
+    return Dataset("rig", tuple(runs))
+
+
+@pytest.fixture(scope="module")
+def fitted(measured):
+    """An objective near its minimum."""
+    setting = prepare(measured)
     scored = list(setting.scored.values())
     spec = with_ranges(parse_network(VOIGT, load_registry().elements), natural_sizes(scored))
     coordinates = search_coordinates(spec)
@@ -89,6 +95,14 @@ def test_a_pool_gives_each_piece_one_thread(pool):
 def test_what_cannot_work_is_refused(wrong):
     with pytest.raises(InputError, match="expected a number of threads, an Executor or a Dask client"):
         threads(wrong)
+
+
+def test_a_fit_is_the_same_bits_everywhere(pool, measured):
+    registry = load_registry()
+    spec = parse_network(VOIGT, registry.elements)
+    here, there = (fit_network(spec, measured, registry=registry, jobs=jobs) for jobs in (1, pool))
+    assert there.as_dict() == here.as_dict() and there.identified_text == here.identified_text
+    assert np.array_equal(there.correlation, here.correlation)
 
 
 def test_bootstrap_and_profiles_are_the_same_bits_everywhere(pool, fitted):
