@@ -30,6 +30,7 @@ from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.grounding import free_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
@@ -118,6 +119,10 @@ def find_causes(
     fault in the end, causes are searched again on what is left.
     """
     model = first_model(fit.declared, fit.fitted)
+    if fit.fitted.data_curves():
+        # what a cause does to the slow loop, the curve must be able to give way to
+        freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
+        model = first_model(fit.declared, freed)
     folds = folds_of(refitter.runs, groups)
     first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)

@@ -126,7 +126,7 @@ def _quantiles(freedom: Array) -> Array:
 def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     """W (p, k) with W W' the inverse where the data decide, and which parameters share in what they do not decide."""
     values, vectors = np.linalg.eigh(normal)
-    kept = values > UNDECIDED * values[-1]
+    kept = values > UNDECIDED * values.max(initial=0.0)
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 

@@ -87,7 +87,10 @@ class Over:
 
 @dataclass(frozen=True)
 class Characteristic:
-    """A curve of a file. ``at`` holds the knots of a table; ``data`` names the runs a curve is to be taken from."""
+    """A curve of a file. ``at`` holds the knots of a table; ``data`` names the runs a curve is to be taken from.
+
+    A curve from data is kept as these runs give it, or, with ``refine``, moved together with the other numbers.
+    """
 
     curve: Curve
     form: Form
@@ -96,6 +99,7 @@ class Characteristic:
     data: str = ""
     knots: int = 0
     node: Node | None = field(default=None, compare=False, repr=False)
+    refine: bool = False
 
 
 @dataclass(frozen=True)

@@ -176,7 +176,8 @@ def _curve(curve: Curve) -> Schema:
 def _data(curve: Curve) -> Schema:
     over, value = curve.over[0], curve.value[0]
     keys = {"from": s.choice(SOURCES, "the runs that it is taken from"),
-            "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS), **_axes(curve)}  # fmt: skip
+            "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS),
+            "refine": s.flag("whether a fit moves it together with the other numbers"), **_axes(curve)}  # fmt: skip
     return s.mapping(keys, ("from",), dependencies={over: [value], value: [over]})
 
 

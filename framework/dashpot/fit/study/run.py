@@ -197,8 +197,10 @@ class _Conduct:
         effects = [effect(coordinates, moved) for moved in known.moved]
         owed = tuple(Owed(each.branch, each.model, each.share, numbers)
                      for each, numbers in zip(allowed, effects, strict=False))  # fmt: skip
+        curves = set(spec.data_curves())
         to_known = tuple(OwedToKnown.of(each, numbers)
-                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True))  # fmt: skip
+                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
+                        if each.path.partition("[")[0] not in curves)  # fmt: skip
         return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
                            self._profiles(plan, objective, coordinates), owed, to_known)  # fmt: skip
 
