@@ -2,8 +2,8 @@
 
 1  curves     the elastic curve from the quasi-static loop
 2  parameters everything else on the dynamic training runs, by the chosen optimizer
-3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs; a curve
-              that is kept moves only so that the simulated slow loop keeps the mid line of the measured one
+3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs; a
+              curve that is kept moves only so that the simulated slow loop keeps the mid line of the measured one
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A curve that is kept as the slow loop gives it; truth: a spring in closed form, a Maxwell branch exact on each step."""
+"""A curve that is kept as the slow loop gives it; truth: a spring in closed form, a Maxwell branch exact."""
 
 from __future__ import annotations
 

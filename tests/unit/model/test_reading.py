@@ -97,7 +97,9 @@ def test_a_curve_may_be_a_slope_a_polynomial_a_table_or_come_from_data():
     assert spec.data_curves()["d.stiffness"].knots == 12
 
 
-@pytest.mark.parametrize(("refine", "role"), [("", "fixed"), ("refine: false, ", "fixed"), ("refine: true, ", "identified")])
+@pytest.mark.parametrize(
+    ("refine", "role"), [("", "fixed"), ("refine: false, ", "fixed"), ("refine: true, ", "identified")]
+)
 def test_a_curve_from_data_with_numbers_is_a_table_that_is_kept_unless_it_is_to_be_refined(refine, role):
     knots = "deflection: [0 mm, 9 mm], force: [0 N, 2 kN]"
     spec = network(f"it: {{element: elastic, stiffness: {{from: quasi_static, {refine}{knots}}}}}")
