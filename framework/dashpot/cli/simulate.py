@@ -17,6 +17,8 @@ from dashpot.cli.energy import write_energies
 from dashpot.cli.session import Session, split_setting
 from dashpot.cli.switches import Switches, output_option, switches
 
+TABLE = "stiffness.csv"
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -37,6 +39,7 @@ if TYPE_CHECKING:
 @click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
+@click.option("--table", is_flag=True, help="Of the rows of tables of dynamic stiffness one table: stiffness.csv.")
 @output_option("A folder; with --data also a file ending in .npz.")
 @switches("seed", "json", "quiet", "force", "backend")
 def verb(
@@ -46,6 +49,7 @@ def verb(
     settings: tuple[str, ...],
     energy: bool,
     refine: int,
+    table: bool,
     output: Path,
     switches: Switches,
 ) -> None:
@@ -54,7 +58,8 @@ def verb(
     SPEC is a network file or a shipped name. With --data the folder gets a CSV file for every run with time,
     displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
     With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work that the
-    rig puts in is followed to where it is stored or dissipated.
+    rig puts in is followed to where it is stored or dissipated. With --table the folder gets the dynamic stiffness of
+    the network at the rows of the tables of the dataset, beside the measured one.
 
     \b
     Example:
@@ -65,11 +70,15 @@ def verb(
         raise click.UsageError("Say either --data DATASET or --rig RIG")
     session = Session(switches)
     network = session.network(spec)
+    if table and (dataset is None or energy):
+        raise click.UsageError("--table goes with --data, and without --energy")
     if rig is not None:
         return measure_on(rig, settings, network, output, session, energy, refine)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
+    if table:
+        return tabulate(dataset, network, output, session, refine)
     return follow(dataset, network, output, session, energy, refine)
 
 
@@ -102,6 +111,31 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
         write_energies(network, map(Excitation.of_run, runs), folder, session.talk)
     session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
                         content_of(network, names, output, error, beyond))  # fmt: skip
+
+
+def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session, refine: int) -> None:
+    """Write the dynamic stiffness at every row of the tables of a dataset."""
+    from dashpot.data.steady import STEADY
+    from dashpot.data.stiffness_text import table_text
+    from dashpot.kernel.api import solve_each
+    from dashpot.kernel.settings import require_settings
+    from dashpot.text.problem import InputError, Place
+
+    runs = session.runs(dataset)
+    require_settings(network, runs.conditions)
+    folder = session.claim(output, TABLE)
+    rows = [run for run in runs if run.kind == STEADY]
+    if not rows:
+        raise InputError.at(Place(dataset), "the dataset has no table of dynamic stiffness", "list one under 'tables'")
+    with session.watch("compiling") as progress:
+        found = list(solve_each(network, rows, len(rows), refine=refine, progress=progress))
+    folder.write(TABLE, table_text((run, next(iter(solution.force.values()))) for run, solution in found))
+    session.warn_of(runs.problems)
+    beyond = {run.name: beyond_range(network, run) for run in rows}
+    warn_of_range(beyond, session)
+    error = max(max(solution.error.values(), default=0.0) for _, solution in found)
+    session.talk.result(f"simulated {len(rows)} rows: {output / TABLE}{told_error(error)}",
+                        content_of(network, list(beyond), output, error, beyond))  # fmt: skip
 
 
 def measure_on(

@@ -15,6 +15,7 @@ from dashpot.contract.registry import Registry
 from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.steady import STEADY
 from dashpot.diagnose.channel import Accused, accuse, disagreeing, kinds_of, repeats_of
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
@@ -65,7 +66,7 @@ def diagnose(
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress = progress or silent
-    triage = examine(one_force_each(dataset))
+    triage = examine(records_of(one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
@@ -101,6 +102,15 @@ def diagnose(
         seed=seed,
         jobs=jobs,
     )
+
+
+def records_of(dataset: Dataset) -> Dataset:
+    """The runs that were recorded over time. Raises InputError where there are rows of tables alone."""
+    records = [run.name for run in dataset.runs if run.kind != STEADY]
+    if not records:
+        raise InputError.at(Place(dataset.name), "a diagnosis needs runs over time, got rows of tables alone, which "
+                            "tell the fundamental of the force only", "fit and compare networks on them")  # fmt: skip
+    return dataset if len(records) == len(dataset.runs) else dataset.select(records)
 
 
 def find_causes(

@@ -32,7 +32,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
-from dashpot.fit.scored import ScoredRun, score_run
+from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
 from dashpot.fit.seen_range import seen_range
 from dashpot.fit.starts import Best, refine_from_starts
@@ -87,7 +87,7 @@ def prepare(dataset: Dataset, seed: int = 0) -> Setting:
     _refuse_without_force(dataset)
     split = split_runs(dataset, seed)
     floor = noise_floor(dataset.select(split.train))
-    return Setting(dataset, {run.name: score_run(run) for run in dataset.runs}, split, floor)
+    return Setting(dataset, {run.name: run for run in weighted(dataset.runs)}, split, floor)
 
 
 def _refuse_without_force(dataset: Dataset) -> None:

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.backbone import Backbone, correct_backbone, extract_backbone
-from dashpot.data.start_curve import curve_from_sweeps
+from dashpot.data.start_curve import curve_from_stiffness, curve_from_sweeps
+from dashpot.data.steady import STEADY, harmonic_of
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import Characteristic, NetworkSpec, Value
@@ -17,6 +18,7 @@ from dashpot.model.network import Characteristic, NetworkSpec, Value
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
+ROW_KNOTS = 8  # of a curve that tables alone tell
 NORMAL = 1.959964  # standard errors on either side of a 95 % interval
 
 
@@ -112,13 +114,24 @@ def _covered(at: Array, slow: ScoredRun) -> NDArray[np.bool_]:
 
 
 def _taken(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:
-    slow = widest(runs)
+    slow, records = widest(runs), [run for run in runs if run.kind != STEADY]
+    if not records:
+        return _taken_from_rows(runs, knots or ROW_KNOTS)
     if slow is None:
-        motions = [(run.drive.displacement, run.drive.velocity, run.force) for run in runs]
+        motions = [(run.drive.displacement, run.drive.velocity, run.force) for run in records]
         curve = curve_from_sweeps(motions, knots) if knots else curve_from_sweeps(motions)
         return TakenCurve(curve.deflection, curve.force, np.full(curve.force.size, np.inf))
     line = extract_backbone(slow.drive.displacement, slow.force, knots)
     return TakenCurve(line.deflection, line.force, np.full(line.force.size, line.error))
+
+
+def _taken_from_rows(runs: Sequence[ScoredRun], knots: int) -> TakenCurve:
+    """From tables alone: they tell the slope at each preload."""
+    settings = [run.excitation.settings for run in runs]
+    preloads, amplitudes = (np.array([each[key] for each in settings]) for key in ("preload", "amplitude"))
+    storage = np.array([harmonic_of(run.force).real for run in runs]) / amplitudes
+    at = np.linspace(np.min(preloads - amplitudes), np.max(preloads + amplitudes), knots)
+    return TakenCurve(at, curve_from_stiffness(preloads, storage, at), np.full(knots, np.inf))
 
 
 def _widen(taken: TakenCurve, runs: Sequence[ScoredRun]) -> TakenCurve:
