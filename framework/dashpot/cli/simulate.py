@@ -148,7 +148,10 @@ def measure_on(
     refine: int,
 ) -> None:
     """Write what a virtual rig measures as a dataset."""
+    from dashpot.compare.metrics import metric_lines, metric_rows
     from dashpot.contract.bench import find_bench
+    from dashpot.data.dataset import Dataset
+    from dashpot.data.ends import one_force_each
     from dashpot.data.writing import dataset_files
     from dashpot.fit.virtual_test import virtual_test
 
@@ -168,7 +171,9 @@ def measure_on(
         write_energies(network, (planned.excitation() for planned in bench.runs()), folder, session.talk)
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
-    session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset, None, beyond))
+    told = metric_rows(session.registry.metrics.values(), one_force_each(Dataset(bench.name, tuple(runs))).runs)
+    session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]),
+                        {**content_of(network, names, dataset, None, beyond), "metrics": told})  # fmt: skip
 
 
 def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -125,7 +126,7 @@ def _read_columns(node: Node, form: Form) -> dict[str, Channel]:
             found[name] = Channel(name, read_column(entry), entry.place)
             continue
         below = Form(entry, form.problems, f"the column '{name}'")
-        unit = below.take("unit", lambda each, name=name: _read_unit(each, name), None)
+        unit = below.take("unit", partial(_read_unit, name=name), None)
         found[name] = Channel(name, below.take("column", read_column, name), below.place, unit)
         below.close()
     return found

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import dashpot
+from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
@@ -61,11 +62,12 @@ class ModelResult:
 
 @dataclass(frozen=True, eq=False)
 class StudyResult:
-    """What a study found, model by model in its order."""
+    """What a study found, model by model in its order; ``metrics`` are told of every run that has them."""
 
     study: StudySpec
     setting: Setting
     models: tuple[ModelResult, ...]
+    metrics: tuple[type[Metric], ...] = ()
 
 
 @single_threaded_algebra
@@ -92,7 +94,7 @@ def run_study(
     records = Checkpoint(checkpoint)
     records.open(fingerprint(study, dataset))
     conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
-    return StudyResult(study, setting, tuple(conduct.models()))
+    return StudyResult(study, setting, tuple(conduct.models()), tuple(registry.metrics.values()))
 
 
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
