@@ -32,6 +32,7 @@ from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.grounding import free_curves
+from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
@@ -129,7 +130,7 @@ def find_causes(
     fault in the end, causes are searched again on what is left.
     """
     model = first_model(fit.declared, fit.fitted)
-    if fit.fitted.data_curves():
+    if kept_curves(fit.fitted):
         # what a cause does to the slow loop, the curve must be able to give way to
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
