@@ -32,8 +32,8 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
     headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])
-    return replace(page, title=f"Study {study['study']['name']}", headline=headline, lead=f"{about} {page.lead}".strip(),
-                   sections=sections)  # fmt: skip
+    title, lead = f"Study {study['study']['name']}", f"{about} {page.lead}".strip()
+    return replace(page, title=title, headline=headline, lead=lead, sections=sections)
 
 
 def stages_grid(study: Json) -> Grid:

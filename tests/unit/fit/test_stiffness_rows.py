@@ -8,6 +8,7 @@ from scipy.special import iv
 from seeds import seed_of
 
 from dashpot import load_registry
+from dashpot.compare.signals import signal_evidence
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY, cosine, harmonic_of, sine, steady_samples
@@ -135,6 +136,15 @@ def test_time_and_frequency_data_mix():
     model = "  a: {element: spring, stiffness: {start: 1e5}}\n  b: {element: damper, damping: {start: 30}}\n"
     fit = fit_network(network(model), Dataset("both", (*records, *rows)), registry=REGISTRY)
     assert [slot.value.number for slot in fit.fitted.slots()] == pytest.approx([STIFFNESS, DAMPING], rel=1e-3)
+
+
+def test_a_report_shows_the_rows_as_points_of_dynamic_stiffness():
+    (run,) = (row("a", 20.0, 1e-3, 2e5 + 5e4j, 4e-3),)
+    (point,) = signal_evidence((run,), {"half": {"a": 0.5 * run.force}})["dynamic_stiffness"]
+    assert point["frequency"] == pytest.approx(20.0, rel=1e-3) and point["amplitude"] == pytest.approx(1e-3, rel=1e-3)
+    assert point["measured"]["stiffness"] == pytest.approx(abs(2e5 + 5e4j), rel=1e-3)
+    assert point["measured"]["loss_angle"] == pytest.approx(np.angle(2e5 + 5e4j), rel=1e-2)
+    assert point["simulated"]["half"]["stiffness"] == pytest.approx(0.5 * abs(2e5 + 5e4j), rel=1e-3)
 
 
 def test_a_curve_that_tables_alone_tell_has_their_slopes():
