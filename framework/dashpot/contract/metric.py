@@ -17,7 +17,8 @@ class Metric(ABC):
         ...     word, unit = "least_force", "N"
         ...     def measure(self, run):
         ...         return float(run.force.min())
-        >>> LeastForce().measure(dp.load_dataset("mount").run("a1")) < 0.0
+        >>> run = dp.load_dataset("mount").runs[0]
+        >>> LeastForce().measure(run) == float(run.force.min())
         True
     """
 
