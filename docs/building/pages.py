@@ -250,6 +250,9 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
     "rigs": _section("Rigs", "`dashpot simulate SPEC --rig WORD` or `dp.measure(model, \"WORD\", ...)`.", written.rigs),
     "exports": _section("Exports", "`dashpot export SPEC --to WORD -o OUT`: a network [in other "
                         "programs](../how-to/use-elsewhere.md).", written.exports),
+    "metrics": _section("Metrics", "Numbers that a test is made for. They stand in comparisons, studies and looks, and "
+                        "beside a virtual measurement, of every run that is such a test; "
+                        "[inspection tests](../how-to/inspection-tests.md) shows two.", written.metrics),
     "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
                           written.specimens),
     "commands": commands,

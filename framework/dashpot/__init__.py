@@ -5,8 +5,8 @@ In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, ``look`` at it
 run a model, ``campaign`` fits or diagnoses many specimens. Studies are ``read_study`` and ``run_study``;
 ``energy_balance`` follows the work that is put in.
 
-Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig`` or ``Export`` and mark its
-hook with ``hookimpl``.
+Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig``, ``Export`` or ``Metric``
+and mark its hook with ``hookimpl``.
 
 Everything is imported on first use: ``import dashpot`` costs nothing.
 """
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from dashpot.contract.cause import added_branch as added_branch
     from dashpot.contract.export import Export as Export
     from dashpot.contract.hooks import hookimpl as hookimpl
+    from dashpot.contract.metric import Metric as Metric
     from dashpot.contract.optimizer import Optimizer as Optimizer
     from dashpot.contract.optimizer import Search as Search
     from dashpot.contract.optimizer import Space as Space
@@ -91,6 +92,7 @@ _HOMES = {
     "dashpot.model.element": ("Element", "Parameter", "Curve", "State", "Motion", "Response"),
     "dashpot.model.picture": ("Symbol", "Series", "Parallel"),
     "dashpot.contract.export": ("Export",),
+    "dashpot.contract.metric": ("Metric",),
     "dashpot.contract.hooks": ("hookimpl",),
     "dashpot.contract.registry": ("load_registry",),
     "dashpot.contract.optimizer": ("Space", "Search", "Optimizer"),

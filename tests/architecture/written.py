@@ -96,6 +96,13 @@ def exports() -> Iterator[str]:
             yield table(("option", "type", "default"), [_option_row(option) for option in options_of(made).values()])
 
 
+def metrics() -> Iterator[str]:
+    """A section for each number that a test is made for."""
+    for word, made in things("metrics").items():
+        yield f"### `{word}`"
+        yield f"In {made.unit}. " + " ".join(paragraphs(made))
+
+
 def modules() -> Iterator[str]:
     """A list for each layer of the framework: its modules, each with what it says about itself."""
     layers = (
@@ -120,6 +127,7 @@ PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
         "specimens": specimens,
         "rigs": rigs,
         "exports": exports,
+        "metrics": metrics,
     },
     "framework/README.md": {"modules": modules},
 }

@@ -30,6 +30,7 @@ KINDS = (
     "rigs",
     "studies",
     "exports",
+    "metrics",
     "plugins",
 )
 
@@ -54,8 +55,8 @@ class Entry:
 def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed: each thing with the distribution and the plugin that brought it.
 
-    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, studies, exports or plugins; without it,
-    everything is listed.
+    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, studies, exports, metrics or
+    plugins; without it, everything is listed.
 
     \b
     Example:

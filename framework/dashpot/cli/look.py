@@ -32,7 +32,7 @@ def verb(dataset: str, output: Path, switches: Switches) -> None:
     measured = session.dataset(dataset)
     folder = session.claim(output, *LOOK_FILES)
     with session.watch("looking"):
-        seen = look(measured, switches.seed)
+        seen = look(measured, switches.seed, session.registry.metrics.values())
         report = write_look(seen, folder)
     session.talk.result(look_text(seen), seen.as_dict())
     session.talk.say(f"report: {report}")

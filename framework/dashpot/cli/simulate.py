@@ -17,6 +17,8 @@ from dashpot.cli.energy import write_energies
 from dashpot.cli.session import Session, split_setting
 from dashpot.cli.switches import Switches, output_option, switches
 
+TABLE = "stiffness.csv"
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -39,6 +41,7 @@ ROWS = 50_000  # that are written at a time
 @click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
               help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
+@click.option("--table", is_flag=True, help="Of the rows of tables of dynamic stiffness one table: stiffness.csv.")
 @output_option("A folder; with --data also a file ending in .npz.")
 @switches("seed", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
@@ -48,6 +51,7 @@ def verb(
     settings: tuple[str, ...],
     energy: bool,
     refine: int,
+    table: bool,
     output: Path,
     switches: Switches,
 ) -> None:
@@ -56,7 +60,8 @@ def verb(
     SPEC is a network file or a shipped name. With --data the folder gets a CSV file for every run with time,
     displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
     With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work that the
-    rig puts in is followed to where it is stored or dissipated.
+    rig puts in is followed to where it is stored or dissipated. With --table the folder gets the dynamic stiffness of
+    the network at the rows of the tables of the dataset, beside the measured one.
 
     \b
     Example:
@@ -67,11 +72,15 @@ def verb(
         raise click.UsageError("Say either --data DATASET or --rig RIG")
     session = Session(switches)
     network = session.network(spec)
+    if table and (dataset is None or energy):
+        raise click.UsageError("--table goes with --data, and without --energy")
     if rig is not None:
         return measure_on(rig, settings, network, output, session, energy, refine)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
+    if table:
+        return tabulate(dataset, network, output, session, refine)
     return follow(dataset, network, output, session, energy, refine)
 
 
@@ -108,6 +117,31 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
                         content_of(network, names, output, error, beyond))  # fmt: skip
 
 
+def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session, refine: int) -> None:
+    """Write the dynamic stiffness at every row of the tables of a dataset."""
+    from dashpot.data.steady import STEADY
+    from dashpot.data.stiffness_text import table_text
+    from dashpot.kernel.api import solve_each
+    from dashpot.kernel.settings import require_settings
+    from dashpot.text.problem import InputError, Place
+
+    runs = session.runs(dataset)
+    require_settings(network, runs.conditions)
+    folder = session.claim(output, TABLE)
+    rows = [run for run in runs if run.kind == STEADY]
+    if not rows:
+        raise InputError.at(Place(dataset), "the dataset has no table of dynamic stiffness", "list one under 'tables'")
+    with session.watch("compiling") as progress:
+        found = list(solve_each(network, rows, len(rows), refine=refine, progress=progress))
+    folder.write(TABLE, table_text((run, next(iter(solution.force.values()))) for run, solution in found))
+    session.warn_of(runs.problems)
+    beyond = {run.name: beyond_range(network, run) for run in rows}
+    warn_of_range(beyond, session)
+    error = max(max(solution.error.values(), default=0.0) for _, solution in found)
+    session.talk.result(f"simulated {len(rows)} rows: {output / TABLE}{told_error(error)}",
+                        content_of(network, list(beyond), output, error, beyond))  # fmt: skip
+
+
 def measure_on(
     rig: str,
     settings: tuple[str, ...],
@@ -118,7 +152,10 @@ def measure_on(
     refine: int,
 ) -> None:
     """Write what a virtual rig measures as a dataset."""
+    from dashpot.compare.metrics import metric_lines, metric_rows
     from dashpot.contract.bench import find_bench
+    from dashpot.data.dataset import Dataset
+    from dashpot.data.ends import one_force_each
     from dashpot.data.writing import dataset_files
     from dashpot.fit.virtual_test import virtual_test
 
@@ -139,7 +176,9 @@ def measure_on(
             write_energies(network, (planned.excitation() for planned in bench.runs()), results, session.talk)
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
-    session.talk.result(f"measured {len(runs)} runs: {dataset}", content_of(network, names, dataset, None, beyond))
+    told = metric_rows(session.registry.metrics.values(), one_force_each(Dataset(bench.name, tuple(runs))).runs)
+    session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]),
+                        {**content_of(network, names, dataset, None, beyond), "metrics": told})  # fmt: skip
 
 
 def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dashpot.compare.explainable import Explainable, explainable_error
+from dashpot.compare.metrics import metric_rows
 from dashpot.compare.provenance import history_of, provenance_of, warnings_of
 from dashpot.compare.shapes import shapes_of
 from dashpot.compare.signals import signal_evidence
 from dashpot.contract.chain import make_optimizer
+from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_each, prepare, silent
@@ -26,12 +30,15 @@ from dashpot.text.problem import InputError
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """Fitted networks in the order given; ``failures`` tells of those that could not be fitted.
 
-    ``explainable`` is the error that a general model leaves; None where none was asked for.
+    ``explainable`` is the error that a general model leaves; None where none was asked for. ``metrics`` are told of
+    every run that has them.
     """
 
     setting: Setting
@@ -39,6 +46,18 @@ class Comparison:
     failures: Mapping[str, str]
     seed: int
     explainable: Explainable | None = None
+    metrics: tuple[type[Metric], ...] = ()
+
+    @cached_property
+    def simulated(self) -> dict[str, dict[str, Array]]:
+        """The force (n,) in N of every model in every run, by name."""
+        runs = list(self.setting.scored.values())
+        found = {}
+        for fit in self.fits:
+            network = compile_network(fit.fitted)
+            forces = Objective(network, runs).forces(network.start)
+            found[fit.declared.name] = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
+        return found
 
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``compare.json``; errors in N, ``nrmse`` in units of the standard deviation of the force."""
@@ -59,23 +78,15 @@ class Comparison:
             "noise_floor": floor_of(self.setting.floor),
             **({"explainable": self.explainable.as_dict()} if self.explainable else {}),
             "models": [self._model(fit) for fit in self.fits] + failed,
+            "metrics": metric_rows(self.metrics, self.setting.dataset.runs, self.simulated if self.metrics else None),
             "seed": self.seed,
         }
 
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report: all models in loops and dynamic stiffness."""
-        runs = list(self.setting.scored.values())
-        residuals = {}
-        for fit in self.fits:
-            network = compile_network(fit.fitted)
-            forces = Objective(network, runs).forces(network.start)
-            residuals[fit.declared.name] = {
-                run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)
-            }
-        runs_shown = self.setting.dataset.runs
-        simulated = {
-            label: {run.name: run.force - found[run.name] for run in runs_shown} for label, found in residuals.items()
-        }
+        runs_shown, simulated = self.setting.dataset.runs, self.simulated
+        residuals = {label: {run.name: run.force - forces[run.name] for run in runs_shown}
+                     for label, forces in simulated.items()}  # fmt: skip
         return {
             **signal_evidence(runs_shown, residuals),
             "shapes": shapes_of(runs_shown, simulated),
@@ -119,7 +130,8 @@ def compare(
     found = fit_each(specs, setting, method, seed, jobs, progress or silent)
     failures = {spec.name: str(each) for spec, each in zip(specs, found, strict=True) if isinstance(each, InputError)}
     fits = tuple(each for each in found if isinstance(each, FitResult))
-    return Comparison(setting, fits, failures, seed, explainable_error(setting, seed))
+    return Comparison(setting, fits, failures, seed, explainable_error(setting, seed),
+                      tuple(registry.metrics.values()))  # fmt: skip
 
 
 def comparison_of(fit: FitResult) -> Comparison:

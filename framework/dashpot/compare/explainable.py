@@ -19,6 +19,7 @@ from dashpot.compare.boosting import Boosted, boost
 from dashpot.compare.features import columns_of
 from dashpot.compare.motion import Grid, Memory, grid_of, remember
 from dashpot.compare.ridge import Ridge, fit_ridge
+from dashpot.data.steady import STEADY
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Setting
 from dashpot.fit.scored import ScoredRun
@@ -103,6 +104,8 @@ def explainable_error(setting: Setting, seed: int = 0, trees: bool = True) -> Ex
     if several:
         return Explainable(reason=f"'{several[0]}' moves or loads several nodes; the general model knows one "
                                   "displacement and one force")  # fmt: skip
+    if any(run.kind == STEADY for run in setting.scored.values()):
+        return Explainable(reason="rows of a table tell the fundamental alone, from which no general model learns")
     records = {name: Record(run, runs[name].cluster, _conditions(runs[name].settings, runs[name].channels))
                for name, run in setting.scored.items()}  # fmt: skip
     split = setting.split

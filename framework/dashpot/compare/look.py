@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.compare.explainable import Explainable, explainable_error
+from dashpot.compare.metrics import metric_rows
 from dashpot.compare.shapes import shapes_of
 from dashpot.compare.strokes import Seen, cycle_values, see, work
+from dashpot.contract.metric import Metric
 from dashpot.data.dataset import Dataset
 from dashpot.data.repeats import NotRepeatsError, compare_repeats
 from dashpot.fit.api import Setting, prepare
@@ -30,7 +32,8 @@ LINES = 400  # of a spectrum, evenly spaced over the logarithm of the frequency
 class Look:
     """What was seen; ``seen`` are the runs with their motion, ``explainable`` what a general model leaves.
 
-    ``faults`` are those that triage found. The runs are shown as they were measured, with their faults.
+    ``faults`` are those that triage found, ``metrics`` rows of numbers that runs have. The runs are shown as they were
+    measured, with their faults.
     """
 
     setting: Setting
@@ -38,6 +41,7 @@ class Look:
     explainable: Explainable
     seed: int
     faults: tuple[Fault, ...] = ()
+    metrics: tuple[Mapping[str, Any], ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``look.json``, in SI."""
@@ -53,6 +57,7 @@ class Look:
             "noise_floor": floor_of(self.setting.floor),
             "explainable": self.explainable.as_dict(),
             "runs": [described(each) for each in self.seen],
+            "metrics": list(self.metrics),
             "faults": [{"run": fault.run, "kind": fault.kind, "evidence": fault.evidence, "cure": fault.cure}
                        for fault in self.faults],
             "repeats": [{key: group[key] for key in ("runs", "rms")} for group in self.repeats()],
@@ -94,12 +99,13 @@ class Look:
         return told
 
 
-def look(dataset: Dataset, seed: int = 0) -> Look:
+def look(dataset: Dataset, seed: int = 0, metrics: Iterable[type[Metric]] = ()) -> Look:
     """Look at the runs of a dataset before any model. The same seed holds out the same runs."""
     setting = prepare(dataset, seed)
     triage = examine(dataset)
     seen = tuple(see(run) for run in setting.dataset.runs)
-    return Look(setting, seen, explainable_error(setting, seed), seed, triage.faults[triage.read :])
+    return Look(setting, seen, explainable_error(setting, seed), seed, triage.faults[triage.read :],
+                tuple(metric_rows(metrics, setting.dataset.runs)))  # fmt: skip
 
 
 def described(seen: Seen) -> dict[str, Any]:

@@ -19,6 +19,7 @@ import pluggy
 if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
     from dashpot.contract.export import Export
+    from dashpot.contract.metric import Metric
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
     from dashpot.contract.rig import Rig
@@ -78,3 +79,8 @@ def dashpot_rigs() -> list[type[Rig]]:  # type: ignore[empty-body]
 @hookspec
 def dashpot_exports() -> list[type[Export]]:  # type: ignore[empty-body]
     """Targets that a network is written for: languages, mock-up units, tables of other programs."""
+
+
+@hookspec
+def dashpot_metrics() -> list[type[Metric]]:  # type: ignore[empty-body]
+    """Numbers that a test is made for, one of each run, measured and simulated."""

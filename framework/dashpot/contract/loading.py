@@ -46,6 +46,7 @@ KINDS = (
     Kind("specimens", "dashpot.contract.specimen", "Specimen"),
     Kind("rigs", "dashpot.contract.rig", "Rig"),
     Kind("exports", "dashpot.contract.export", "Export"),
+    Kind("metrics", "dashpot.contract.metric", "Metric"),
 )
 
 

@@ -17,6 +17,7 @@ from dashpot.text.problem import InputError, Place, nearest
 if TYPE_CHECKING:
     from dashpot.contract.cause import Cause
     from dashpot.contract.export import Export
+    from dashpot.contract.metric import Metric
     from dashpot.contract.optimizer import Optimizer
     from dashpot.contract.reader import Reader
     from dashpot.contract.rig import Rig
@@ -37,6 +38,7 @@ class Registry:
     specimens: Mapping[str, type[Specimen]]
     rigs: Mapping[str, type[Rig]]
     exports: Mapping[str, type[Export]]
+    metrics: Mapping[str, type[Metric]]
     origins: Mapping[tuple[str, str], Origin]
     plugins: tuple[Origin, ...]
     faults: tuple[PluginFault, ...]

@@ -21,7 +21,8 @@ class Backbone:
 
     half_width: (m,) N, half the width of the loop at the knots; friction: N, its value in the interior, the sum of the
     friction limits; both NaN when only one direction was measured (`complete` is False): the force then still holds the
-    friction of that direction. loops: full loops in the record.
+    friction of that direction. loops: full loops in the record; error: standard error of the force at a knot, N, from
+    the scatter of the mid line about the table.
     """
 
     deflection: np.ndarray
@@ -30,6 +31,7 @@ class Backbone:
     friction: float
     complete: bool
     loops: int
+    error: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ def extract_backbone(displacement: np.ndarray, force: np.ndarray, knots: int | N
     """
     loop = mean_loop(displacement, force)
     places = _knots(loop, knots)
-    return Backbone(
+    line = Backbone(
         deflection=places,
         force=fit_rising(loop.deflection, loop.middle, places),
         half_width=np.interp(places, loop.deflection, loop.half_width),
@@ -62,6 +64,8 @@ def extract_backbone(displacement: np.ndarray, force: np.ndarray, knots: int | N
         complete=loop.complete,
         loops=loop.count,
     )
+    scatter = np.sqrt(np.mean((loop.middle - backbone_force(line, loop.deflection)) ** 2))
+    return replace(line, error=float(scatter * np.sqrt(len(places) / len(loop.deflection))))
 
 
 def correct_backbone(

@@ -85,14 +85,14 @@ def _check_ends(form: Form, channels: Mapping[str, Channel | None]) -> None:
 def _read_channel(below: Form, name: str) -> Channel | None:
     node = below.node(name)
     if isinstance(node, Scalar):
-        column = below.take(name, _read_column)
+        column = below.take(name, read_column)
         return None if column is None else Channel(name, column, node.place)
     form = Form(node, below.problems, f"the channel '{name}'")
     unit = form.text("unit", None)
     kind = _kind(form, name, unit)
     channel = Channel(
         name=name,
-        column=form.take("column", _read_column),
+        column=form.take("column", read_column),
         place=form.place_of("column"),
         unit=unit,
         sign=form.take("sign", _read_sign, 1.0),
@@ -119,7 +119,8 @@ def _kind(form: Form, name: str, unit: str | None) -> str:
         return known or "1"
 
 
-def _read_column(node: Node) -> str | int:
+def read_column(node: Node) -> str | int:
+    """A column by its name or its number from 1. ValueError for anything else."""
     if isinstance(node, Scalar) and isinstance(node.value, int) and not isinstance(node.value, bool):
         return node.value
     return read_text(node)

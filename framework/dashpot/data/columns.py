@@ -38,7 +38,7 @@ def common_length(table: Table, columns: dict[str, str]) -> int:
 def read_si(table: Table, channel: Channel, column: str, rows: np.ndarray, accept: Sequence[str]) -> np.ndarray:
     """The chosen rows of a channel: sign * gain * (raw in SI) - offset. Raises Unusable."""
     scale, zero = _to_si(table.units.get(column), channel, column, "units" in accept)
-    raw = _numbers(table, channel, column, rows)
+    raw = read_numbers(table, channel, column, rows)
     return channel.sign * channel.gain * (raw * scale + zero) - channel.offset
 
 
@@ -68,7 +68,8 @@ def _same_unit(stated: str, declared: str) -> bool:
     return math.isclose(scale, 1.0, rel_tol=1e-9) and offset == 0.0
 
 
-def _numbers(table: Table, channel: Channel, column: str, rows: np.ndarray) -> np.ndarray:
+def read_numbers(table: Table, channel: Channel, column: str, rows: np.ndarray) -> np.ndarray:
+    """The chosen rows of a column as they stand in the file. Raises Unusable for a text among them."""
     values = table.columns[column][rows]
     if values.dtype != object:
         return np.asarray(values, dtype=float)

@@ -96,9 +96,9 @@ def _title(node: Node, file: str | None, order: int) -> str:
 def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
     path = form.text("file") if file is None else form.text("file", file)
     time, sampling, channels = read_channels(form)
-    settings, notes = _read_settings(form)
+    settings, notes = read_settings(form)
     return RunDeclaration(
-        name=_read_name(form, path),
+        name=read_name(form, path),
         file=path,
         kind=form.choice("kind", KINDS),
         time=time,
@@ -115,14 +115,15 @@ def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
         stop=form.quantity("stop", "s", None),
         decimate=form.take("decimate", _read_decimation, 1),
         reader=form.text("reader", None),
-        file_options=form.take("file_options", _read_options, {}),
+        file_options=form.take("file_options", read_file_options, {}),
         accept=form.take("accept", _read_accepted, ()),
         order=order,
         places={key: form.place_of(key) for key in form.keys} | {"": form.place},
     )
 
 
-def _read_name(form: Form, path: str | None) -> str:
+def read_name(form: Form, path: str | None) -> str:
+    """The name of what a form declares, by default that of its file; one that cannot name a file is complained of."""
     name = form.text("name", stem_of(path or "run"))
     if not is_name(name):
         form.complain("name", f"{shown(name)} cannot be the name of a run", RULE)
@@ -134,7 +135,8 @@ def stem_of(file: str) -> str:
     return file.replace("\\", "/").rpartition("/")[2].partition(".")[0] or "run"
 
 
-def _read_settings(form: Form) -> tuple[dict[str, float], dict[str, str]]:
+def read_settings(form: Form) -> tuple[dict[str, float], dict[str, str]]:
+    """The settings that are numbers, in SI, and those that are words."""
     below = form.form("settings", default=None)
     settings: dict[str, float] = {}
     notes: dict[str, str] = {}
@@ -196,7 +198,8 @@ def _read_accepted(node: Node) -> tuple[str, ...]:
     return words
 
 
-def _read_options(node: Node) -> dict[str, object]:
+def read_file_options(node: Node) -> dict[str, object]:
+    """What the reader of a file should know. ValueError for anything but a mapping."""
     if not isinstance(node, MappingNode):
         raise ValueError(f"expected options as 'key: value', got {node.describe()}")
     return node.plain()

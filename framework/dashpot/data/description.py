@@ -9,8 +9,9 @@ from pathlib import Path
 from dashpot.data.declaration import RunDeclaration, name_of, read_declaration, stem_of
 from dashpot.data.inherit import inherit
 from dashpot.data.source import DESCRIPTIONS, Source
+from dashpot.data.stiffness_table import TableDeclaration, read_table_declaration
 from dashpot.text.document import Document
-from dashpot.text.form import Form, read_items
+from dashpot.text.form import REQUIRED, Form, read_items
 from dashpot.text.node import Mapping, Node, Scalar, Sequence
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -32,6 +33,7 @@ class Description:
     declarations: tuple[RunDeclaration, ...]
     names: tuple[str, ...]
     problems: tuple[Problem, ...]
+    tables: tuple[TableDeclaration, ...] = ()
 
 
 def is_dataset(path: Path) -> bool:
@@ -60,11 +62,24 @@ def read_description(document: Document, source: Source) -> Description:
     if form.node("allow_outside") is not None:
         form.complain("allow_outside", "a dataset cannot allow itself to read files elsewhere",
                       "say --allow-outside on the command line instead, where you trust it")  # fmt: skip
-    nodes, defaults = _many_runs(form) if "runs" in form or not source.file else _single_run(form)
+    tables = _tables(form)
+    many = "runs" in form or "tables" in form or not source.file
+    nodes, defaults = _many_runs(form) if many else _single_run(form)
     form.close()
     declarations = tuple(_declare(nodes, defaults, source.file, problems))
     names = tuple(filter(None, (name_of(node, source.file) for node in nodes)))
-    return Description(name, folder, declarations, names, tuple(problems))
+    return Description(name, folder, declarations, names, tuple(problems), tables)
+
+
+def _tables(form: Form) -> tuple[TableDeclaration, ...]:
+    found: dict[str, TableDeclaration] = {}
+    for below in form.forms("tables", None) or ():
+        declared = read_table_declaration(below)
+        if declared and declared.name in found:
+            below.complain("name", f"table '{declared.name}' is set aside: another one has the same name", "rename one")
+        elif declared:
+            found[declared.name] = declared
+    return tuple(found.values())
 
 
 def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
@@ -73,7 +88,7 @@ def _many_runs(form: Form) -> tuple[tuple[Node, ...], Mapping | None]:
     if sensors is not None:
         common = Mapping(form.place, 0, 0, {"sensors": sensors}, {"sensors": sensors})
         given = inherit(given, common) if given else common
-    return form.take("runs", read_items) or (), given
+    return (form.take("runs", read_items, () if "tables" in form else REQUIRED) or ()), given
 
 
 def _read_defaults(node: Node) -> Mapping:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .reversals import noise_threshold, stroke_edges
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 _SMALLEST_STROKE = 0.05
 _FULL_STROKE = 0.8
@@ -52,19 +56,52 @@ def mean_loop(displacement: np.ndarray, force: np.ndarray) -> Loop:
     the material beds in. Where a direction has no full stroke, its shorter strokes stand in.
     Raises ValueError when nothing moves.
     """
-    edges = stroke_edges(displacement, _threshold(displacement))
-    ends = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
-    ways = np.diff(displacement[edges])
-    loading, unloading = (_chosen(ends, side * ways, float(np.ptp(displacement))) for side in (1.0, -1.0))
-    chosen = [strokes for strokes in (loading, unloading) if strokes]
-    grid = _grid(displacement, chosen)
-    full = [int(np.sum(side * ways >= _FULL_STROKE * np.ptp(displacement))) for side in (1.0, -1.0)]
+    loading, unloading, full = _strokes(displacement)
+    grid = _grid(displacement, [strokes for strokes in (loading, unloading) if strokes])
     return Loop(
         deflection=0.5 * (grid[1:] + grid[:-1]),
         loading=_branch(displacement, force, loading, grid) if loading else None,
         unloading=_branch(displacement, force, unloading, grid) if unloading else None,
         count=min(full),
     )
+
+
+def middle_of_loop(displacement: np.ndarray) -> csr_array:
+    """The matrix (m, n) that makes the mid line out of a force (n,): the mean of the means of both directions.
+
+    The strokes over the displacement (n,) m are those of `mean_loop`; a deflection that a direction has not seen has no
+    row. Raises ValueError when nothing moves.
+    """
+    loading, unloading, _ = _strokes(displacement)
+    chosen = [strokes for strokes in (loading, unloading) if strokes]
+    grid = _grid(displacement, chosen)
+    means = [_means(displacement, strokes, grid) for strokes in chosen]
+    seen = np.all([mean.sum(axis=1) > 0.0 for mean in means], axis=0)
+    return sum(means[1:], means[0])[seen] / len(means)
+
+
+def _means(displacement: np.ndarray, strokes: list[tuple[int, int]], edges: np.ndarray) -> csr_array:
+    """The matrix (bins, n) that makes the mean of every bin."""
+    from scipy.sparse import csr_array
+
+    samples, bins = _binned(displacement, strokes, edges)
+    weights = 1.0 / np.bincount(bins, minlength=len(edges) - 1)[bins]
+    return csr_array((weights, (bins, samples)), shape=(len(edges) - 1, len(displacement)))
+
+
+def _binned(displacement: np.ndarray, strokes: list[tuple[int, int]], edges: np.ndarray) -> tuple[np.ndarray, ...]:
+    """The samples of all strokes, and the bin of each."""
+    samples = np.concatenate([np.arange(first, last + 1) for first, last in strokes])
+    return samples, np.clip(np.searchsorted(edges, displacement[samples]) - 1, 0, len(edges) - 2)
+
+
+def _strokes(displacement: np.ndarray) -> tuple[list[tuple[int, int]], list[tuple[int, int]], list[int]]:
+    """First and last samples of the loading and of the unloading strokes that count, and how many are full ones."""
+    edges = stroke_edges(displacement, _threshold(displacement))
+    ends = list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
+    ways, stroke = np.diff(displacement[edges]), float(np.ptp(displacement))
+    loading, unloading = (_chosen(ends, side * ways, stroke) for side in (1.0, -1.0))
+    return loading, unloading, [int(np.sum(side * ways >= _FULL_STROKE * stroke)) for side in (1.0, -1.0)]
 
 
 def _threshold(displacement: np.ndarray) -> float:
@@ -97,8 +134,7 @@ def _branch(
 ) -> np.ndarray:
     """Mean force of all strokes at the middle of every bin; empty bins lie between their neighbours."""
     count = len(edges) - 1
-    samples = np.concatenate([np.arange(first, last + 1) for first, last in strokes])
-    bins = np.clip(np.searchsorted(edges, displacement[samples]) - 1, 0, count - 1)
+    samples, bins = _binned(displacement, strokes, edges)
     hits = np.bincount(bins, minlength=count)
     held = hits > 0
     places = np.bincount(bins, displacement[samples], count)[held] / hits[held]

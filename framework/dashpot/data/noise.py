@@ -33,7 +33,7 @@ class NoiseFloor:
     """
 
     value: float | None
-    source: Literal["repeats", "residual"] | None
+    source: Literal["repeats", "residual", "stated"] | None
     offset: float = 0.0
     weight: float = 0.0
     lower_bound: bool = False
@@ -109,7 +109,7 @@ def spectrum_above_motion(displacement: np.ndarray, force: np.ndarray, sample_ti
 
 def pool_noise(floors: Sequence[NoiseFloor]) -> NoiseFloor:
     """One noise floor for many runs, of the most trustworthy kind: from repeats, else no lower bounds, else these."""
-    for source, lower_bound in (("repeats", False), ("residual", False), ("residual", True)):
+    for source, lower_bound in (("repeats", False), ("residual", False), ("residual", True), ("stated", False)):
         known = [
             (floor, floor.value)
             for floor in floors

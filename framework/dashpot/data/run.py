@@ -15,6 +15,7 @@ class Run:
     """Channels of one run on a uniform time grid that starts at 0; SI, compression positive, read-only.
 
     time (n,) s; channels: "displacement", "force", "velocity", "force@platform_left", ... -> (n,).
+    kind: one of KINDS; of a row of a table, "steady": the fundamental of a steady sine (`dashpot.data.steady`).
     settings: numbers of the test procedure in SI ("amplitude", "preload", "start", "stop", ...); notes: its words.
     group: the name of the original; all repeats of a run share it. repeats: the original, None for an original.
     held_out: what the dataset says about it, None when it says nothing.

@@ -8,6 +8,7 @@ from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.declaration import ACCEPTABLE, SENSOR_KEYS, SETTING_UNITS
 from dashpot.data.description import FORMAT
 from dashpot.data.run import KINDS
+from dashpot.data.stiffness_table import UNITS
 from dashpot.text import schema as s
 from dashpot.text.schema import Schema
 
@@ -22,8 +23,10 @@ def dataset_schema(readers: Collection[str]) -> Schema:
         "folder": s.text("where the measured files lie, if not beside this file"),
     }
     many = s.mapping(
-        {**head, "sensors": _sensors(), "defaults": s.part("defaults"), "runs": {"type": "array"}}, ("format", "runs")
+        {**head, "sensors": _sensors(), "defaults": s.part("defaults"), "runs": {"type": "array"}}, ("format",)
     )
+    many["properties"]["tables"] = s.items(_table(readers), "of dynamic stiffness; every row is a run")
+    many["anyOf"] = [{"required": ["runs"]}, {"required": ["tables"]}]
     many |= {
         "if": {"required": ["defaults"]},
         "then": {"properties": {"runs": s.items(s.part("partial_run"))}, "allOf": [_said(key) for key in NEEDED]},
@@ -39,7 +42,25 @@ def dataset_schema(readers: Collection[str]) -> Schema:
         "partial_channels": _channels(),
     }
     about = "Measured runs and what their files hold. Without 'runs': the only run, beside whose file this text stands."
-    return s.document("dataset", about, s.by_key({"runs": many}, alone), parts)
+    return s.document("dataset", about, s.by_key({"runs": many, "tables": many}, alone), parts)
+
+
+def _table(readers: Collection[str]) -> Schema:
+    column = {**s.text(), "description": "its name in the file, or its number from 1"}
+    one = {"if": {"type": "object"}, "then": s.mapping({"column": column, "unit": s.text("that of the file")}),
+           "else": column}  # fmt: skip
+    keys = {
+        "name": s.text("by default that of the file"),
+        "file": s.text("in the folder of the dataset or below it"),
+        "columns": {"type": "object", "properties": dict.fromkeys(UNITS, one), "additionalProperties": one,
+                    "description": "which column is what; other names are settings of the rows"},
+        "settings": _settings(),
+        "scatter": s.text("standard deviation of the stiffness, as 3 N/mm or 2 %: rows count by it"),
+        "held_out": s.flag("keep it out of every fit"),
+        "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
+        "file_options": {"type": "object", "description": "what the reader should know"},
+    }  # fmt: skip
+    return s.mapping(keys, ("file", "columns"))
 
 
 def _said(key: str) -> Schema:

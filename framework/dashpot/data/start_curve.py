@@ -53,6 +53,18 @@ def curve_from_sweeps(runs: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]],
     return StartCurve(places, curve, float(damping / speed), float(friction), float(stiffening / stroke))
 
 
+def curve_from_stiffness(preloads: np.ndarray, stiffness: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Force (m,) N at growing places (m,) m whose slope is the mean stiffness (k,) N/m at each preload (k,) m.
+
+    It is zero where the deflection is; between two preloads the slope goes along a straight line, beyond them it stays.
+    """
+    known = np.unique(preloads)
+    means = np.array([np.mean(stiffness[preloads == place]) for place in known])
+    slopes = np.interp(places, known, means)
+    force = np.append(0.0, np.cumsum(0.5 * (slopes[1:] + slopes[:-1]) * np.diff(places)))
+    return force - np.interp(0.0, places, force)
+
+
 def _gather(runs: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> tuple[np.ndarray, ...]:
     """Samples of all runs one after the other, thinned, and the distance from the mean where means differ."""
     thinned = [tuple(channel[:: max(1, len(channel) // _MOST_SAMPLES)] for channel in run) for run in runs]

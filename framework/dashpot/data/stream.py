@@ -8,13 +8,14 @@ from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
-from dashpot.data.excitation import ORDER, mean_of
+from dashpot.data.excitation import ORDER, mean_of, settings_of
 from dashpot.data.groups import resolve_repeats
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
 from dashpot.data.source import Source, choose_reader, find_file, locate, measured_folder
+from dashpot.data.stiffness_table import TableDeclaration, read_table
 from dashpot.data.table import FileReader, ReadingError, Table
-from dashpot.data.trouble import Trouble, Unusable
+from dashpot.data.trouble import Trouble, Unusable, refuse
 from dashpot.text.document import Document
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.problem import InputError, Problem, in_text_order
@@ -59,8 +60,9 @@ class RunStream:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of all runs whose declaration is sound."""
-        return tuple(declaration.name for declaration in self._description.declarations)
+        """The names of all runs whose declaration is sound; tables are read for it."""
+        own = tuple(declaration.name for declaration in self._description.declarations)
+        return (*own, *(run.name for run in self._rows()[0]))
 
     @property
     def conditions(self) -> dict[str, dict[str, float]]:
@@ -71,7 +73,7 @@ class RunStream:
         resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
         return {each.name: {ORDER: float(each.order), **each.settings,
                             **{mean_of(channel.name): math.nan for channel in each.channels}}
-                for each in resolved}  # fmt: skip
+                for each in resolved} | {run.name: settings_of(run) for run in self._rows()[0]}  # fmt: skip
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -95,11 +97,14 @@ class RunStream:
             if run:
                 some = True
                 yield run
-        if not some:
+        rows, problems = self._rows()
+        self._problems += problems
+        yield from rows
+        if not some and not rows:
             raise InputError([*self._problems, *self._without_runs()])
 
     def _without_runs(self) -> Iterator[Problem]:
-        if not self._description.declarations and not self._problems:
+        if not self._description.declarations and not self._description.tables and not self._problems:
             yield Problem(self.document.root.place, "the dataset has no runs", "list some under 'runs'")
         elif all(problem.severity == "warning" for problem in self._problems):
             yield Problem(self.document.root.place, "every run of the dataset is set aside", "keep at least one")
@@ -116,7 +121,23 @@ class RunStream:
             self._note(declaration, trouble)
         return run
 
-    def _table(self, declaration: RunDeclaration) -> Table:
+    def _rows(self) -> tuple[list[Run], list[Problem]]:
+        """The rows of all tables, and what was set aside of them."""
+        runs: list[Run] = []
+        problems: list[Problem] = []
+        for declaration in self._description.tables:
+            first = len(self._description.declarations) + len(runs)
+            try:
+                found, troubles = read_table(declaration, self._table(declaration), first)
+                refuse(Trouble(f"one of its rows is called '{run.name}', as a run is", "give the table another name")
+                       for run in found if run.name in self._description.names)  # fmt: skip
+            except Unusable as error:
+                found, troubles = [], list(error.troubles)
+            runs += found
+            problems += [_told("table", declaration, trouble) for trouble in troubles]
+        return runs, problems
+
+    def _table(self, declaration: RunDeclaration | TableDeclaration) -> Table:
         place = declaration.place("file")
         path = find_file(declaration.file, self.folder, self._allow_outside, place)
         said = declaration.place("reader" if declaration.reader else "file")
@@ -129,10 +150,13 @@ class RunStream:
     def _note(self, declaration: RunDeclaration, trouble: Trouble) -> None:
         if trouble.fault:
             self._faults.append((declaration.name, trouble))
-        state = " is set aside" if trouble.severity == "error" or declaration.set_aside is not None else ""
-        message = f"run '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
-        place = trouble.place or declaration.place("file")
-        self._problems.append(Problem(place, message, trouble.hint, trouble.severity))
+        self._problems.append(_told("run", declaration, trouble, declaration.set_aside is not None))
+
+
+def _told(what: str, declaration: RunDeclaration | TableDeclaration, trouble: Trouble, aside: bool = False) -> Problem:
+    state = " is set aside" if trouble.severity == "error" or aside else ""
+    message = f"{what} '{declaration.name}' ({declaration.file}){state}: {trouble.message}"
+    return Problem(trouble.place or declaration.place("file"), message, trouble.hint, trouble.severity)
 
 
 def _wished(declaration: RunDeclaration) -> Trouble:

@@ -15,6 +15,7 @@ from dashpot.contract.registry import Registry
 from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.steady import STEADY
 from dashpot.diagnose.channel import Accused, accuse, doubts, kinds_of, repeats_of
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
@@ -30,6 +31,8 @@ from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.grounding import free_curves
+from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
@@ -68,7 +71,7 @@ def diagnose(
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress, pool, jobs = progress or silent, jobs, threads(jobs)
-    triage = examine(one_force_each(dataset))
+    triage = examine(records_of(one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
@@ -106,6 +109,15 @@ def diagnose(
     )
 
 
+def records_of(dataset: Dataset) -> Dataset:
+    """The runs that were recorded over time. Raises InputError where there are rows of tables alone."""
+    records = [run.name for run in dataset.runs if run.kind != STEADY]
+    if not records:
+        raise InputError.at(Place(dataset.name), "a diagnosis needs runs over time, got rows of tables alone, which "
+                            "tell the fundamental of the force only", "fit and compare networks on them")  # fmt: skip
+    return dataset if len(records) == len(dataset.runs) else dataset.select(records)
+
+
 def find_causes(
     refitter: Refitter,
     fit: FitResult,
@@ -122,6 +134,10 @@ def find_causes(
     where runs are found at fault in the end, causes are searched again on what is left.
     """
     model = first_model(fit.declared, fit.fitted)
+    if kept_curves(fit.fitted):
+        # what a cause does to the slow loop, the curve must be able to give way to
+        freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
+        model = first_model(fit.declared, freed)
     folds = folds_of(refitter.runs, groups)
     first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)

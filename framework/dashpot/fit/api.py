@@ -2,7 +2,8 @@
 
 1  curves     the elastic curve from the quasi-static loop
 2  parameters everything else on the dynamic training runs, by the chosen optimizer
-3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs
+3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs; a
+              curve that is kept moves only so that the simulated slow loop keeps the mid line of the measured one
 """
 
 from __future__ import annotations
@@ -25,12 +26,13 @@ from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
+from dashpot.fit.kept_curves import refinement
 from dashpot.fit.known import known_numbers
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
-from dashpot.fit.scored import ScoredRun, score_run
+from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
 from dashpot.fit.seen_range import seen_range
 from dashpot.fit.starts import Best, refine_from_starts
@@ -89,7 +91,7 @@ def prepare(dataset: Dataset, seed: int = 0) -> Setting:
     _refuse_without_force(dataset)
     split = split_runs(dataset, seed)
     floor = noise_floor(dataset.select(split.train))
-    return Setting(dataset, {run.name: score_run(run) for run in dataset.runs}, split, floor)
+    return Setting(dataset, {run.name: run for run in weighted(dataset.runs)}, split, floor)
 
 
 def _refuse_without_force(dataset: Dataset) -> None:
@@ -160,15 +162,15 @@ def fit_prepared(
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
     staged, best = _search(grounded, fast, lambda slot: _curve_of(slot) not in curves, method, seed, jobs, watch)
     corrected = correct_ends(staged, setting.train)
-    objective = Objective(compile_network(corrected), setting.train, jobs)
-    coordinates = search_coordinates(corrected)
     watch.stage("polish", 0.0)
-    polished = refine(
-        objective, coordinates, coordinates.start, POLISH_STEPS, watch=watch.steps("polish", POLISH_STEPS)
-    )
+    objective = Objective(compile_network(corrected), setting.train, jobs)
+    whole = refinement(corrected, objective, lambda slot: True)
+    steps = watch.steps("polish", POLISH_STEPS)
+    polished = refine(whole.loss, whole.coordinates, whole.coordinates.start, POLISH_STEPS, watch=steps)
+    fitted = whole.at(polished.point)
+    objective, coordinates = Objective(compile_network(fitted), setting.train, jobs), search_coordinates(fitted)
     shifts = [each.shift for each in known_numbers(objective)]
-    known = assess_uncertainty(objective, coordinates, polished.point, shifts, setting.floor.value)
-    fitted = with_point(corrected, coordinates, polished.point)
+    known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, setting.floor.value)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(
         declared=spec,

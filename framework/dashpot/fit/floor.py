@@ -5,20 +5,30 @@ from __future__ import annotations
 from itertools import groupby
 
 from dashpot.data.dataset import Dataset
-from dashpot.data.noise import NoiseFloor, noise_above_motion, noise_from_orders, noise_from_repeats, pool_noise
+from dashpot.data.noise import (
+    UNKNOWN,
+    NoiseFloor,
+    noise_above_motion,
+    noise_from_orders,
+    noise_from_repeats,
+    pool_noise,
+)
 from dashpot.data.order_tracking import follow
 from dashpot.data.phase import NotOscillatingError
 from dashpot.data.repeats import NotRepeatsError
 from dashpot.data.run import Run
+from dashpot.data.steady import STEADY
 
 
 def noise_floor(dataset: Dataset) -> NoiseFloor:
     """From repeated runs where there are any, else from what lies between and above the orders of the motion.
 
+    Of tables alone it is what they state.
     Declared repeats that moved otherwise do not count; see `false_repeats`.
     """
+    stated = [_stated(run) for run in dataset.runs if run.kind == STEADY]
     floors = [floor for group in _groups(dataset) if isinstance(floor := _repeated(group), NoiseFloor)]
-    return pool_noise(floors or [_single(run) for run in dataset.runs])
+    return pool_noise([*(floors or [_single(run) for run in dataset.runs if run.kind != STEADY]), *stated])
 
 
 def false_repeats(dataset: Dataset) -> list[str]:
@@ -42,6 +52,12 @@ def _repeated(group: list[Run]) -> NoiseFloor | NotRepeatsError:
         return noise_from_repeats([(run.displacement, run.force) for run in group], group[0].sample_time)
     except NotRepeatsError as error:
         return error
+
+
+def _stated(run: Run) -> NoiseFloor:
+    """What a table says of the scatter of one of its rows."""
+    noise = run.sensors.get("force", {}).get("noise")
+    return UNKNOWN if noise is None else NoiseFloor(noise, "stated", weight=1.0)
 
 
 def _single(run: Run) -> NoiseFloor:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.objective import Objective
+from dashpot.fit.refine import unmoved
 from dashpot.model.network import Value
 
 Array = NDArray[np.float64]
@@ -26,9 +27,9 @@ class KnownNumber:
 
 def known_numbers(objective: Objective) -> list[KnownNumber]:
     """The known numbers of the objective's network, at the numbers of its file."""
-    slots = objective.network.spec.slots()
-    return [KnownNumber(slot.path, slot.value, _shift_of(objective, number, slot.value))
-            for number, slot in enumerate(slots) if slot.value.known]  # fmt: skip
+    known = {number: slot for number, slot in enumerate(objective.network.spec.slots()) if slot.value.known}
+    shifts = _shifts_of(objective, list(known), [_standard_error(slot.value) for slot in known.values()])
+    return [KnownNumber(slot.path, slot.value, shift) for slot, shift in zip(known.values(), shifts, strict=True)]
 
 
 def residual_shift(objective: Objective, step: Array) -> Array:
@@ -41,8 +42,18 @@ def residual_shift(objective: Objective, step: Array) -> Array:
     return there - base if np.isfinite(there).all() else base - back
 
 
-def _shift_of(objective: Objective, number: int, value: Value) -> Array:
+def _standard_error(value: Value) -> float:
     assert value.interval is not None
-    step = np.zeros(len(objective.network.spec.slots()))
-    step[number] = (value.interval[1] - value.interval[0]) / STANDARD
-    return residual_shift(objective, step)
+    return (value.interval[1] - value.interval[0]) / STANDARD
+
+
+def _shifts_of(objective: Objective, which: list[int], steps: list[float]) -> Array:
+    """What each of some numbers does to the residual when it moves by its step, or, where that fails, back by it."""
+    if not which:
+        return np.empty((0, objective.total))
+    start, forth = np.atleast_2d(objective.network.start)[0], np.array(steps)
+    shifts = objective.linearise(start, which, forth)[1]
+    failed = unmoved(shifts)
+    if failed.any():
+        shifts[failed] = -objective.linearise(start, which, -forth)[1][failed]
+    return shifts

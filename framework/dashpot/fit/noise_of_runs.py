@@ -14,6 +14,7 @@ from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.data.order_tracking import follow, read_noise
 from dashpot.data.phase import NotOscillatingError
 from dashpot.data.run import Run
+from dashpot.data.steady import SAMPLES, STEADY
 
 Array = NDArray[np.float64]
 
@@ -29,11 +30,19 @@ def noise_of_runs(runs: Iterable[Run], floor: NoiseFloor) -> dict[str, NoiseSpec
     leaves any, the noise is white and as large as the noise ``floor`` says, 1 N where that is unknown.
     """
     runs = list(runs)
-    read = {run.name: spectrum for run in runs if (spectrum := _read(run)) is not None}
+    records, rows = ([run for run in runs if (run.kind == STEADY) is steady] for steady in (False, True))
+    told = {run.name: _as_white(run, floor) for run in rows}
+    read = {run.name: spectrum for run in records if (spectrum := _read(run)) is not None}
     if not read:
-        return {run.name: white({run.name: floor.value or 1.0}, run.sample_time)[run.name] for run in runs}
+        return told | {run.name: white({run.name: floor.value or 1.0}, run.sample_time)[run.name] for run in records}
     colour = _pooled(list(read.values()))
-    return {run.name: _own(colour, read.get(run.name), run.sample_time) for run in runs}
+    return told | {run.name: _own(colour, read.get(run.name), run.sample_time) for run in records}
+
+
+def _as_white(row: Run, floor: NoiseFloor) -> NoiseSpectrum:
+    """White noise from which the fundamental over a period would have the scatter of a row of a table."""
+    scatter = row.sensors.get("force", {}).get("noise") or floor.value or 1.0
+    return white({row.name: float(np.sqrt(0.5 * SAMPLES)) * scatter}, row.sample_time)[row.name]
 
 
 def variance_of(columns: Array, noise: NoiseSpectrum) -> Array:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.steady import STEADY
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
@@ -41,7 +42,7 @@ Team = tuple[int, ...]
 class Objective:
     """The misfit of a compiled network on runs.
 
-    As it is, all runs weigh the same, whatever their length, and a loss is the root of the mean over runs of the mean
+    As it is, runs weigh as they say, whatever their length, and a loss is the root of the mean over runs of the mean
     squared error, in N. ``weights`` (runs,), of which only the proportions count, change that. With a ``whitening`` a
     loss is the root mean square of all whitened misfits.
     """
@@ -55,7 +56,7 @@ class Objective:
         weights: Sequence[float] | None = None,
     ) -> None:
         self.network, self.runs, self.jobs, self.whitening = network, tuple(runs), threads(jobs), whitening
-        shares = np.ones(len(self.runs)) if weights is None else np.asarray(weights, dtype=float)
+        shares = np.array([run.weight for run in self.runs]) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
         prepared = {team: network.prepare(self.runs[team[0]].excitation) for team in self.teams}
@@ -94,14 +95,15 @@ class Objective:
             seen = self.network.observation(values, settings).linear(
                 *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
             )
+            shown = run.seen(seen[0])
             found = np.empty((1 + len(which), run.samples))
-            found[0] = seen[0][run.first :] - run.force[run.first :]
-            found[1:] = seen[1][:, run.first :]
+            found[0] = shown[run.first :] - run.force[run.first :]
+            found[1:] = run.seen(seen[1])[:, run.first :]
             for k in (k for k, slot in enumerate(which) if parts.owner[slot] is None):
                 moved = values.copy()
                 moved[which[k]] += shifts[k]
                 other = self.network.observation(moved, settings).see(seen[2][None], run.drive.dt)[0]
-                found[1 + k] = (other - seen[0])[run.first :]
+                found[1 + k] = (run.seen(other) - shown)[run.first :]
             block[:, self.pieces[number]] = self._weighed(number, found)
 
         spread(fill, range(len(self.runs)), jobs=self.jobs)
@@ -159,7 +161,8 @@ class Objective:
     def rmse(self, values: Array) -> Array:
         """The root mean square error of every run (runs, lanes) in N; a lane that fails has infinity."""
         values = np.atleast_2d(values)
-        if not all(self.network.observation(values, run.excitation.settings).plain for run in self.runs):
+        plain = all(self.network.observation(values, run.excitation.settings).plain for run in self.runs)
+        if not plain or any(run.kind == STEADY for run in self.runs):
             squares = np.array([np.mean(np.square(misfit), axis=1) for misfit in self._misfits(values, lambda _, m: m)])
         else:
             squares = self._scores(values)
@@ -203,12 +206,14 @@ class Objective:
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)
             for number in team:
-                yield number, see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
+                found = see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
+                yield number, self.runs[number].seen(found)
             return
         assert isinstance(rows, SystemRows)
         found = self.network.forces(rows, values)
         for number in team:
-            yield number, see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
+            shown = see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
+            yield number, self.runs[number].seen(shown)
 
 
 def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitening | None, shares: Array) -> Objective:

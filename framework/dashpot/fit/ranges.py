@@ -94,6 +94,8 @@ def _over_settings(value: Value, of: Value, sizes: Sizes) -> Value:
     assert of.over is not None
     if value.bounds is not None or of.over.way == "factor":
         return _ranged(value, sizes)
+    if of.over.way not in ("slope", "rate"):
+        return replace(value, bounds=value.sensible)
     spread = sizes.spreads.get(key_of(of.over), 1.0)
     natural = sizes.of_unit(of.unit)
     size = max(abs(of.number), natural[1] if natural else 0.0) if of.over.way == "slope" else 1.0

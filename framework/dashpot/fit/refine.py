@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
-from dashpot.fit.objective import Objective
 
 Array = NDArray[np.float64]
 
 STEP = 1e-5
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
+
+
+class Loss(Protocol):
+    """What is refined: the root mean square of a residual, and how the residual changes with the numbers."""
+
+    def losses(self, values: Array) -> Array:
+        """The loss of every lane (lanes,) of slots (lanes, slots) in SI; a lane that fails costs infinity."""
+
+    def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
+        """The residual (n,) at ``values`` (slots,) and its changes (len(which), n) when slots move."""
 
 
 class Outcome(Enum):
@@ -40,7 +50,7 @@ class Refined:
 
 
 def refine(
-    objective: Objective,
+    objective: Loss,
     coordinates: Coordinates,
     start: Array,
     steps: int = 40,
@@ -87,7 +97,7 @@ def refine(
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
-def linearise(objective: Objective, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
+def linearise(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
     """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates.
 
     A coordinate that cannot be moved one way is moved the other way; a row that neither gives is not finite, see
@@ -109,7 +119,7 @@ def unmoved(jacobian: Array) -> NDArray[np.bool_]:
     return np.asarray(~np.isfinite(jacobian).all(axis=1))
 
 
-def _changes(objective: Objective, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:
+def _changes(objective: Loss, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:
     values = coordinates.to_values(np.concatenate([point[None], point + np.diag(shifts)]))
     moves = values[np.arange(1, len(values)), coordinates.which] - values[0, coordinates.which]
     return objective.linearise(values[0], coordinates.which.tolist(), moves)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.data.reversals import noise_threshold, turning_points
 from dashpot.data.run import Run
+from dashpot.data.steady import SAMPLES, STEADY, fundamental_of
 
 Array = NDArray[np.float64]
 
@@ -22,7 +24,7 @@ class ScoredRun:
     """``force`` (n,) in N is measured; samples before ``first`` are the warm-up, in which friction finds its state.
 
     It is measured at the node ``end``, which moves by ``drive``; ``whole`` holds the motions of all nodes, and runs of
-    one ``record`` were measured together.
+    one ``record`` were measured together. ``weight`` is what it counts beside others.
     """
 
     name: str
@@ -33,6 +35,11 @@ class ScoredRun:
     end: str = ""
     record: str = ""
     whole: Excitation | None = None
+    weight: float = 1.0
+
+    def seen(self, force: Array) -> Array:
+        """Simulated forces (..., n) as the measurement would know them: of a steady sine the fundamental alone."""
+        return fundamental_of(force) if self.kind == STEADY else force
 
     @property
     def excitation(self) -> Excitation:
@@ -57,8 +64,19 @@ def score_run(run: Run) -> ScoredRun:
                      whole)  # fmt: skip
 
 
+def weighted(runs: Sequence[Run]) -> list[ScoredRun]:
+    """The runs as a fit sees them; rows of tables count by the scatter stated of them, on average as one run."""
+    noises = {run.name: run.sensors["force"]["noise"] for run in runs
+              if run.kind == STEADY and "noise" in run.sensors.get("force", {})}  # fmt: skip
+    mean = np.mean([noise**-2 for noise in noises.values()]) if noises else 1.0
+    return [replace(score_run(run), weight=float(noises[run.name] ** -2 / mean) if run.name in noises else 1.0)
+            for run in runs]  # fmt: skip
+
+
 def warm_up(run: Run) -> int:
     """Samples until the motion has been through one cycle; ``settings: {warm_up: 2 s}`` decides it by hand."""
+    if run.kind == STEADY:
+        return run.displacement.size - SAMPLES
     if "warm_up" in run.settings:
         return min(int(run.settings["warm_up"] / run.sample_time), run.displacement.size // 2)
     points = turning_points(run.displacement, max(noise_threshold(run.displacement), 1e-2 * np.ptp(run.displacement)))

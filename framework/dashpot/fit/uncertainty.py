@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
@@ -62,7 +63,8 @@ def assess_uncertainty(
 ) -> Uncertainty:
     """Sandwich covariance with blocks of half a second, so that coloured noise and small model errors count.
 
-    A block holds the same half second of all runs that were moved alike, since a model errs alike in them. The score of
+    A block holds the same half second of all runs that were moved alike, since a model errs alike in them; a row of a
+    table is in one block. The score of
     each block is corrected for what the fit has taken out of it, and the quantile is that of Student's t with the
     degrees of freedom that the blocks amount to, which are few where a number shows in a narrow band of a sweep only.
     ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, shifts
@@ -135,7 +137,7 @@ def _quantiles(freedom: Array) -> Array:
 def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     """W (p, k) with W W' the inverse where the data decide, and which parameters share in what they do not decide."""
     values, vectors = np.linalg.eigh(normal)
-    kept = values > UNDECIDED * values[-1]
+    kept = values > UNDECIDED * values.max(initial=0.0)
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
@@ -146,6 +148,7 @@ def _blocks(objective: Objective) -> list[NDArray[np.int64]]:
         length = max(1, min(round(BLOCK_SECONDS / run.drive.dt), run.samples // FEWEST_BLOCKS))
         pieces = [np.arange(objective.pieces[number].start, objective.pieces[number].stop) for number in group]
         longest = max(piece.size for piece in pieces)
+        length = longest if run.kind == STEADY else length
         found += [np.concatenate([piece[first : first + length] for piece in pieces])
                   for first in range(0, longest, length)]  # fmt: skip
     return found

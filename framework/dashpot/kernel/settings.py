@@ -86,6 +86,13 @@ def _at(over: Over, base: Array, numbers: Array, setting: float) -> Array:
         return base + numbers[:, 0] * (setting - over.at[0])
     if over.way == "rate":
         return base * np.exp(np.clip(numbers[:, 0] * (setting - over.at[0]), -STEEPEST, STEEPEST))
+    if over.way == "wlf":
+        away = setting - over.at[0]
+        # at C2 below the place nothing flows any more
+        shift = -numbers[:, 0] * away / np.maximum(numbers[:, 1] + away, 1e-3 * numbers[:, 1]) * np.log(10.0)
+        return base * np.exp(np.clip(shift, -STEEPEST, STEEPEST))
+    if over.way == "arrhenius":
+        return base * np.exp(np.clip(numbers[:, 0] * (1.0 / setting - 1.0 / over.at[0]), -STEEPEST, STEEPEST))
     # hats over the places: the outer ones go on as they are
     weights = np.array([np.interp(setting, over.at, hat) for hat in np.eye(len(over.at))])
     return base * (numbers @ weights)

@@ -47,15 +47,17 @@ def _read_data(node: Mapping, curve: Curve, reading: Reading) -> Characteristic 
     form = reading.form(node)
     data = form.choice("from", SOURCES)
     knots = form.integer("knots", 0)
+    refine = form.flag("refine", False)
     if "knots" in form and not FEWEST_KNOTS <= knots <= MOST_KNOTS:
         form.complain("knots", f"{reading.what}: expected {FEWEST_KNOTS} to {MOST_KNOTS} knots, got {knots}")
     if (curve.value[1], curve.over[1]) != ("N", "m"):
         reading.complain(form.key_place("from"), "expected a number, a polynomial or a table; only a force over "
                          f"deflection can be taken from data, not a {curve.value[0]} over {curve.over[0]}")  # fmt: skip
     if curve.over[0] in form or curve.value[0] in form:
-        return _read_table(form, curve, reading, data or "", knots)
+        table = _read_table(form, curve, reading, "identified" if refine else "fixed")
+        return replace(table, data=data or "", knots=knots, refine=refine) if table else None
     form.close()
-    return Characteristic(curve, "data", (), (), data or "", knots, node)
+    return Characteristic(curve, "data", (), (), data or "", knots, node, refine)
 
 
 def _read_polynomial(node: Mapping, curve: Curve, reading: Reading) -> Characteristic | None:
@@ -80,7 +82,7 @@ def _coefficient(node: Node, power: int, curve: Curve, reading: Reading) -> Valu
     return read_value(node, kind, reading.named(f"{reading.what}, power {power}"))
 
 
-def _read_table(form: Form, curve: Curve, reading: Reading, data: str = "", knots: int = 0) -> Characteristic | None:
+def _read_table(form: Form, curve: Curve, reading: Reading, role: Role = "fixed") -> Characteristic | None:
     at = form.quantities(*curve.over)
     entry = form.node(curve.value[0])
     if entry is None:
@@ -89,13 +91,13 @@ def _read_table(form: Form, curve: Curve, reading: Reading, data: str = "", knot
     form.close()
     if at is None or entry is None:
         return None
-    found = _read_column(entry, curve, reading, "identified" if data else "fixed")
+    found = _read_column(entry, curve, reading, role)
     if not found or not _is_sound(form, curve, reading, at, len(found)):
         return None
     values = tuple(value for value in found if value)
     if len(values) < len(found):
         return None
-    return Characteristic(curve, "table", values, tuple(at), data, knots, form.origin)
+    return Characteristic(curve, "table", values, tuple(at), node=form.origin)
 
 
 def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float], count: int) -> bool:

@@ -20,9 +20,11 @@ Hold = Literal["driven", "loaded", "ground", "free"]
 
 END, GROUND = "", "ground"  # the nodes of a network that has only two ends
 MASSES = ("mass", "added_mass")
-# what a number may do over a setting: rise along a line, grow by an exponential, follow factors between places
-Way = Literal["slope", "rate", "factor"]
-WAYS_OVER: tuple[Way, ...] = ("slope", "rate", "factor")
+# what a number may do over a setting: rise along a line, grow by an exponential, follow factors between places; over a
+# temperature: shift by the law of Williams, Landel and Ferry or by that of Arrhenius
+Way = Literal["slope", "rate", "factor", "wlf", "arrhenius"]
+WAYS_OVER: tuple[Way, ...] = ("slope", "rate", "factor", "wlf", "arrhenius")
+LISTED: tuple[Way, ...] = ("factor", "wlf")  # those with several numbers
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,10 @@ class Over:
     """How a number b depends on a setting s, or on the mean of a channel over a run.
 
     ``slope``: b + slope (s - at); ``rate``: b exp(rate (s - at)); ``factor``: b times a factor that goes along straight
-    lines between the places ``at`` and stays as it is outside of them. ``numbers`` are the slope, the rate or the
-    factors, fixed or to be found like all numbers. What comes out is kept inside the sensible range of b.
+    lines between the places ``at`` and stays as it is outside of them. With a temperature s in K, ``wlf``:
+    b 10^(-C1 (s - at) / (C2 + s - at)) with numbers C1 and C2, and ``arrhenius``: b exp(E (1 / s - 1 / at)) with an
+    activation energy over the gas constant E in K (Ferry, Viscoelastic Properties of Polymers, chapter 11).
+    ``numbers`` are fixed or to be found like all numbers. What comes out is kept inside the sensible range of b.
     """
 
     word: str
@@ -80,14 +84,17 @@ class Over:
     @property
     def endings(self) -> tuple[str, ...]:
         """What stands behind the path of b in the paths of the numbers."""
-        if self.way != "factor":
+        if self.way not in LISTED:
             return (f".{self.way}",)
-        return tuple(f".factor[{number}]" for number in range(len(self.numbers)))
+        return tuple(f".{self.way}[{number}]" for number in range(len(self.numbers)))
 
 
 @dataclass(frozen=True)
 class Characteristic:
-    """A curve of a file. ``at`` holds the knots of a table; ``data`` names the runs a curve is to be taken from."""
+    """A curve of a file. ``at`` holds the knots of a table; ``data`` names the runs a curve is to be taken from.
+
+    A curve from data is kept as these runs give it, or, with ``refine``, moved together with the other numbers.
+    """
 
     curve: Curve
     form: Form
@@ -96,6 +103,7 @@ class Characteristic:
     data: str = ""
     knots: int = 0
     node: Node | None = field(default=None, compare=False, repr=False)
+    refine: bool = False
 
 
 @dataclass(frozen=True)

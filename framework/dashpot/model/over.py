@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from dashpot.model.element import Scale
-from dashpot.model.network import WAYS_OVER, Over, Value
+from dashpot.model.network import LISTED, WAYS_OVER, Over, Value, Way
 from dashpot.text.form import Form, read_items
 from dashpot.text.node import Node, Scalar
 from dashpot.text.node import Sequence as Items
@@ -15,6 +15,11 @@ from dashpot.text.quantity import base_unit_of, measure
 
 UNBOUNDED = (-math.inf, math.inf)
 FACTORS = (1e-3, 1e3)
+# the numbers of a shift with temperature: name, unit, and the range in which they make sense
+SHIFTS = {
+    "wlf": (("C1", "1", (0.1, 100.0)), ("C2", "K", (5.0, 1000.0))),
+    "arrhenius": (("activation temperature", "K", (100.0, 1e5)),),
+}
 CALLED = {"kg^1*m^-1*s^-2": "Pa", "kg^1*m^1*s^-2": "N", "K^1": "K", "A^1": "A", "m^1": "m", "s^1": "s", "kg^1": "kg"}
 
 # a number at a node, with its unit, range and search scale, by the name that stands in messages
@@ -24,8 +29,9 @@ ReadNumber = Callable[[Node, str, tuple[float, float], Scale, str], Value | None
 def read_over(form: Form, unit: str, read: ReadNumber) -> Over | None:
     """The dependence of a number in ``unit``: ``{setting: pressure, at: 2 bar, slope: 5 N/bar}``.
 
-    Instead of ``setting`` there may be ``channel``, instead of ``slope`` a ``rate``, or a ``factor`` for each of
-    several places. None where something is wrong; every mistake is noted.
+    Instead of ``setting`` there may be ``channel``, instead of ``slope`` a ``rate``, a ``factor`` for each of several
+    places, or, over a temperature, ``wlf: [C1, C2]`` or ``arrhenius``. None where something is wrong; every mistake is
+    noted.
     """
     channel = "channel" in form
     word = form.text("channel" if channel else "setting")
@@ -47,6 +53,9 @@ def read_over(form: Form, unit: str, read: ReadNumber) -> Over | None:
     if way == "factor":
         factors = _factors(form, entry, at, read)
         return Over(word, way, at, factors, channel) if factors else None
+    if way in SHIFTS:
+        shift = _shift(form, way, entry, setting, read)
+        return Over(word, way, at, shift, channel) if shift else None
     per = "" if setting == "1" else f"/{CALLED.get(setting, f'({setting})')}"
     found = read(entry, (unit if way == "slope" else "1") + per, UNBOUNDED, "linear", way)
     return Over(word, way, at, (found,), channel) if found else None
@@ -66,6 +75,22 @@ def _places(node: Node, several: bool) -> tuple[tuple[float, ...], str]:
     if any(high <= low for low, high in pairwise(at)):
         raise ValueError("expected growing settings; sort them")
     return at, units.pop()
+
+
+def _shift(form: Form, way: Way, entry: Node, setting: str, read: ReadNumber) -> tuple[Value, ...]:
+    """The numbers of a shift with temperature."""
+    wanted = SHIFTS[way]
+    items = entry.items if isinstance(entry, Items) else () if way in LISTED else (entry,)
+    if CALLED.get(setting) != "K":
+        form.complain("at", f"{form.what}: expected a temperature, as '{way}' shifts by it", "write 'at: 23 degC'")
+    elif len(items) != len(wanted):
+        form.complain(way, f"{form.what}: expected [C1, C2], got {entry.describe()}", "write 'wlf: [17.44, 51.6 K]'")
+    else:
+        found = [read(item, unit, sensible, "log", name)
+                 for item, (name, unit, sensible) in zip(items, wanted, strict=True)]  # fmt: skip
+        values = tuple(value for value in found if value)
+        return values if len(values) == len(found) else ()
+    return ()
 
 
 def _factors(form: Form, entry: Node, at: tuple[float, ...], read: ReadNumber) -> tuple[Value, ...]:

@@ -178,7 +178,8 @@ def _curve_edit(curve: Characteristic, found: Characteristic) -> Edit:
     (value, unit), (over, over_unit) = curve.curve.value, curve.curve.over
     at = ", ".join(pretty(x, over_unit, DIGITS) for x in found.at)
     values = ", ".join(pretty(knot.number, unit, DIGITS) for knot in found.values)
-    text = f"{{from: {curve.data}, {over}: [{at}], {value}: [{values}]}}"
+    refine = "refine: true, " if found.refine else ""
+    text = f"{{from: {curve.data}, {refine}{over}: [{at}], {value}: [{values}]}}"
     return Edit(curve.node.start, curve.node.end, text)
 
 

@@ -146,6 +146,10 @@ def _over() -> Schema:
                            ("at", "slope"), "along a straight line"),
         "rate": s.mapping({**words, **place, "rate": s.part("value", "rise of its logarithm per setting")},
                           ("at", "rate"), "along an exponential"),
+        "wlf": s.mapping({**words, **place, "wlf": s.items(s.part("value"), "[C1, C2]", minItems=2, maxItems=2)},
+                         ("at", "wlf"), "over a temperature, by Williams, Landel and Ferry"),
+        "arrhenius": s.mapping({**words, **place, "arrhenius": s.part("value", "activation energy over R, K")},
+                               ("at", "arrhenius"), "over a temperature, by Arrhenius"),
     }  # fmt: skip
     table = s.mapping({**words, "at": s.items(s.quantity(), "growing", minItems=2),
                        "factor": s.items(s.part("value"), "one for each place", minItems=2)},
@@ -176,7 +180,8 @@ def _curve(curve: Curve) -> Schema:
 def _data(curve: Curve) -> Schema:
     over, value = curve.over[0], curve.value[0]
     keys = {"from": s.choice(SOURCES, "the runs that it is taken from"),
-            "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS), **_axes(curve)}  # fmt: skip
+            "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS),
+            "refine": s.flag("whether a fit moves it together with the other numbers"), **_axes(curve)}  # fmt: skip
     return s.mapping(keys, ("from",), dependencies={over: [value], value: [over]})
 
 

@@ -91,7 +91,7 @@ def look(data: AnyData, *, seed: int = 0, registry: Registry | None = None) -> L
         >>> "Force over velocity at mid stroke" in seen.pictures
         True
     """
-    return promoted(Look, look_at(_data(data, registry), seed))
+    return promoted(Look, look_at(_data(data, registry), seed, (registry or load_registry()).metrics.values()))
 
 
 def simulate(model: AnyModel, data: AnyData, *, refine: int = 1,

@@ -14,6 +14,7 @@ from dashpot.report.grids import (
     explainable_value,
     floor_origin,
     floor_value,
+    metrics_grid,
     parameters_grid,
     runs_grid,
 )
@@ -80,6 +81,7 @@ def _result(comparison: Json, evidence: Evidence) -> Iterator[Part]:
     yield comparison_grid(comparison)
     bars = [{"name": model["name"], **model["rmse"]} for model in comparison["models"] if model["rmse"]]
     yield figures.rmse_bars(bars, floor_value(comparison), explainable_value(comparison))
+    yield from _filled(metrics_grid(comparison))
     yield from _filled(runs_grid(comparison))
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 

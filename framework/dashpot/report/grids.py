@@ -50,6 +50,20 @@ def runs_grid(comparison: Json) -> Grid:
     return Grid("RMSE run by run", columns, rows, csv_name="runs.csv")
 
 
+def metrics_grid(comparison: Json) -> Grid:
+    """The metrics of the runs of a `dashpot-comparison/1`, measured and by every model."""
+    told = comparison.get("metrics") or ()
+    labels = list(dict.fromkeys(label for row in told for label in row["models"]))
+    columns = [Column("metric", "metric"), Column("run", "run"), UNIT, Column("measured", "measured", "", 4)]
+    columns += [Column(f"model {i}", label, "", 4) for i, label in enumerate(labels)]
+    rows = [
+        {key: row[key] for key in ("metric", "run", "unit", "measured")}
+        | {f"model {i}": row["models"].get(label) for i, label in enumerate(labels)}
+        for row in told
+    ]
+    return Grid("Metrics", columns, rows, csv_name="metrics.csv")
+
+
 def parameters_grid(comparison: Json) -> Grid:
     """The identified parameters, a column for each model, in rig units where the file says the unit."""
     models = [model for model in comparison["models"] if model.get("parameters")]

@@ -11,7 +11,7 @@ from dashpot.report import figures
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
 from dashpot.report.figures import excerpt
-from dashpot.report.grids import explainable_origin, explainable_value, floor_origin, floor_value
+from dashpot.report.grids import explainable_origin, explainable_value, floor_origin, floor_value, metrics_grid
 from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
 from dashpot.report.readable import join, quantity, shown_with_unit
 from dashpot.report.shapes import shape_figures
@@ -107,6 +107,8 @@ def _result(look: Json, evidence: Evidence) -> Iterator[Part]:
             shown.append((name, *shown_with_unit(value, "N"), ""))
     yield KeyFigures(shown)
     yield look_grid(look)
+    if look["metrics"]:
+        yield metrics_grid(look)
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 
 

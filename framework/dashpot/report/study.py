@@ -14,6 +14,7 @@ from dashpot.report.comparison import best_model, comparison_page
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
 from dashpot.report.readable import number, rig_unit, set_value
+from dashpot.study.masses import mass_sentence
 
 Json = Mapping[str, Any]
 
@@ -30,9 +31,9 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     added = [*axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
-    return replace(
-        page, title=f"Study {study['study']['name']}", lead=f"{about} {page.lead}".strip(), sections=sections
-    )
+    headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])
+    title, lead = f"Study {study['study']['name']}", f"{about} {page.lead}".strip()
+    return replace(page, title=title, headline=headline, lead=lead, sections=sections)
 
 
 def stages_grid(study: Json) -> Grid:

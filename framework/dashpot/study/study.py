@@ -18,7 +18,7 @@ def comparison_of(result: StudyResult) -> Comparison:
     """The models of a study side by side that are about the same runs as its last one."""
     last = result.models[-1].setting
     family = [model.fit for model in result.models if model.setting.dataset.digest == last.dataset.digest]
-    return Comparison(last, tuple(family), {}, result.study.seed)
+    return Comparison(last, tuple(family), {}, result.study.seed, metrics=result.metrics)
 
 
 def study_content(result: StudyResult) -> dict[str, Any]:

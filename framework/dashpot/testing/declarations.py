@@ -14,7 +14,7 @@ from dashpot.text.quantity import is_unit
 
 # what stands beside parameters in a file, and what the motion is called
 TAKEN = {*WAYS, *FOR_ALL, "old", "new", *RATES}
-CURVE_WORDS = {"from", "knots", "polynomial", "start", "value", "bounds", "scale", "interval"}
+CURVE_WORDS = {"from", "knots", "refine", "polynomial", "start", "value", "bounds", "scale", "interval"}
 
 
 def check_declarations(element: type[Element], seed: int | None = None) -> None:

@@ -9,6 +9,7 @@ from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.groups import group_repeats
 from dashpot.data.run import Run
+from dashpot.data.steady import STEADY
 from dashpot.text.problem import Place, Problem
 from dashpot.triage.actuator import actuator_harmonics
 from dashpot.triage.dropouts import lost_samples
@@ -51,7 +52,8 @@ def examine(dataset: Dataset) -> Triage:
     """Look for faults of the measurement. A dataset never loses its last run."""
     read = [Fault(run, found.fault, found.message, found.hint) for run, found in dataset.faults]
     whole = one_force_each(dataset).runs
-    measured = [run for run in whole if "force" in run.channels and "displacement" in run.channels]
+    measured = [run for run in whole
+                if "force" in run.channels and "displacement" in run.channels and run.kind != STEADY]  # fmt: skip
     copied = duplicate_runs(measured) + [fault for run in measured if (fault := lost_samples(run))]
     runs = _without(measured, copied)
     turned = work_faults(runs)

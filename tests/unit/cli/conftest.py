@@ -46,6 +46,7 @@ def registry(monkeypatch: pytest.MonkeyPatch) -> Registry:
         specimens=empty,
         rigs=empty,
         exports=empty,
+        metrics=empty,
         origins={("optimizers", "swarm"): BUILT_IN},
         plugins=(BUILT_IN, FOREIGN),
         faults=(PluginFault(FOREIGN, "cannot be loaded: ImportError: no"), PluginFault(FOREIGN, "gave 7")),

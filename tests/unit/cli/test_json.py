@@ -17,7 +17,9 @@ KEYS = {
     "check gehmann --against gehmann": {"specs", "against"},
     "draw gehmann": {"network", "file", "drawing"},
     "doctor": {"healthy", "findings"},
-    "simulate n.yaml --rig triangle": {"network", "runs", "output", "numerical_error", "outside_of_identification"},
+    "simulate n.yaml --rig triangle": {
+        "network", "runs", "output", "numerical_error", "outside_of_identification", "metrics",
+    },
 }
 
 

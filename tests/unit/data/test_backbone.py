@@ -13,7 +13,7 @@ from dashpot.data.backbone import (
     friction_start,
     touch_point,
 )
-from dashpot.data.loop import mean_loop
+from dashpot.data.loop import mean_loop, middle_of_loop
 
 MILLIMETRE = 1e-3
 # Two sliders that together are 123 N wide in the middle of 30 mm.
@@ -202,3 +202,15 @@ def test_a_test_that_does_not_move_or_is_too_short_is_refused(displacement):
 def test_noise_at_rest_is_not_a_slow_test(random):
     with pytest.raises(ValueError, match="moves further than its noise"):
         extract_backbone(random.normal(0.0, 1e-6, 3000), np.zeros(3000))
+
+
+def test_the_matrix_of_the_mid_line_keeps_what_both_directions_share_and_drops_what_they_differ_by():
+    way = np.linspace(0.0, 30.0 * MILLIMETRE, 500)
+    path = np.concatenate([way, way[-2::-1], way[1:], way[-2::-1]])
+    middle, side = middle_of_loop(path), np.sign(np.gradient(path))
+    inner = slice(2, -2)  # a bin at an end holds the sample at which the motion turns
+    assert middle.sum(axis=1) == pytest.approx(1.0)
+    assert (middle @ (100.0 * side))[inner] == pytest.approx(0.0, abs=1e-9)
+    shared = middle @ (2e5 * path)
+    assert shared[inner] == pytest.approx(mean_loop(path, 2e5 * path + 100.0 * side).middle[inner], abs=10.0)
+    assert np.all(np.diff(shared) > 0.0)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from seeds import seed_of
 from unit.fit.bench import DT, network, run
 
 from dashpot.data.drive import drive_from_samples
-from dashpot.fit.grounding import correct_ends, ground_curves, table_of, widest
+from dashpot.fit.grounding import correct_ends, free_curves, ground_curves, widest
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.network import compile_network
 
 SPRING = "rubber: {element: spring, stiffness: {from: quasi_static}}"
 FRICTION = "friction: {element: dahl, stiffness: 5e4, limit: 50}"
@@ -46,7 +46,7 @@ def force_of(spec):
 def test_without_friction_the_loop_is_the_curve():
     curve = curve_of(ground_curves(network(SPRING), [loop(20e-3, 0.0)]))
     assert curve.form == "table" and curve.data == "quasi_static"
-    assert all(value.role == "identified" for value in curve.values)
+    assert all(value.role == "fixed" and value.known for value in curve.values)
     force = np.array([value.number for value in curve.values])
     assert force == pytest.approx(progressive(np.array(curve.at)), abs=2.0)
 
@@ -99,8 +99,33 @@ def test_a_curve_that_has_its_numbers_keeps_them():
     assert ground_curves(once, [loop(5e-3, 0.0)]) == once
 
 
-def test_the_knots_of_a_grounded_curve_may_be_searched_within_its_span():
-    curve = curve_of(network(SPRING))
-    table = table_of(curve, np.array([0.0, 1e-2]), np.array([0.0, 2e3]))
-    assert [value.bounds for value in table.values] == [(-2e3, 2e3), (0.0, 4e3)]
-    assert compile_network(network(SPRING).with_curve("rubber.stiffness", table)).start.tolist() == [0.0, 2e3]
+def test_a_curve_to_be_refined_is_searched_within_its_span():
+    spec = network("rubber: {element: spring, stiffness: {from: quasi_static, refine: true, knots: 2}}")
+    curve = curve_of(ground_curves(spec, [loop(20e-3, 0.0)]))
+    low, high = (value.number for value in curve.values)
+    assert [value.role for value in curve.values] == ["identified", "identified"]
+    bounds = [bound for value in curve.values for bound in value.bounds]
+    assert bounds == pytest.approx([2 * low - high, high, low, 2 * high - low], rel=1e-9)
+    assert curve_of(free_curves(ground_curves(network(SPRING), [loop(20e-3, 0.0)]))).refine
+
+
+def test_without_a_loop_and_beyond_it_only_a_fit_can_tell_the_knots():
+    dynamic = run("fast", 8e-3, 3.0, elastic, middle=16e-3)
+    alone = curve_of(ground_curves(network(SPRING), [dynamic]))
+    assert alone.refine and all(value.searched for value in alone.values)
+    beside = curve_of(ground_curves(network(SPRING), [loop(20e-3, 0.0), dynamic]))
+    assert not beside.refine
+    assert [at for at, value in zip(beside.at, beside.values, strict=True) if value.searched] == [
+        pytest.approx(24e-3, abs=1e-6)
+    ]
+
+
+def test_the_intervals_of_kept_knots_are_those_of_the_mean_of_noise():
+    found = []
+    for seed in range(40):
+        noisy = loop(20e-3, 0.0)
+        noisy.force[:] += 5.0 * np.random.default_rng([seed_of("kept knots"), seed]).standard_normal(noisy.force.size)
+        curve = curve_of(ground_curves(network(SPRING), [noisy]))
+        inner = range(2, len(curve.at) - 2)
+        found += [low <= progressive(curve.at[k]) <= high for k in inner for low, high in [curve.values[k].interval]]
+    assert 0.9 < np.mean(found) < 0.99

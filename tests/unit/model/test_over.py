@@ -28,6 +28,9 @@ LINE = "{start: 30 N, over: {setting: pressure, at: 2 bar, slope: {start: 5 N/ba
 RATE = "{fixed: 30 N, over: {channel: temperature, at: 20 degC, rate: -1 %/K}}"
 TABLE = "{start: 30 N, over: {setting: current, at: [0 A, 1 A, 2 A], factor: [1, {start: 2}, {start: 2.5}]}}"
 
+WLF = "{start: 30 N, over: {setting: temperature, at: 20 degC, wlf: [17.44, {start: 51.6 K}]}}"
+ARRHENIUS = "{start: 30 N, over: {channel: temperature, at: 20 degC, arrhenius: {start: 5000 K}}}"
+
 
 def slots(spec):
     return {slot.path: slot.value for slot in spec.slots()}
@@ -58,7 +61,10 @@ def test_factors_between_places():
 
 @pytest.mark.parametrize(("number", "message"), [
     ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. say at which setting"),
-    ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor"),
+    ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
+    ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
+    ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
+    ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
     ("{start: 30 N, over: {at: 2 bar, slope: 1 N/bar}}", "lacks 'setting'"),
     ("{start: 30 N, over: {setting: p, at: 2 bar, slope: 1 N/mm}}", "expected a quantity in N/Pa, got 'N/mm'"),
     ("{start: 30 N, over: {setting: p, at: 2 furlong, slope: 1 N}}", "unknown unit 'furlong'"),
@@ -86,7 +92,16 @@ def test_most_numbers_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
         read("30 N", f"  s: {{element: spring, stiffness: {{deflection: [0 mm, 1 mm], force: [0 N, {over}]}}}}\n")
 
 
-@pytest.mark.parametrize("number", [LINE, RATE, TABLE])
+def test_shifts_with_temperature():
+    found = slots(read(WLF))
+    assert list(found)[2:] == ["it.limit.wlf[0]", "it.limit.wlf[1]"]
+    assert [(value.number, value.unit, value.searched) for value in list(found.values())[2:]] == [
+        (17.44, "1", False), (51.6, "K", True)]  # fmt: skip
+    found = slots(read(ARRHENIUS))
+    assert found["it.limit.arrhenius"].number == 5000.0 and found["it.limit"].over.at == (pytest.approx(293.15),)
+
+
+@pytest.mark.parametrize("number", [LINE, RATE, TABLE, WLF, ARRHENIUS])
 def test_the_schema_knows_them(number):
     validator = Draft7Validator(network_schema(ELEMENTS))
     assert not list(validator.iter_errors(Document.parse(text(number)).root.plain()))

@@ -169,6 +169,9 @@ def test_a_curve_from_data_becomes_a_table_that_still_says_so():
     assert "# from the loop" in text
     again = fill_numbers(read(text), read(text), {})
     assert again == text
+    moved_along = fill_numbers(spec, fitted.with_curve(path, replace(fitted.curves()[path], refine=True)), {})
+    (found,) = read(moved_along).data_curves().values()
+    assert found.refine and {value.role for value in found.values} == {"identified"}
 
 
 @pytest.mark.parametrize("name", shipped_networks())
@@ -178,7 +181,8 @@ def test_every_shipped_network_can_be_filled_in(name):
     values = tuple(Value(force, "N", "identified", scale="linear") for force in (0.0, 900.0, 2100.0))
     taken = spec
     for path, curve in spec.data_curves().items():
-        taken = taken.with_curve(path, replace(curve, form="table", values=values, at=(0.0, 0.005, 0.01)))
+        table = replace(curve, form="table", values=values, at=(0.0, 0.005, 0.01), refine=True)
+        taken = taken.with_curve(path, table)
     fitted = moved(taken, 8)
     text = fill_numbers(spec, fitted, {"data": "abc"})
     assert_filled(text, fitted, elements)

@@ -136,16 +136,15 @@ def test_a_curve_may_be_a_slope_a_polynomial_a_table_or_come_from_data():
     assert spec.data_curves()["d.stiffness"].knots == 12
 
 
-def test_a_curve_from_data_with_numbers_is_a_table_that_was_identified():
-    (curve,) = (
-        network("""
-        it: {element: elastic, stiffness: {from: quasi_static, deflection: [0 mm, 9 mm], force: [0 N, 2 kN]}}
-    """)
-        .data_curves()
-        .values()
-    )
-    assert (curve.form, curve.data) == ("table", "quasi_static")
-    assert [value.role for value in curve.values] == ["identified", "identified"]
+@pytest.mark.parametrize(
+    ("refine", "role"), [("", "fixed"), ("refine: false, ", "fixed"), ("refine: true, ", "identified")]
+)
+def test_a_curve_from_data_with_numbers_is_a_table_that_is_kept_unless_it_is_to_be_refined(refine, role):
+    knots = "deflection: [0 mm, 9 mm], force: [0 N, 2 kN]"
+    spec = network(f"it: {{element: elastic, stiffness: {{from: quasi_static, {refine}{knots}}}}}")
+    (curve,) = spec.data_curves().values()
+    assert (curve.form, curve.data, curve.refine) == ("table", "quasi_static", role == "identified")
+    assert [value.role for value in curve.values] == [role, role]
 
 
 def test_a_scale_is_a_table_of_factors_over_deflection():
@@ -348,6 +347,7 @@ def test_a_wrong_number_is_told(entry, told):
     ("{deflection: [0, 1], force: [1 mm, 2 N]}", "it.stiffness: expected a quantity in N, got 'mm'"),
     ("{from: sweep}", "expected one of quasi_static, got 'sweep'"),
     ("{from: quasi_static, knots: 1}", "expected 2 to 200 knots, got 1"),
+    ("{from: quasi_static, refine: 3}", "expected true or false"),
     ("{from: quasi_static, knot: 9}", "has no key 'knot'. did you mean 'knots'?"),
 ])  # fmt: skip
 def test_a_wrong_curve_is_told(curve, told):

@@ -89,6 +89,15 @@ def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told(
     assert sum("other structures say" in text for text in told) == 1
 
 
+def test_the_headline_of_a_study_of_masses_is_the_mass_with_its_interval():
+    content = answered(study())
+    mass = content["masses"][0]
+    headline = study_page(content, comparison_evidence()).headline
+    assert headline.startswith(f"wheel: {mass['value']:.2f} kg, 95 % interval 39.00 to 41.50 kg; from {mass['model']}")
+    assert "is closest" in headline
+    assert not study_page({**content, "masses": []}, comparison_evidence()).headline.startswith("wheel")
+
+
 def masses(without: float, interval: list[float]) -> dict:
     content = study()
     for each in content["models"]:

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import dashpot
+from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
@@ -66,11 +67,12 @@ class ModelResult:
 
 @dataclass(frozen=True, eq=False)
 class StudyResult:
-    """What a study found, model by model in its order."""
+    """What a study found, model by model in its order; ``metrics`` are told of every run that has them."""
 
     study: StudySpec
     setting: Setting
     models: tuple[ModelResult, ...]
+    metrics: tuple[type[Metric], ...] = ()
 
 
 @single_threaded_algebra
@@ -97,7 +99,7 @@ def run_study(
     records = Checkpoint(checkpoint)
     records.open(fingerprint(study, dataset))
     conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
-    return StudyResult(study, setting, tuple(conduct.models()))
+    return StudyResult(study, setting, tuple(conduct.models()), tuple(registry.metrics.values()))
 
 
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
@@ -202,8 +204,10 @@ class _Conduct:
         effects = [effect(coordinates, moved) for moved in known.moved]
         owed = tuple(Owed(each.branch, each.model, each.share, numbers)
                      for each, numbers in zip(allowed, effects, strict=False))  # fmt: skip
+        curves = set(spec.data_curves())
         to_known = tuple(OwedToKnown.of(each, numbers)
-                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True))  # fmt: skip
+                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
+                        if each.path.partition("[")[0] not in curves)  # fmt: skip
         return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
                            self._profiles(plan, objective, coordinates), owed, to_known)  # fmt: skip
 

@@ -13,8 +13,9 @@ from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.fit.api import OWN_METHOD
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
+from dashpot.fit.kept_curves import refinement
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Outcome, refine
+from dashpot.fit.refine import Loss, Outcome, Refined, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
 from dashpot.fit.starts import refine_from_starts
@@ -66,8 +67,12 @@ def search(
     objective = Objective(compile_network(spec), task.runs, task.jobs, weights=task.weights)
     if not coordinates.paths:
         return spec, _nothing(stage, objective, coordinates)
+    if stage.optimizer == OWN_METHOD and stage.starts == 1:
+        whole = refinement(spec, objective, stage.frees)
+        known = _recorded(record(0), lambda keep: _refine(whole.loss, whole.coordinates, stage))
+        return whole.at(np.array(known["point"])), _summed(stage, whole.coordinates, [known])
     if stage.optimizer == OWN_METHOD:
-        found = [_recorded(record(0), lambda keep: _refine(objective, coordinates, stage, task.seed, watch))]
+        found = [_recorded(record(0), lambda keep: _refine_starts(objective, coordinates, stage, task.seed, watch))]
     else:
         found = [_start(number, stage, task, objective, coordinates, record, watch) for number in range(stage.starts)]
     found = sorted(found, key=lambda each: each["loss"])
@@ -121,19 +126,25 @@ def _start(
     return _recorded(record(number), work)
 
 
-def _refine(
+def _refine(loss: Loss, coordinates: Coordinates, stage: SearchStage) -> dict[str, Any]:
+    """The framework's own method from one start."""
+    refined = refine(loss, coordinates, coordinates.start, steps=stage.budget, budget=stage.budget)
+    return _own_result(refined, refined.evaluations, ((refined.evaluations, refined.loss),), (refined.loss,))
+
+
+def _refine_starts(
     objective: Objective, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
 ) -> dict[str, Any]:
-    """The framework's own method: a refinement, or several starts with one."""
-    if stage.starts > 1:
-        best = refine_from_starts(
-            objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget
-        )
-        refined, spread, evaluations, history = best.refined, best.spread, best.evaluations, best.history
-    else:
-        refined = refine(objective, coordinates, coordinates.start, steps=stage.budget, budget=stage.budget)
-        spread, evaluations = (refined.loss,), refined.evaluations
-        history = ((evaluations, refined.loss),)
+    """The framework's own method from several starts."""
+    best = refine_from_starts(
+        objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget
+    )
+    return _own_result(best.refined, best.evaluations, best.history, best.spread)
+
+
+def _own_result(
+    refined: Refined, evaluations: int, history: Sequence[tuple[int, float]], spread: Sequence[float]
+) -> dict[str, Any]:
     return {
         "point": refined.point.tolist(),
         "loss": refined.loss,

@@ -1,0 +1,138 @@
+"""Inspection tests on a virtual quarter car; truth: its frequency response in closed form, and forces made by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from dashpot import load_registry
+from dashpot.contract.bench import find_bench
+from dashpot.data.run import Run
+from dashpot.fit.virtual_test import virtual_test
+from dashpot.model.reading import parse_network
+from dashpot_metrics.eusama import Eusama
+from dashpot_metrics.phase_shift import PhaseShift, angles
+
+REGISTRY = load_registry()
+BODY, WHEEL, SPRING, TIRE, TIRE_DAMPING, GRAVITY = 346.0, 36.0, 25.57e3, 253.2e3, 150.0, 9.81
+STATIC, AMPLITUDE = (BODY + WHEEL) * GRAVITY, 3e-3
+CAR = f"""\
+format: dashpot-network/1
+name: car
+gravity: {GRAVITY} m/s^2
+nodes:
+  platform: driven
+  wheel: {{mass: {WHEEL} kg, added_mass: {{setting: added_mass, value: 0 kg}}}}
+  body: {{mass: {BODY} kg}}
+branches:
+  tire: {{element: spring, stiffness: {TIRE}, between: [platform, wheel], offset: {STATIC / TIRE}}}
+  carcass: {{element: damper, damping: {TIRE_DAMPING}, between: [platform, wheel]}}
+  suspension: {{element: spring, stiffness: {SPRING}, between: [wheel, body], offset: {BODY * GRAVITY / SPRING}}}
+  absorber: {{element: damper, damping: DAMPING, between: [wheel, body]}}
+"""
+
+
+def response(frequency, damping: float, tire: float = TIRE, wheel: float = WHEEL):
+    """Contact force over platform motion, N/m: two masses on springs, after a textbook."""
+    s = 2j * np.pi * np.asarray(frequency)
+    contact, inner = tire + s * TIRE_DAMPING, SPRING + s * damping
+    return contact * (1.0 - contact / (contact + wheel * s**2 + inner * BODY * s**2 / (BODY * s**2 + inner)))
+
+
+def least_angle(damping: float) -> float:
+    return float(np.min(180.0 - np.abs(np.degrees(np.angle(response(np.arange(6.0, 18.0, 0.05), damping))))))
+
+
+def measured(rig: str, damping: float, **options: str) -> list[Run]:
+    spec = parse_network(CAR.replace("DAMPING", str(damping)), REGISTRY.elements)
+    bench = find_bench(rig, REGISTRY.rigs, {"sampling": "500 Hz", **options})
+    return [replace(run, channels={"displacement": run.channels["displacement@platform"],
+                                   "force": run.channels["force@platform"]} if "force@platform" in run.channels
+                    else run.channels) for run in virtual_test(spec, bench)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("damping", "told"), [(300.0, 18.0), (600.0, 35.0), (1474.0, 71.0)])
+def test_the_least_angle_is_that_of_the_frequency_response(damping, told):
+    """``told`` are values of the same car from an implementation of others, to a degree."""
+    (run,) = measured("phase_shift", damping)
+    assert least_angle(damping) == pytest.approx(told, abs=1.0)
+    assert PhaseShift().measure(run) == pytest.approx(least_angle(damping), abs=2.0)
+
+
+@pytest.mark.parametrize("damping", [800.0, 1474.0, 3000.0])
+def test_the_least_contact_force_is_that_of_the_frequency_response(damping):
+    (run,) = measured("eusama", damping)
+    frequency = np.arange(1.0, 25.0, 0.02)
+    truth = 100.0 * (1.0 - AMPLITUDE * np.abs(response(frequency, damping)).max() / STATIC)
+    assert Eusama().measure(run) == pytest.approx(truth, abs=1.5)
+
+
+def test_a_wheel_that_leaves_the_platform_has_no_adhesion():
+    (run,) = measured("eusama", 100.0)
+    assert run.force.min() < 0.0  # this car's tire can pull
+    assert Eusama().measure(run) == 0.0
+
+
+def test_added_masses_are_runs_of_their_own():
+    light, heavy = measured("eusama", 1474.0, added_masses="0 kg, 10 kg")
+    assert [run.name for run in (light, heavy)] == ["eusama_m0", "eusama_m10"]
+    frequency = np.arange(1.0, 25.0, 0.02)
+    static = STATIC + 10.0 * GRAVITY
+    truth = 100.0 * (1.0 - AMPLITUDE * np.abs(response(frequency, 1474.0, wheel=WHEEL + 10.0)).max() / static)
+    assert Eusama().measure(heavy) == pytest.approx(truth, abs=1.5)
+    assert Eusama().measure(light) != pytest.approx(truth, abs=1.5)
+
+
+def first_crossings(run: Run) -> float:
+    """The least angle as taken from the first two crossings behind each top: the trap."""
+    static, time, force = float(np.mean(run.force[:200])), run.time, run.force
+    path = run.displacement
+    tops = np.flatnonzero((path[1:-1] > path[:-2]) & (path[1:-1] >= path[2:]) & (path[1:-1] > 1e-3)) + 1
+    found = []
+    for top, after in zip(tops, tops[1:], strict=False):
+        inside = np.arange(top, after)
+        crossed = inside[np.flatnonzero(np.diff(np.sign(force[inside] - static)) != 0)]
+        frequency = 1.0 / (time[after] - time[top])
+        if crossed.size >= 2 and 6.0 <= frequency <= 18.0:
+            found.append(360.0 * frequency * (0.5 * (time[crossed[0]] + time[crossed[1]]) - time[top]))
+    return min(found)
+
+
+def test_the_first_two_crossings_behind_a_top_never_fail_a_car():
+    """With a third of the damping that is wanted the trough lies less than 35 degrees behind the top."""
+    (run,) = measured("phase_shift", 300.0)
+    assert PhaseShift().measure(run) < 25.0
+    assert first_crossings(run) > 80.0
+
+
+@pytest.mark.parametrize("angle", [10.0, 60.0, 89.0, 91.0, 150.0])
+def test_every_angle_of_a_force_made_by_hand_is_found(angle):
+    time = 1e-3 * np.arange(20000)
+    phase = 2.0 * np.pi * (25.0 * time - 0.5 * time**2)
+    moving = np.clip(time - 0.5, 0.0, 1.0)
+    force = 4000.0 - 2000.0 * moving * np.cos(phase - np.radians(angle)) + 150.0 * np.sin(1200.0 * time)
+    run = Run("made", "sweep", time, {"displacement": AMPLITUDE * moving * np.cos(phase), "force": force},
+              {"start": 25.0, "stop": 5.0})  # fmt: skip
+    frequency, found = angles(run)
+    inside = (frequency > 6.0) & (frequency < 18.0)
+    assert np.median(found[inside]) == pytest.approx(angle, abs=1.0)
+    assert PhaseShift().measure(run) == pytest.approx(angle, abs=2.0)
+
+
+@pytest.mark.parametrize(("kind", "start", "stop", "mean"), [
+    ("sweep", 1.0, 25.0, 4000.0), ("sweep", 12.0, 5.0, 4000.0), ("harmonic", 25.0, 5.0, 4000.0),
+    ("sweep", 25.0, 5.0, 0.0),
+])  # fmt: skip
+def test_other_tests_have_no_such_number(kind, start, stop, mean):
+    time = 1e-3 * np.arange(4000)
+    x = AMPLITUDE * np.sin(60.0 * time)
+    run = Run("other", kind, time, {"displacement": x, "force": mean - 1e5 * x - 1.0}, {"start": start, "stop": stop})
+    assert Eusama().measure(run) is None and PhaseShift().measure(run) is None
+
+
+def test_a_test_that_cannot_be_driven_is_refused():
+    for options in ({"start": "5 Hz"}, {"sampling": "100 Hz"}, {"amplitude": "0 mm"}):
+        with pytest.raises(ValueError, match=r"expected|sampling"):
+            find_bench("phase_shift", REGISTRY.rigs, options)
