@@ -20,13 +20,17 @@ from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
+from dashpot.fit.identifiability import identifiability
 from dashpot.fit.known import known_numbers
+from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
+from dashpot.fit.order import in_order, interchangeable
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
@@ -64,6 +68,11 @@ class Setting:
     def train(self) -> list[ScoredRun]:
         """The training runs."""
         return [self.scored[name] for name in self.split.train]
+
+    @property
+    def train_runs(self) -> tuple[Run, ...]:
+        """The training runs as they were measured."""
+        return self.dataset.select(self.split.train).runs
 
     @property
     def held_out(self) -> list[ScoredRun]:
@@ -139,9 +148,11 @@ def fit_prepared(
     polished = refine(
         objective, coordinates, coordinates.start, POLISH_STEPS, watch=watch.steps("polish", POLISH_STEPS)
     )
+    families = interchangeable(spec, corrected)
+    point = coordinates.of_values(in_order(families, coordinates.to_values(polished.point))[0])
     shifts = [each.shift for each in known_numbers(objective)]
-    known = assess_uncertainty(objective, coordinates, polished.point, shifts, setting.floor.value)
-    fitted = with_point(corrected, coordinates, polished.point)
+    known = assess_uncertainty(objective, coordinates, point, shifts, setting.floor.value)
+    fitted = with_point(corrected, coordinates, point)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(
         declared=spec,
@@ -159,6 +170,7 @@ def fit_prepared(
         spread=best.spread,
         history=best.history,
         seen=seen_range(spec, setting.train),
+        known=identifiability(objective, coordinates, point, noise_of_runs(setting.train_runs, setting.floor)),
     )
 
 

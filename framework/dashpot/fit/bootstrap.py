@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
+from dashpot.fit.order import Interchangeable, in_order
 from dashpot.fit.refine import refine
 
 Array = NDArray[np.float64]
@@ -26,12 +27,14 @@ def bootstrap_intervals(
     draws: int,
     seed: int,
     watch: Callable[[int], None] = lambda done: None,
+    families: tuple[Interchangeable, ...] = (),
 ) -> tuple[tuple[float, float], ...]:
     """95 % percentile intervals in SI from ``draws`` refits, each from the fitted point (p,).
 
     ``groups`` (runs,) holds for each run of the objective its kind and its group of repeats: whole groups are drawn,
     each kind for itself, so that a kind of test that was made once takes part in every draw. The intervals hold what
-    differs from run to run, such as model errors, beside the noise.
+    differs from run to run, such as model errors, beside the noise. Branches of the ``families`` stand in order in
+    each refit.
 
     Source: Davison and Hinkley, Bootstrap methods and their application (1997), section 2.4 and 3.8.
     """
@@ -40,7 +43,7 @@ def bootstrap_intervals(
     for number in range(draws):
         weights = objective.shares * _drawn(groups, rng)
         refined = refine(objective.weighing(weights), coordinates, point, STEPS, TOLERANCE)
-        found.append(refined.point)
+        found.append(coordinates.of_values(in_order(families, coordinates.to_values(refined.point))[0]))
         watch(number + 1)
     low, high = np.percentile(np.array(found), QUANTILES, axis=0)
     return tuple(zip(coordinates.numbers(low), coordinates.numbers(high), strict=True))
