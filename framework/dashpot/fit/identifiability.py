@@ -12,7 +12,7 @@ from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, unmoved
+from dashpot.fit.refine import linearise_marked
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
@@ -105,9 +105,7 @@ def identifiability(
     inverse of J J' and N the covariance of the noise, whose colour counts; for white noise that is Fisher's.
     ``objective`` may weigh runs but not whiten them.
     """
-    _, jacobian = linearise(objective, coordinates, point)
-    unsolved = unmoved(jacobian)
-    jacobian[unsolved] = 0.0
+    _, jacobian, unsolved = linearise_marked(objective, coordinates, point)
     size = np.sqrt(np.sum(jacobian**2, axis=1))
     idle = ~unsolved & (size < FELT * max(size.max(initial=0.0), 1e-300))
     felt = np.flatnonzero(~idle & ~unsolved)
