@@ -121,9 +121,8 @@ def find_turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]
     """Where the cubic path turns between samples: step (index of its end) and displacement, in the order of time."""
     pieces = [(first, *_turns(dt, x[first : first + PIECE + 1], v[first : first + PIECE + 1]))
               for first in range(0, x.size - 1, PIECE)]  # fmt: skip
-    step, place = (np.concatenate(each) for each in ([first + step for first, step, _ in pieces],
-                                                     [place for *_, place in pieces]))  # fmt: skip
-    return step, place
+    steps = np.concatenate([first + step for first, step, _ in pieces])
+    return steps, np.concatenate([place for *_, place in pieces])
 
 
 def _turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
