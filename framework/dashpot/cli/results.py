@@ -157,7 +157,10 @@ def comparison_text(comparison: Comparison) -> str:
     from dashpot.report.tables import plain_table
 
     content = comparison.as_dict()
-    return f"{plain_table(comparison_grid(content))}\n{comparison_headline(content)}"
+    told = [f"{model['name']}: {sentence}" for model in content["models"]
+            for known in [model.get("identifiability") or {"weak": (), "may_go": ()}]
+            for sentence in (*known["weak"], *known["may_go"])]  # fmt: skip
+    return "\n".join([plain_table(comparison_grid(content)), comparison_headline(content), *told])
 
 
 def look_text(look: Look) -> str:

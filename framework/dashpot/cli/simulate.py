@@ -39,8 +39,10 @@ ROWS = 50_000  # that are written at a time
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".',
               shell_complete=complete.settings)  # fmt: skip
 @click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
-@click.option("--refine", metavar="N", type=click.IntRange(1, 1000), default=1,
-              help="N times as many steps between two samples, where nodes are free to move.")  # fmt: skip
+@click.option("--tolerance", metavar="SHARE", type=click.FloatRange(1e-9, 1.0), default=1e-3, show_default=True,
+              help="Error that is allowed, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
+@click.option("--refine", metavar="N", type=click.IntRange(1, 1000),
+              help="N times as many steps between two samples as usual, in place of a tolerance.")  # fmt: skip
 @click.option("--table", is_flag=True, help="Of the rows of tables of dynamic stiffness one table: stiffness.csv.")
 @output_option("A folder; with --data also a file ending in .npz.")
 @switches("seed", "json", "quiet", "force", "backend", "allow_outside")
@@ -50,7 +52,8 @@ def verb(
     rig: str | None,
     settings: tuple[str, ...],
     energy: bool,
-    refine: int,
+    tolerance: float,
+    refine: int | None,
     table: bool,
     output: Path,
     switches: Switches,
@@ -75,16 +78,17 @@ def verb(
     if table and (dataset is None or energy):
         raise click.UsageError("--table goes with --data, and without --energy")
     if rig is not None:
-        return measure_on(rig, settings, network, output, session, energy, refine)
+        return measure_on(rig, settings, network, output, session, energy, refine or 1)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
     if table:
-        return tabulate(dataset, network, output, session, refine)
-    return follow(dataset, network, output, session, energy, refine)
+        return tabulate(dataset, network, output, session, refine or 1)
+    return follow(dataset, network, output, session, energy, refine, tolerance)
 
 
-def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool, refine: int) -> None:
+def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool, refine: int | None,
+           tolerance: float) -> None:  # fmt: skip
     """Write the force along every measured run; no more than one of them is in memory at a time."""
     from dashpot.data.excitation import Excitation
     from dashpot.kernel.api import forces_by_name, solve_each
@@ -99,7 +103,10 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
     with folder.together() as results:
         with session.watch("compiling") as progress:
-            for run, solution in solve_each(network, runs, len(runs.names), refine=refine, progress=progress):
+            solved = solve_each(
+                network, runs, len(runs.names), refine=refine, tolerance=tolerance, progress=progress
+            )
+            for run, solution in solved:
                 if archive:
                     forces.add(forces_by_name({run.name: solution}))
                 else:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 from typing import Any
 
 import dashpot
 from dashpot.fit.api import Setting
 from dashpot.fit.floor import false_repeats
-from dashpot.fit.result import FitResult
+from dashpot.fit.result import FitResult, identifiability_of
 
 
 def provenance_of(setting: Setting, seed: int) -> dict[str, Any]:
@@ -38,7 +38,14 @@ def warnings_of(setting: Setting, fits: Sequence[FitResult]) -> list[str]:
         found.append(f"No errors on unseen runs: {setting.split.reason}.")
     if setting.floor.source != "repeats":
         found.append("No repeated runs: the noise floor is estimated from the record itself.")
-    return found + [_at_bound(fit) for fit in fits if fit.at_bound]
+    found += [_at_bound(fit) for fit in fits if fit.at_bound]
+    return found + [told for fit in fits for told in _not_told(fit)]
+
+
+def _not_told(fit: FitResult) -> Iterator[str]:
+    known = identifiability_of(fit.fitted, fit.known) if fit.known else {}
+    for sentence in (*known.get("weak", ()), *known.get("may_go", ())):
+        yield f"{fit.declared.name}: {sentence}."
 
 
 def _at_bound(fit: FitResult) -> str:

@@ -12,6 +12,7 @@ from dashpot.diagnose.term import Model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates, with_point
 from dashpot.fit.objective import Objective
+from dashpot.fit.order import ordered
 from dashpot.fit.refine import linearise, refine
 from dashpot.fit.result import with_intervals
 from dashpot.fit.scored import ScoredRun
@@ -34,7 +35,7 @@ def polished(model: Model, runs: Sequence[ScoredRun], jobs: Jobs, steps: int = S
     """The network of a model with the numbers at which the plain error of the runs is smallest, all weighing alike."""
     objective = Objective(compile_network(model.fitted), runs, jobs)
     found = refine(objective, model.coordinates, model.coordinates.start, steps)
-    return with_point(model.fitted, model.coordinates, found.point)
+    return ordered(model.fitted, with_point(model.fitted, model.coordinates, found.point))
 
 
 def left_out_error(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: Jobs

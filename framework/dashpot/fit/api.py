@@ -21,14 +21,18 @@ from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
+from dashpot.fit.identifiability import identifiability
 from dashpot.fit.kept_curves import refinement
 from dashpot.fit.known import known_numbers
+from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
+from dashpot.fit.order import ordered
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
@@ -70,6 +74,11 @@ class Setting:
     def train(self) -> list[ScoredRun]:
         """The training runs."""
         return [self.scored[name] for name in self.split.train]
+
+    @property
+    def train_runs(self) -> tuple[Run, ...]:
+        """The training runs as they were measured."""
+        return self.dataset.select(self.split.train).runs
 
     @property
     def held_out(self) -> list[ScoredRun]:
@@ -167,8 +176,9 @@ def fit_prepared(
     whole = refinement(corrected, objective, lambda slot: True)
     steps = watch.steps("polish", POLISH_STEPS)
     polished = refine(whole.loss, whole.coordinates, whole.coordinates.start, POLISH_STEPS, watch=steps)
-    fitted = whole.at(polished.point)
+    fitted = ordered(spec, whole.at(polished.point))
     objective, coordinates = Objective(compile_network(fitted), setting.train, jobs), search_coordinates(fitted)
+    noise = noise_of_runs(setting.train_runs, setting.floor)
     shifts = [each.shift for each in known_numbers(objective)]
     known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, setting.floor.value)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
@@ -189,6 +199,7 @@ def fit_prepared(
         history=best.history,
         seen=seen_range(spec, setting.train),
         correlation=known.correlation,
+        known=identifiability(objective, coordinates, coordinates.start, noise),
     )
 
 

@@ -180,7 +180,8 @@ def _strengths(objective: Objective, kinds: Sequence[_Kind]) -> list[Array] | No
         right += forces @ target
     if not (np.isfinite(normal).all() and np.isfinite(right).all()):
         return None
-    scale = np.sqrt(np.diag(normal)[loose]) + np.finfo(float).tiny
+    scale = np.sqrt(np.diag(normal)[loose])
+    scale[scale == 0.0] = 1.0  # a branch without influence
     matrix = normal[np.ix_(loose, loose)] / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
     upper = cholesky(matrix)
     found = np.zeros(loose.size)

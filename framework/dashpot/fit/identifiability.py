@@ -12,7 +12,8 @@ from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, unmoved
+from dashpot.fit.refine import linearise_marked
+from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
 
@@ -40,10 +41,15 @@ class Direction:
         return not self.deviation < LOST
 
     @property
+    def named(self) -> list[str]:
+        """The numbers that have a part in it worth naming."""
+        return [path for path, share in self.parts if abs(share) >= SHARE * abs(self.parts[0][1])]
+
+    @property
     def words(self) -> str:
         """The direction in a sentence."""
         largest = abs(self.parts[0][1])
-        named = [part for part in self.parts if abs(part[1]) >= SHARE * largest]
+        named = self.parts[: len(self.named)]
         known = f"known to {_percent(self.deviation * largest)}" if self.deviation < NOTHING else "otherwise unknown"
         if len(named) == 1:
             how = f"weakly determined, {known}" if not self.lost else "not determined"
@@ -67,6 +73,12 @@ class Identifiability:
     loose: tuple[Direction, ...]
     idle: tuple[str, ...]
     unsolved: tuple[str, ...] = ()
+
+    @property
+    def undetermined(self) -> list[str]:
+        """The numbers of which the data do not even tell the order of magnitude."""
+        lost = [path for path, deviation in self.deviations.items() if not deviation < LOST]
+        return [*self.unsolved, *self.idle, *lost]
 
     @property
     def sentences(self) -> list[str]:
@@ -93,9 +105,7 @@ def identifiability(
     inverse of J J' and N the covariance of the noise, whose colour counts; for white noise that is Fisher's.
     ``objective`` may weigh runs but not whiten them.
     """
-    _, jacobian = linearise(objective, coordinates, point)
-    unsolved = unmoved(jacobian)
-    jacobian[unsolved] = 0.0
+    _, jacobian, unsolved = linearise_marked(objective, coordinates, point)
     size = np.sqrt(np.sum(jacobian**2, axis=1))
     idle = ~unsolved & (size < FELT * max(size.max(initial=0.0), 1e-300))
     felt = np.flatnonzero(~idle & ~unsolved)
@@ -118,6 +128,25 @@ def identifiability(
         idle_paths,
         unsolved_paths,
     )
+
+
+def may_go(spec: NetworkSpec, known: Identifiability) -> list[str]:
+    """What a network could do without on these data, in sentences: idle branches, and one of two that do the same."""
+    searched: dict[str, list[str]] = {}
+    for slot in spec.slots():
+        if slot.value.searched:
+            searched.setdefault(_branch_of(slot.path), []).append(slot.path)
+    laws = {branch.name: branch.element.word for branch in spec.leaves()}
+    found = [f"{name} has no influence on these data and may go"
+             for name, paths in searched.items() if name in laws and set(paths) <= set(known.idle)]  # fmt: skip
+    lost = dict.fromkeys(tuple(sorted(set(map(_branch_of, each.named)))) for each in known.loose if each.lost)
+    alike = [pair for pair in lost if len({laws.get(name, name) for name in pair}) == 1]
+    twins = [" and ".join(pair) for pair in alike if len(pair) == 2]
+    return found + [f"{pair} do the same to these data: one of them may go" for pair in twins]
+
+
+def _branch_of(path: str) -> str:
+    return path.partition("[")[0].rpartition(".")[0]
 
 
 def number_in_words(path: str) -> str:

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import unmoved
 from dashpot.model.network import Value
 
 Array = NDArray[np.float64]
@@ -53,7 +52,7 @@ def _shifts_of(objective: Objective, which: list[int], steps: list[float]) -> Ar
         return np.empty((0, objective.total))
     start, forth = np.atleast_2d(objective.network.start)[0], np.array(steps)
     shifts = objective.linearise(start, which, forth)[1]
-    failed = unmoved(shifts)
+    failed = ~np.isfinite(shifts).all(axis=1)
     if failed.any():
         shifts[failed] = -objective.linearise(start, which, -forth)[1][failed]
     return shifts

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, refine, unmoved
+from dashpot.fit.refine import linearise, refine
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.workers import pieces
 
@@ -96,7 +96,6 @@ class _Climb:
         self.objective, self.coordinates, self.point, self.number = objective, coordinates, point, number
         self.loss = float(objective.losses(coordinates.to_values(point))[0])
         _, jacobian = linearise(objective, coordinates, point)
-        jacobian[unmoved(jacobian)] = 0.0
         naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
         if not naive > 0.0:
             # nothing is known of the number: half its range is to be walked at once

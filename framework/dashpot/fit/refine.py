@@ -98,25 +98,34 @@ def refine(
 
 
 def linearise(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
-    """The residual (samples,) and its Jacobian (p, samples) after natural steps of the coordinates.
+    """The residual (samples,) and its Jacobian (p, samples) after natural steps; see ``linearise_marked``."""
+    residual, jacobian, _ = linearise_marked(objective, coordinates, point)
+    return residual, jacobian
 
-    A coordinate that cannot be moved one way is moved the other way; a row that neither gives is not finite, see
-    ``unmoved``.
+
+def linearise_marked(
+    objective: Loss, coordinates: Coordinates, point: Array
+) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """The residual (samples,), its Jacobian (p, samples) after natural steps, and which coordinates could not be moved.
+
+    A coordinate that cannot be moved one way is moved the other way. Around one that neither way can be moved the
+    network is not solved: its row is zero, and it is marked (p,).
     """
     shifts = STEP * coordinates.unit
     shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
     residual, changes = _changes(objective, coordinates, point, shifts)
-    unsolved = unmoved(changes) & (point - np.abs(shifts) >= coordinates.low)
-    if unsolved.any():
-        shifts = np.where(unsolved, -shifts, shifts)
-        changes[unsolved] = _changes(objective, coordinates, point, shifts)[1][unsolved]
+    again = ~_solved(changes) & (point - shifts >= coordinates.low) & (point - shifts <= coordinates.high)
+    if again.any():
+        shifts = np.where(again, -shifts, shifts)
+        changes[again] = _changes(objective, coordinates, point, shifts)[1][again]
+    unsolved = ~_solved(changes)
+    changes[unsolved] = 0.0
     changes *= (coordinates.unit / shifts)[:, None]
-    return residual, changes
+    return residual, changes, unsolved
 
 
-def unmoved(jacobian: Array) -> NDArray[np.bool_]:
-    """Which coordinates (p,) could not be moved either way: around them the network is not solved."""
-    return np.asarray(~np.isfinite(jacobian).all(axis=1))
+def _solved(changes: Array) -> NDArray[np.bool_]:
+    return np.asarray(np.isfinite(changes).all(axis=1))
 
 
 def _changes(objective: Loss, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:
@@ -127,7 +136,7 @@ def _changes(objective: Loss, coordinates: Coordinates, point: Array, shifts: Ar
 
 def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:
     normal, downhill = jacobian @ jacobian.T, -jacobian @ residual
-    free = (np.diag(normal) > 0.0) & np.isfinite(np.diag(normal))
+    free = np.diag(normal) > 0.0
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
     low, high = (side[free] * scale for side in _reach(coordinates, point))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -13,6 +13,7 @@ import dashpot
 from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
 from dashpot.fit.holdout import Split
+from dashpot.fit.identifiability import Identifiability, may_go, number_in_words
 from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
@@ -34,9 +35,10 @@ class FitResult:
     """A network with fitted numbers and how good it is.
 
     ``declared`` is the network as its file has it; ``fitted`` has numbers, intervals and tables. ``spread`` holds the
-    losses that different starts ended at, best first: near one another they are evidence of convergence. ``seen`` is
-    the range of the motions of the training runs. ``correlation`` (p, p) is that of the errors of the searched numbers,
-    in the order of their slots and in logarithms where they are searched so.
+    losses that different starts ended at, best first: near one another they are evidence of convergence. ``known`` says
+    what the data tell of the numbers; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
+    is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
+    so.
     """
 
     declared: NetworkSpec
@@ -55,6 +57,7 @@ class FitResult:
     history: tuple[tuple[int, float], ...] = field(default=(), repr=False)
     seen: Range = field(default_factory=dict, repr=False)
     correlation: NDArray[np.float64] | None = field(default=None, repr=False)
+    known: Identifiability | None = field(default=None, repr=False)
 
     @property
     def identified_text(self) -> str:
@@ -86,6 +89,7 @@ class FitResult:
             "at_bound": list(self.at_bound),
             "without_influence": list(self.idle),
             "spread": list(self.spread),
+            "identifiability": identifiability_of(self.fitted, self.known) if self.known else None,
         }
 
     def summary(self) -> str:
@@ -97,13 +101,32 @@ class FitResult:
             if slot.value.searched and "[" not in slot.path:
                 lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{_interval(slot.value)}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
-        lines += [f"  {path} has no influence on these data" for path in self.idle]
-        return "\n".join([*lines, self.ending])
+        told = identifiability_of(self.fitted, self.known) if self.known else {"weak": (), "may_go": ()}
+        lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
+        return "\n".join([*lines, self.ending + but_undetermined(told.get("undetermined", ()))])
 
 
 def floor_of(floor: NoiseFloor) -> dict[str, Any]:
     """A noise floor as it stands in result files."""
     return {"value": floor.value, "from": floor.source}
+
+
+def identifiability_of(spec: NetworkSpec, known: Identifiability) -> dict[str, Any]:
+    """What data tell of the numbers of a network as it stands in result files."""
+    return {
+        "condition": known.condition,
+        "deviations": known.deviations,
+        "undetermined": known.undetermined,
+        "weak": known.sentences,
+        "may_go": may_go(spec, known),
+    }
+
+
+def but_undetermined(paths: Sequence[str]) -> str:
+    """What has to be said beside "converged" where these numbers are not determined."""
+    if not paths:
+        return ""
+    return f", but these data do not determine {', '.join(map(number_in_words, paths))}"
 
 
 def parameters_of(spec: NetworkSpec) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, unmoved
+from dashpot.fit.refine import linearise_marked
 
 Array = NDArray[np.float64]
 
@@ -74,9 +74,7 @@ def assess_uncertainty(
     Sources: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters; Bell and McCaffrey, Survey
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
     """
-    residual, jacobian = linearise(objective, coordinates, point)
-    unsolved = unmoved(jacobian)
-    jacobian[unsolved] = 0.0
+    residual, jacobian, unsolved = linearise_marked(objective, coordinates, point)
     normal = jacobian @ jacobian.T
     scale = np.sqrt(np.diag(normal))
     loss = np.sqrt(np.mean(residual**2))

@@ -15,67 +15,108 @@ from dashpot.data.excitation import Excitation, settings_of
 from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.settings import require_settings
-from dashpot.kernel.system import CompiledSystem, Status
+from dashpot.kernel.system import CompiledSystem, Solution, Status
 from dashpot.model.network import END, NetworkSpec
 from dashpot.model.reading import read_network
 from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 
+TOLERANCE = 1e-3  # of the root mean square of a force: the numerical error that is allowed
+FINEST = 32  # times as many steps as usual, at most
+
 
 @dataclass(frozen=True, eq=False)
 class RunSolution:
     """A simulated run: ``force`` (n,) in N at the driven nodes, as load cells show it, and ``motion`` (n,) in m of the
-    nodes that are free to move, both by node. ``error`` estimates the root mean square numerical error of each force in
-    N; it is 0 where the law is solved exactly along the path.
+    nodes that are free to move, both by node. ``error`` is meant as a bound of the root mean square numerical error of
+    each force in N; it is 0 where the law is solved exactly along the path. ``refine`` is how many times as many steps
+    as usual lay between two samples.
     """
 
     force: Mapping[str, Array]
     motion: Mapping[str, Array]
     error: Mapping[str, float]
+    refine: int = 1
 
 
-def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int = 1, registry: Registry | None = None,
+def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int | None = None,
+               tolerance: float = TOLERANCE, registry: Registry | None = None,
                progress: Callable[[str, float], None] | None = None) -> dict[str, RunSolution]:  # fmt: skip
     """Forces and motions of a network along the motions of every run, by the name of the run.
 
     The forces are seen through the network's ``measurement`` (gain, offset ...). A network given by file or shipped
-    name is read with the elements of ``registry``, by default the installed ones. ``refine`` is how many times as many
-    steps as usual lie between two samples, where the motion of a node is unknown; ``progress`` hears of each run, by
+    name is read with the elements of ``registry``, by default the installed ones. Where the motion of a node is
+    unknown, so many steps lie between two samples that the error of each force is at most the ``tolerance``, a share of
+    its root mean square; or, by hand, ``refine`` times as many as usual. ``progress`` hears of each run, by
     name and with the share of those before it. Raises InputError for a network with mistakes or with a curve that has
     no numbers yet, for a run that lacks a motion, and for one that cannot be solved.
     """
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
     require_settings(spec, {run.name: settings_of(run) for run in dataset.runs})
-    solved = solve_each(spec, dataset.runs, len(dataset.runs), refine=refine, progress=progress)
+    solved = solve_each(
+        spec, dataset.runs, len(dataset.runs), refine=refine, tolerance=tolerance, progress=progress
+    )
     return {run.name: solution for run, solution in solved}
 
 
-def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: int = 1,
+def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: int | None = None,
+               tolerance: float = TOLERANCE,
                progress: Callable[[str, float], None] | None = None) -> Iterator[tuple[Run, RunSolution]]:  # fmt: skip
     """The same for one of ``count`` runs after the other; none is kept."""
     network = compile_network(spec)
     for number, run in enumerate(runs):
         if progress:
             progress(run.name, number / count)
-        yield run, solve(network, Excitation.of_run(run), refine)
+        yield run, solve(network, Excitation.of_run(run), refine, tolerance)
 
 
-def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int = 1) -> RunSolution:
+def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int | None = None,
+          tolerance: float = TOLERANCE) -> RunSolution:  # fmt: skip
     """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start, excitation.settings)
     if isinstance(network, CompiledNetwork):
         alone = network.simulate(network.prepare(excitation))
         return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0})
-    found = network.solve(network.prepare(excitation, refine))
-    if found.status[0] is not Status.GOOD:
-        raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
-                            f"{found.status[0].value}", "check the numbers with 'dashpot check'")  # fmt: skip
+    found, error, parts = _solved_within(network, excitation, refine, tolerance)
     force = [observation.see(row[None], excitation.dt)[0] for row in found.force[0]]
     motion = {node: row for node, row in zip(found.unknown, found.motion[0], strict=True) if ":" not in node}
     return RunSolution(dict(zip(found.driven, force, strict=True)), motion,
-                       dict(zip(found.driven, found.error[0].tolist(), strict=True)))  # fmt: skip
+                       dict(zip(found.driven, error.tolist(), strict=True)), parts)  # fmt: skip
+
+
+def _solved_within(network: CompiledSystem, excitation: Excitation, refine: int | None,
+                   tolerance: float) -> tuple[Solution, Array, int]:  # fmt: skip
+    """The solution, a bound (driven nodes,) of its error, and how many times as many steps it has taken as usual."""
+    parts, before = refine or 1, None
+    while True:
+        found = _good(network, network.solve(network.prepare(excitation, parts)), excitation)
+        error = _bound(found, before)
+        allowed = tolerance * np.sqrt(np.mean(found.force[0] ** 2, axis=1))
+        if refine or parts >= FINEST or (error <= allowed).all():
+            return found, error, parts
+        parts, before = 2 * parts, found
+
+
+def _bound(found: Solution, before: Solution | None) -> Array:
+    """A bound (driven nodes,) of the error of the first lane; ``before`` is the solution in half as many steps.
+
+    It is the whole difference between long and short steps: three times the error of the short ones where that is of
+    second order, and the error itself where forces bend sharply, at stops and reversals, and it is of first order.
+    Where the answer has moved by more since the steps were halved, that counts.
+    """
+    whole = 3.0 * found.error[0]
+    if before is None:
+        return whole
+    return np.maximum(whole, np.sqrt(np.mean((found.force[0] - before.force[0]) ** 2, axis=1)))
+
+
+def _good(network: CompiledSystem, found: Solution, excitation: Excitation) -> Solution:
+    if found.status[0] is not Status.GOOD:
+        raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
+                            f"{found.status[0].value}", "check the numbers with 'dashpot check'")  # fmt: skip
+    return found
 
 
 def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,

@@ -31,8 +31,8 @@ Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
 PAIRS = 1  # coarse steps in a sample, in pairs
-PIECE = 20_000  # samples that are prepared at a time
-KEPT = 10 * PIECE  # samples of a record that stays prepared; a longer one is prepared piece by piece, each time anew
+PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
+KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
 
 
 class Status(Enum):
@@ -77,11 +77,12 @@ class _Pieces:
     """The pieces of a record, made when they are asked for."""
 
     samples: int
+    size: int
     make: Callable[[int, int], Piece]
 
     def __iter__(self) -> Iterator[Piece]:
-        for first in range(0, self.samples, PIECE):
-            yield self.make(first, min(first + PIECE, self.samples))
+        for first in range(0, self.samples, self.size):
+            yield self.make(first, min(first + self.size, self.samples))
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,8 +133,8 @@ class CompiledSystem(Compiled[SystemRows]):
                             for parts in (PAIR * pairs, 2 * PAIR * pairs))  # fmt: skip
             return Piece(first, end, coarse, fine)
 
-        pieces = _Pieces(excitation.samples, make)
-        return SystemRows(excitation, pairs, still, tuple(pieces) if excitation.samples <= KEPT else pieces)
+        pieces = _Pieces(excitation.samples, max(PIECE // pairs, 1), make)
+        return SystemRows(excitation, pairs, still, tuple(pieces) if pairs * excitation.samples <= KEPT else pieces)
 
     def with_signals(self, run: SystemRows, signals: Mapping[str, Array]) -> SystemRows:
         """A prepared run with forces (n,) in N for some of the ``signals``, straight from sample to sample."""

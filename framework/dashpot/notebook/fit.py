@@ -42,6 +42,7 @@ class Fit(FitResult):
         """Every number with its 95 % interval, the bounds of the search, and what is to be said of it."""
         remarks = {slot.path: "found" for slot in self.fitted.slots() if slot.value.searched}
         remarks |= dict.fromkeys(self.at_bound, "found at the end of its range")
+        remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not determined by these data")
         remarks |= dict.fromkeys(self.idle, "without influence on these data")
         return Listing.of(numbers_grid(self.fitted, remarks))
 

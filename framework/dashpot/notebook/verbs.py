@@ -18,7 +18,7 @@ from dashpot.diagnose.diagnose import diagnose as diagnose_network
 from dashpot.fit.api import fit_network
 from dashpot.fit.result import FitResult
 from dashpot.fit.virtual_test import virtual_test
-from dashpot.kernel.api import forces_by_name, solve_runs
+from dashpot.kernel.api import TOLERANCE, forces_by_name, solve_runs
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network, read_network
 from dashpot.notebook.campaign import Campaign
@@ -94,12 +94,13 @@ def look(data: AnyData, *, seed: int = 0, registry: Registry | None = None) -> L
     return promoted(Look, look_at(_data(data, registry), seed, (registry or load_registry()).metrics.values()))
 
 
-def simulate(model: AnyModel, data: AnyData, *, refine: int = 1,
+def simulate(model: AnyModel, data: AnyData, *, tolerance: float = TOLERANCE, refine: int | None = None,
              registry: Registry | None = None) -> dict[str, np.ndarray]:  # fmt: skip
     """The force (n,) in N along the motion of every run, as the load cell would show it, by the name of the run.
 
-    A run with several driven nodes has an entry ``run@node`` for each. ``refine`` is how many times as many steps as
-    usual lie between two samples, where nodes are free to move. InputError for a model whose curves have no numbers
+    A run with several driven nodes has an entry ``run@node`` for each. Where nodes are free to move, so many steps
+    lie between two samples that the error of each force is at most the ``tolerance``, a share of its RMS; or, by hand,
+    ``refine`` times as many as usual. InputError for a model whose curves have no numbers
     yet, and for a run that lacks a motion.
 
     Examples:
@@ -107,7 +108,8 @@ def simulate(model: AnyModel, data: AnyData, *, refine: int = 1,
         >>> forces["a1_p2_up"].shape == data.run("a1_p2_up").force.shape
         True
     """
-    return forces_by_name(solve_runs(_model(model, registry), _data(data, registry), refine=refine))
+    runs = _data(data, registry)
+    return forces_by_name(solve_runs(_model(model, registry), runs, refine=refine, tolerance=tolerance))
 
 
 def measure(model: AnyModel, rig: str, *, seed: int = 0, registry: Registry | None = None, **options: object) -> Data:

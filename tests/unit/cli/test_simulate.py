@@ -24,7 +24,7 @@ class Stream:
         return iter(SimpleNamespace(name=name, time=np.array([0.0, 0.1]), channels=CHANNELS) for name in NAMES)
 
 
-def solve_each(spec, runs, count, *, refine, progress):
+def solve_each(spec, runs, count, *, refine, tolerance, progress):
     assert count == len(NAMES)
     for run in runs:
         force = FORCES[run.name]

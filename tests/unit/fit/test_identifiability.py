@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from unit.fit.bench import DT, KELVIN_VOIGT, ready, run, runs
+from unit.fit.bench import DT, KELVIN_VOIGT, TIME, network, ready, run, runs
 
-from dashpot.fit import identifiability as module
-from dashpot.fit import refine
+from dashpot import load_registry
+from dashpot.compare.comparison import comparison_of
+from dashpot.data.dataset import Dataset
+from dashpot.data.run import Run
+from dashpot.fit.api import fit_network
 from dashpot.fit.identifiability import Direction, identifiability, number_in_words
 from dashpot.fit.noise_of_runs import white
+from dashpot.fit.objective import Objective
+from dashpot.report.fit import fit_page
 
 
 def told(branches, scored, noise=20.0):
@@ -56,12 +61,14 @@ def test_what_is_not_felt_is_named():
 def test_what_cannot_be_moved_is_named_and_the_others_are_known(monkeypatch):
     whole = told(KELVIN_VOIGT, runs())
 
-    def linearise(*asked):
-        residual, jacobian = refine.linearise(*asked)
-        jacobian[list(whole.deviations).index("oil.damping"), 7:] = np.nan
-        return residual, jacobian
+    plain = Objective.linearise
 
-    monkeypatch.setattr(module, "linearise", linearise)
+    def linearise(self, values, which, shifts):
+        residual, changes = plain(self, values, which, shifts)
+        changes[list(whole.deviations).index("oil.damping"), 7:] = np.nan
+        return residual, changes
+
+    monkeypatch.setattr(Objective, "linearise", linearise)
     known = told(KELVIN_VOIGT, runs())
     assert known.unsolved == ("oil.damping",) and known.idle == ()
     assert "damping of oil could not be moved: the network is not solved around its value" in known.sentences
@@ -84,3 +91,63 @@ def test_a_direction_of_one_number_says_how_well_it_is_known(deviation, said):
 def test_paths_are_read_out_as_words():
     assert number_in_words("maxwell_1.relaxation_time") == "relaxation time of maxwell_1"
     assert number_in_words("contact.dry.limit") == "limit of contact.dry"
+
+
+def dataset(law, noise=5.0) -> Dataset:
+    """Three sines of other amplitude and frequency, with the force of a law and noise."""
+    found = []
+    for number, (amplitude, frequency) in enumerate(((2e-3, 2.0), (1e-3, 6.0), (5e-4, 11.0))):
+        omega, rng = 2.0 * np.pi * frequency, np.random.default_rng(number)
+        x, v = amplitude * np.sin(omega * TIME), amplitude * omega * np.cos(omega * TIME)
+        force = law(x, v) + noise * rng.standard_normal(TIME.size)
+        found.append(Run(f"r{number}", "harmonic", TIME, {"displacement": x, "force": force}, group=f"r{number}"))
+    return Dataset("bench", tuple(found))
+
+
+def fitted(branches: str, law=lambda x, v: 2e5 * x + 300.0 * v):
+    registry = load_registry()
+    return fit_network(network(branches), dataset(law), registry=registry)
+
+
+def test_a_fit_tells_what_its_data_cannot_tell():
+    # it relaxes in minutes, the records last 1.5 s: the branch is a spring, its time shows nowhere
+    found = fitted("""
+        oil: {element: damper, damping: {start: 200}}
+        slow: {element: maxwell, stiffness: {start: 1e5}, relaxation_time: {start: 900 s, bounds: [100 s, 9 ks]}}
+    """)
+    assert found.known.undetermined == ["slow.relaxation_time"]
+    assert found.summary().splitlines()[-1] == (
+        "converged, but these data do not determine relaxation time of slow")  # fmt: skip
+    told = found.as_dict()["identifiability"]
+    assert told["undetermined"] == ["slow.relaxation_time"] and told["condition"] > 1e4
+    assert told["weak"] == ["relaxation time of slow is not determined"] and told["may_go"] == []
+    page = str(fit_page(found.as_dict(), comparison_of(found).as_dict(), comparison_of(found).evidence()))
+    assert "relaxation time of slow is not determined" in page and "not determined by these data" in page
+
+
+def test_two_branches_that_do_the_same_are_told_and_one_may_go():
+    found = fitted("""
+        rubber: {element: spring, stiffness: {start: 1e5}}
+        a: {element: damper, damping: {start: 100}}
+        b: {element: damper, damping: {start: 250}}
+    """)
+    told = found.as_dict()["identifiability"]
+    assert set(told["undetermined"]) == {"a.damping", "b.damping"}
+    assert told["may_go"] == ["a and b do the same to these data: one of them may go"]
+    assert "  a and b do the same to these data: one of them may go" in found.summary().splitlines()
+
+
+def test_a_branch_without_influence_may_go():
+    found = fitted("""
+        rubber: {element: spring, stiffness: {start: 1e5}}
+        oil: {element: damper, damping: {start: 100}}
+        stop: {element: end_stop, compression: 90 mm, rebound: -90 mm, stiffness: {start: 1e6}}
+    """)
+    assert found.as_dict()["identifiability"]["may_go"] == ["stop has no influence on these data and may go"]
+
+
+def test_what_data_tell_is_told_as_nothing_to_say():
+    found = fitted("rubber: {element: spring, stiffness: {start: 1e5}}\noil: {element: damper, damping: {start: 100}}")
+    told = found.as_dict()["identifiability"]
+    assert told["undetermined"] == told["weak"] == told["may_go"] == []
+    assert found.summary().splitlines()[-1] == "converged"

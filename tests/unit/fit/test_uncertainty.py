@@ -7,9 +7,13 @@ import pytest
 from seeds import seed_of
 from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, network, ready, runs
 
+from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.identifiability import identifiability
+from dashpot.fit.noise_of_runs import white
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import refine
+from dashpot.fit.profile import profile_likelihood
+from dashpot.fit.refine import linearise_marked, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import _quantiles, _sandwich, assess_uncertainty, widening
 from dashpot.kernel.network import compile_network
@@ -155,6 +159,27 @@ def test_the_interval_of_a_number_that_cannot_move_is_its_whole_range():
     assert walled.intervals[0] == pytest.approx(np.exp([coordinates.low[0], coordinates.high[0]]))
     assert np.isfinite(walled.widths[1])
     assert walled.idle == ()
+
+
+@pytest.mark.parametrize("both", [False, True])
+def test_no_user_of_a_jacobian_sees_what_could_not_be_moved(both):
+    # one mask for all: refinement, intervals, profile, refits and identifiability go through, and the rest is known
+    scored = noisy(np.random.default_rng(seed_of("test_uncertainty8")))
+    spec, plain, coordinates = ready(KELVIN_VOIGT, scored)
+    walled = Unsolved(compile_network(spec), scored)
+    walled.walls, walled.both = (int(coordinates.which[0]),), both
+    residual, jacobian, unsolved = linearise_marked(walled, coordinates, coordinates.start)
+    assert unsolved.tolist() == [both, False] and np.isfinite(jacobian).all() and np.any(jacobian[1])
+    assert not both or not np.any(jacobian[0])
+    refined = refine(walled, coordinates, coordinates.start)
+    assert np.isfinite(refined.point).all() and (refined.point[0] == coordinates.start[0]) is np.bool_(both)
+    noise = white({run.name: 20.0 for run in scored}, scored[0].drive.dt)
+    known = identifiability(walled, coordinates, refined.point, noise)
+    assert known.unsolved == (("rubber.stiffness",) if both else ())
+    assert ("rubber.stiffness" in known.undetermined) is both
+    assert np.isfinite(profile_likelihood(walled, coordinates, refined.point, 1, None).losses).all()
+    groups = [(run.kind, run.name) for run in scored]
+    assert np.isfinite(bootstrap_intervals(walled, coordinates, refined.point, groups, 3, 1)).all()
 
 
 def test_a_model_that_errs_has_wider_intervals_and_one_at_the_noise_has_not():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from dashpot.data.excitation import Excitation
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel import system as module
+from dashpot.kernel.api import FINEST, solve
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.system import CompiledSystem, Status
 from dashpot.model.reading import parse_network, read_network
@@ -202,3 +204,29 @@ def test_a_long_record_goes_through_in_pieces_to_the_same_bits(monkeypatch, back
         for key in ("force", "motion", "error"):
             assert getattr(found, key).tobytes() == getattr(whole, key).tobytes(), (size, key)
         assert network.score([rows], [measured], [weight], network.start[None]).tobytes() == score.tobytes()
+
+
+SLIDING = """
+mount: {element: spring, stiffness: 400 N/mm, between: [base, hub]}
+dry: {element: coulomb, limit: 60 N, creep_velocity: 1e-5 m/s, between: [hub, wall]}
+stop: {element: end_stop, stiffness: 900 N/mm, compression: 0.5 mm, rebound: -0.5 mm, between: [hub, wall]}
+"""
+
+
+def test_steps_are_halved_until_the_error_is_within_the_tolerance():
+    text = ("format: dashpot-network/1\nname: n\nnodes: {base: driven, hub: free, wall: ground}\nbranches:\n"
+            + textwrap.indent(SLIDING.strip("\n"), "  ") + "\n")  # fmt: skip
+    network = compile_network(parse_network(text, ELEMENTS))
+    time = 1e-3 * np.arange(400)
+    excitation = Excitation.of_drive(drive_from_samples(1e-3, 2e-3 * np.sin(2 * np.pi * 7.0 * time)))
+    truth = network.solve(network.prepare(excitation, 256)).force[0, 0]
+    size, refined = np.sqrt(np.mean(truth**2)), []
+    for tolerance in (1e-1, 1e-3, 1e-4):
+        found = solve(network, excitation, tolerance=tolerance)
+        [told] = found.error.values()
+        [force] = found.force.values()
+        assert np.sqrt(np.mean((force - truth) ** 2)) <= told
+        assert told <= tolerance * size * 1.001 or found.refine == FINEST
+        refined.append(found.refine)
+    assert refined == sorted(refined) and refined[0] == 1 < refined[-1]
+    assert solve(network, excitation, 3).refine == 3

@@ -60,7 +60,7 @@ def parse_study(document: Document, folder: Path, registry: Registry) -> StudySp
     form = Form(document.root, problems, "the study")
     form.choice("format", (FORMAT,))
     reader = _Reader(form, folder, registry, problems)
-    name = form.text("name")
+    name = form.name("name")
     study = StudySpec(
         name=name or "",
         about=form.text("about", ""),
@@ -143,7 +143,7 @@ class _Reader:
         return tuple(stage for below in form.forms("stages") or () if (stage := self._stage(below)))
 
     def _stage(self, form: Form) -> Stage | None:
-        name = form.text("name")
+        name = form.name("name")
         if "take" in form:
             take: Any = form.choice("take", TAKEN)
             form.close()

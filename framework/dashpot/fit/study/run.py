@@ -22,6 +22,7 @@ from dashpot.fit.identifiability import Identifiability, identifiability
 from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
+from dashpot.fit.order import interchangeable, ordered
 from dashpot.fit.profile import Profile, profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
@@ -172,6 +173,7 @@ class _Conduct:
     def _judge(
         self, plan: ModelPlan, spec: NetworkSpec, stages: tuple[StageResult, ...], parts: Mapping[str, ModelResult]
     ) -> ModelResult:
+        spec = ordered(plan.network, spec)
         train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
         errors = measure_errors(spec, self.setting, self.jobs)
@@ -182,6 +184,8 @@ class _Conduct:
         known_before = known_numbers(objective)
         shifts = [*(each.shift for each in allowed), *(each.shift for each in known_before)]
         known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
+        noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
+        told = identifiability(objective, coordinates, coordinates.start, noise)
         fit = FitResult(
             declared=plan.network,
             fitted=with_intervals(spec, dict(zip(coordinates.paths, known.intervals, strict=True))),
@@ -198,9 +202,8 @@ class _Conduct:
             spread=next((stage.spread for stage in stages if len(stage.spread) > 1), ()),
             history=_joined(stages),
             seen=seen_range(plan.network, train),
+            known=told,
         )
-        noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
-        told = identifiability(objective, coordinates, coordinates.start, noise)
         effects = [effect(coordinates, moved) for moved in known.moved]
         owed = tuple(Owed(each.branch, each.model, each.share, numbers)
                      for each, numbers in zip(allowed, effects, strict=False))  # fmt: skip
@@ -208,11 +211,11 @@ class _Conduct:
         to_known = tuple(OwedToKnown.of(each, numbers)
                         for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
                         if each.path.partition("[")[0] not in curves)  # fmt: skip
-        return ModelResult(self.setting, fit, stages, told, self._resampled(plan, objective, coordinates),
+        return ModelResult(self.setting, fit, stages, told, self._resampled(plan, spec, objective, coordinates),
                            self._profiles(plan, objective, coordinates), owed, to_known)  # fmt: skip
 
     def _resampled(
-        self, plan: ModelPlan, objective: Objective, coordinates: Coordinates
+        self, plan: ModelPlan, spec: NetworkSpec, objective: Objective, coordinates: Coordinates
     ) -> dict[str, tuple[float, float]]:
         if not (self.study.bootstrap and coordinates.paths):
             return {}
@@ -220,8 +223,9 @@ class _Conduct:
         groups = [group_of[run.name] for run in objective.runs]
         self._tell(plan, "bootstrap")
         found = bootstrap_intervals(
-            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed, self.jobs
-        )
+            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed, self.jobs,
+            interchangeable(plan.network, spec),
+        )  # fmt: skip
         return dict(zip(coordinates.paths, found, strict=True))
 
     def _profiles(self, plan: ModelPlan, objective: Objective, coordinates: Coordinates) -> tuple[Profile, ...]:
