@@ -31,8 +31,9 @@ def blocks(language: str, start: str = "", pages: tuple[Path, ...] = MANUAL) -> 
 
 
 def tour() -> list[list[str]]:
-    """The commands of the README and of the reference, one after the other."""
-    return [line.split() for block in blocks("sh", "dashpot ") for line in block.splitlines()]
+    """The commands of the README and of the reference, one after the other; a campaign has a journey of its own."""
+    lines = [line.split() for block in blocks("sh", "dashpot ") for line in block.splitlines()]
+    return [line for line in lines if line[1] != "campaign"]
 
 
 def named(text: str) -> str:
