@@ -1,8 +1,9 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
 A specimen answers the same motion alike, or changes from test to test in one way. So a run may be accused where its
-repeat disagrees as other repeats do not, or where other, sound runs cover the conditions under which it was made; one
-that is the fastest, the largest or the only one at a setting is not. Where no repeat tells, what the same fault would
+repeat disagrees as other repeats do not; without a repeat, where two pairs of repeats disagree by the same, or where
+other, sound runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at
+a setting is not. Where no repeat tells, what the same fault would
 explain in all other runs is the error of the model: nats are divided by this overdispersion. Samples of what a fault
 leaves that follow from one another count as fewer.
 """
@@ -196,9 +197,8 @@ def accuse(
     """
     rows = rows_of(refitter, look, kinds, look.noise)
     alone = rows_of(refitter, look, kinds, _plain(look))
-    known = {doubt.fault.form: doubt.strengths for doubt in doubted}
-    solver = _Solver(rows, {number: known[kind.fault.form] for number, kind in enumerate(kinds)
-                            if kind.fault.form in known})  # fmt: skip
+    solver = _Solver(rows, {number: doubt.strengths for number, kind in enumerate(kinds)
+                            for doubt in doubted if doubt.fault is kind.fault})  # fmt: skip
     price = Odds(len(rows.shapes)).price("measurement")
     pairs = repeats_of(refitter, groups)
     shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}

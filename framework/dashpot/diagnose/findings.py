@@ -26,6 +26,7 @@ from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursue import Pursuit
+from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
 from dashpot.fit.objective import Objective
 from dashpot.fit.result import Errors, FitResult
@@ -104,9 +105,10 @@ class Findings:
         """How sure a cause is, beside the structure that stays unexplained."""
         return self.pursuit.probability(name, self.unexplained)
 
-    def presence(self, name: tuple[str, str]) -> float:
-        """How sure it is that there is something in the place of a cause."""
-        return self.pursuit.presence(name, self.unexplained)
+    def presence(self, term: Term) -> float:
+        """How sure it is that something is in the place of a cause; of a fault of the measurement, that it is this."""
+        found = self.pursuit.probability if term.cause.kind == "measurement" else self.pursuit.presence
+        return found(term.name, self.unexplained)
 
     @cached_property
     def unexplained(self) -> float:
@@ -140,7 +142,7 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        sure = {term.title: self.presence(term.name) > MORE_LIKELY for term in self.pursuit.best.model.terms}
+        sure = {term.title: self.presence(term) > MORE_LIKELY for term in self.pursuit.best.model.terms}
         what = "extended by a diagnosis" if sure else "fitted to corrected runs"
         told = [f"{'cause' if likely else 'resembles'}: {title}" for title, likely in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]

@@ -22,7 +22,8 @@ MORE_LIKELY = 0.5  # than not
 class NamedCause:
     """A cause with the numbers that it brought, by path, or with the faults of single runs that it stands for.
 
-    ``probability`` is that of its name, ``presence`` that of something in its place, this cause or a rival.
+    ``probability`` is that of its name, ``presence`` that of something in its place, this cause or a rival; both are
+    the same for a fault of the measurement.
     ``gain`` is what the final files gain by it, ``removal`` the share by which the error grows where it is taken out
     and the rest refitted, both on runs that took no part; ``nats`` is what it predicts of training runs left out,
     ``rivals`` the words of what may stand in its place.
@@ -44,11 +45,8 @@ class NamedCause:
 
     @property
     def accepted(self) -> bool:
-        """Whether something in its place is more likely than not; else it describes a part of the force, no more.
-
-        A fault of the measurement has to be so itself.
-        """
-        return (self.probability if self.cause.kind == "measurement" else self.presence) > MORE_LIKELY
+        """Whether something in its place is more likely than not; else it describes a part of the force, no more."""
+        return self.presence > MORE_LIKELY
 
     @property
     def site(self) -> Site | None:

@@ -46,6 +46,14 @@ def test_a_repeat_that_differs_is_accused_with_its_size(word):
     assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
 
 
+def test_a_doubted_fault_is_as_large_as_repeats_differ():
+    """The difference of two that are off by one deviation each is root 2 times as large."""
+    made = bench(dataset(repeats=AGAIN, fault={"again": lambda force: force + 15.0}))
+    look = look_at(made.refitter, made.model, causes("offset"), folds_of(made.refitter.runs, made.groups))
+    (doubt,) = doubts(made.refitter, look, kinds_of(causes("offset"), look), made.groups)
+    assert doubt.strengths == pytest.approx([15.0 / np.sqrt(2.0)], rel=0.1)
+
+
 def test_repeats_that_agree_accuse_nobody():
     data = dataset(repeats=AGAIN)
     assert examined(data, doubted=True) == set()
