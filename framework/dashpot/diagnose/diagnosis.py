@@ -57,7 +57,8 @@ class Diagnosis(Findings):
             cause, tuple(model.terms[number] for number in mine),
             slots_of(self.written, [path for number in mine for path in model.owned[number]]), (),
             probability, self.presence(model.terms[mine[0]]), float(cost.sum()),
-            (int(np.sum(cost > 0.0)), cost.size), gain, removal, rivals, evidence_of, told(model.terms[mine[0]]) if evidence_of else "",
+            (int(np.sum(cost > 0.0)), cost.size), gain, removal, rivals, evidence_of,
+            told(model.terms[mine[0]]) if evidence_of else "",
         )  # fmt: skip
 
     def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
