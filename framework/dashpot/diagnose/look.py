@@ -273,9 +273,7 @@ def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array
     unit = inner / np.outer(scale, scale)
     moves = np.linalg.pinv(unit, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None])
     moves /= scale[:, None]
-    cross = grams[:, first:, :first] @ moves
-    left = grams[:, first:, first:] - cross - cross.transpose(0, 2, 1)
-    left += moves.T @ grams[:, :first, :first] @ moves
+    left = np.array([_beside(gram, moves) for gram in grams])
     prior = moves[free:].T @ (precision[free:, None] * moves[free:])
     outside = np.linalg.pinv(unit[:free, :free], rcond=1e-11, hermitian=True)
     beside = unit[free:, free:] - unit[free:, :free] @ outside @ unit[:free, free:]
@@ -283,6 +281,16 @@ def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array
         beside * np.outer(scale[free:], scale[free:]) / np.sqrt(np.outer(precision[free:], precision[free:]))
     )
     return left, moves, prior, 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
+
+
+def _beside(gram: Array, moves: Array) -> Array:
+    """The Gram matrix (c, c) of columns after the first ones take up ``moves`` (f, c) of each."""
+    first = len(moves)
+    cross = gram[first:, :first] @ moves
+    left = gram[first:, first:] + moves.T @ gram[:first, :first] @ moves
+    left -= cross
+    left -= cross.T
+    return left
 
 
 def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]

@@ -187,13 +187,14 @@ def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array) ->
     ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand.
     """
     inner = grams[:, at[:, None], at]
-    cross = grams[:, at] @ target
-    square = np.einsum("i,gij,j->g", target, grams, target)
+    bent = grams @ target
+    cross, square = bent[:, at], bent @ target
     whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)
-    solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])[..., 0]
-    return square - 2.0 * np.einsum("gi,gi->g", solved, cross) + np.einsum("gi,gij,gj->g", solved, inner, solved)
+    solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])
+    left: Array = square - 2.0 * np.sum(solved[..., 0] * cross, axis=1)
+    return left + np.sum(solved * (inner @ solved), axis=(1, 2))
 
 
 def _steadied(gram: Array, at: NDArray[np.intp]) -> Array:

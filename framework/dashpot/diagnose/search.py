@@ -155,7 +155,7 @@ def _jointly(own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected,
 
 def _gain(left: _Projected, at: NDArray[np.intp], positive: bool) -> float:
     matrix, right = left.gram[np.ix_(at, at)], left.right[at]
-    strengths = np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
+    strengths = right / matrix[0] if at.size == 1 else np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
     if positive and (strengths < 0.0).any():
         return -np.inf
     return float(2.0 * right @ strengths - strengths @ matrix @ strengths)
