@@ -76,5 +76,5 @@ def _rate(s: Any, bulge: Any, exponent: Any) -> Any:
     """ds/dway = (1 - level^n)/(1 - level) with the motion, (1 + bulge |level|^n)/(1 + |level|) against it."""
     left = np.exp(-np.minimum(s, FAR))
     level = 1.0 - left
-    power = np.abs(level) ** exponent
+    power = np.exp(exponent * np.log(np.maximum(np.abs(level), TINY)))
     return np.where(level > 0.0, 1.0 - power, 1.0 + bulge * power) / left

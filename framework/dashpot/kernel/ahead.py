@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dashpot.kernel.network import GROUPS, CompiledNetwork, compile_network
+from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import take_apart
 from dashpot.kernel.targets.choice import BACKEND, LLVM, backend
 from dashpot.model.network import Characteristic, NetworkSpec, Value
@@ -25,7 +25,7 @@ def compile_ahead(spec: NetworkSpec) -> None:
     if isinstance(network, CompiledNetwork):
         members = [part.network for part in take_apart(filled).members]
         for each in (network, *members):
-            for group in GROUPS:
+            for group in each.groups:
                 each.native(*group)
 
 

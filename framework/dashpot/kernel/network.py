@@ -17,7 +17,7 @@ from dashpot.kernel.columns import Rows, prepare_rows
 from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import program_of
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
-from dashpot.kernel.ir.layout import LANES, score_row
+from dashpot.kernel.ir.layout import LANES, score_row, vectors_of
 from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.kernel.targets.choice import Code, backend, target
@@ -27,8 +27,9 @@ from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 
-# vectors in a group, and whether it holds a single lane: two vectors keep the processor from waiting
-GROUPS = ALONE, FEW, MANY = (1, True), (1, False), (2, False)
+# vectors in a group, and whether it holds a single lane
+Group = tuple[int, bool]
+ALONE, FEW = (1, True), (1, False)
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,11 @@ class CompiledNetwork(Compiled[Rows]):
     def curves(self) -> dict[str, Characteristic]:
         """Every curve of the network by path."""
         return self.spec.curves()
+
+    @cached_property
+    def groups(self) -> tuple[Group, Group, Group]:
+        """How lanes are put together: a single one, few, many."""
+        return ALONE, FEW, (vectors_of(self.program), False)
 
     def native(self, vectors: int, alone: bool = False) -> Code:
         """The compiled code for groups of so many vectors of lanes, or for a single lane."""
@@ -94,7 +100,7 @@ class CompiledNetwork(Compiled[Rows]):
         return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
     def _group(self, count: int) -> tuple[Code, int]:
-        vectors, alone = ALONE if count == 1 else FEW if count <= LANES else MANY
+        vectors, alone = self.groups[(count > 1) + (count > LANES)]
         return self.native(vectors, alone), vectors * LANES
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:

@@ -66,7 +66,7 @@ def test_another_topology_gives_another_text():
 
 def test_a_text_needs_nothing_but_functions_of_the_c_library():
     declared = re.findall(r"declare double @(\w+)", printed("a", "b", "c", "d", 2.0))
-    assert all(hasattr(math, name) for name in declared) and "expm1" in declared
+    assert all(hasattr(math, name) for name in declared) and "pow" in declared
 
 
 class Strange(Element):

@@ -148,3 +148,9 @@ class Passes:
             Layout(program, moved) if moved else None,
             Layout(program, program.updates, program.force),
         )
+
+
+def vectors_of(program: Program) -> int:
+    """How many vectors of lanes keep the processor from waiting: the more, the fewer long functions stand together."""
+    calls = [len(stage.calls) for stage in Passes.of(program).step.stages if stage.calls]
+    return 4 if sum(calls) <= 2 * len(calls) else 2

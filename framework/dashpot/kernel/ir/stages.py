@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from dashpot.expr.node import Node
 
-LONG = frozenset({"exp", "log", "wrightomega"})
+LONG = frozenset({"exp", "expm1", "log", "log1p", "power", "tanh", "wrightomega"})
 
 
 @dataclass(frozen=True)

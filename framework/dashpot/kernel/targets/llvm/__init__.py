@@ -2,6 +2,7 @@
 
 assembly  - how instructions on vectors of lanes are written
 functions - the long functions, such as the exponential
+library   - functions of the C library, lane by lane
 packing   - one lane alone: several numbers share a vector
 passes    - a pass over a group of lanes, node by node
 source    - all passes of a network with two ends as one self-contained text

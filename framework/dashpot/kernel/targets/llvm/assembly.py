@@ -18,7 +18,6 @@ from dashpot.kernel.ir.layout import LANES
 T = TypeVar("T")
 # a vector has all LANES; processors with narrower ones take several steps
 NUMBER, BITS, TRUTH = f"<{LANES} x double>", f"<{LANES} x i64>", f"<{LANES} x i1>"
-INTRINSICS = {"fabs": 1, "sqrt": 1, "fmuladd": 3}
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +68,10 @@ class Bundle:
     def times_plus(self, factor: Bundle | float, term: Bundle | float) -> Bundle:
         """The product plus a term, rounded once where the processor can do that."""
         return self.called("fmuladd", factor, term)
+
+    def times_plus_exactly(self, factor: Bundle | float, term: Bundle | float) -> Bundle:
+        """The product plus a term, rounded once whatever it costs."""
+        return self.called("fma", factor, term)
 
     def called(self, intrinsic: str, *others: Bundle | float) -> Bundle:
         """An intrinsic function of LLVM."""

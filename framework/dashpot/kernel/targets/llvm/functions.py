@@ -1,16 +1,19 @@
 """The long functions of a kernel, on bundles of vectors and without branches.
 
-A call into the C mathematics library would take the lanes one by one, so exp, log and the Wright omega function are
-written out. NaN passes through each of them; relative errors stay below 1e-14 (3e-14 where the Wright omega function is
-below 1e-40).
+A call into the C mathematics library would take the lanes one by one, so they are written out. NaN passes through each
+of them. Relative errors stay below 1e-14 in exp, log and the Wright omega function (3e-14 where that is below 1e-40);
+expm1, log1p, tanh and power are within 2.5 units of the last place wherever the argument lies, and infinite, zero or
+undefined where those of the C library are.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from dashpot.kernel.targets.llvm.assembly import BITS, NUMBER, Bundle
+from dashpot.kernel.targets.llvm.library import one_by_one
 from dashpot.kernel.targets.omega import OMEGA_BOTTOM, OMEGA_HIGH, OMEGA_LOW, OMEGA_TOP
 
 LOG2_E, LN_2 = 1.4426950408889634, 0.6931471805599453
@@ -26,12 +29,39 @@ POWER_OF_TWO = (1.0, 0.6931471805599462, 0.24022650695910075, 0.0555041086646516
 # (log m - 2 s)/s**3 in s**2, s = (m - 1)/(m + 1), for m between sqrt(1/2) and sqrt(2)
 LOGARITHM = (0.666666666666667, 0.39999999999899005, 0.28571428626173057, 0.2222221110612709, 0.1818289100504977,
              0.15331664799306263, 0.14617093237558204)  # fmt: skip
+# what is above the first coefficient of this, for powers
+TWO_THIRDS, LEFT_OF_TWO_THIRDS = 0.6666666666666666, 3.700743415417188e-17
+FINE_LOGARITHM = (0.40000000000000024, 0.2857142857133851, 0.2222222227110234, 0.18181808247544543,
+                  0.15385574796462032, 0.13285957435193352, 0.1291361767218225)  # fmt: skip
+# (exp(r) - 1 - r)/r**2 for |r| <= log(2)/2
+BEYOND_LINEAR = (0.5, 0.1666666666666667, 0.04166666666666667, 0.008333333333326136, 0.001388888888888375,
+                 0.00019841269874815834, 2.480158732554432e-05, 2.7557255406285044e-06, 2.7557273647451087e-07,
+                 2.5105214474751413e-08, 2.0914685161418067e-09)  # fmt: skip
+# a number whose bits taken from those of x leave the exponent n of x = 2**n m, with m between sqrt(1/2) and sqrt(2)
+ROOT_OF_HALF = 4604544271217802189
+FRACTION = 4503599627370495  # the bits below the exponent
+HALF, TWO, SIGN = 0x3FE0000000000000, 0x4000000000000000, -0x8000000000000000  # the bits of 1/2, 2 and -0
+LEAST, TOP = 2.2250738585072014e-308, 708.0  # the least number that is not denormal; exp(TOP) is a number
+FLOOR, CEILING, LEVEL = -40.0, 710.0, 20.0  # where expm1 is -1 and infinite, where tanh is 1
+
+
+@dataclass(frozen=True, eq=False)
+class Rare:
+    """``bundle``, which ``amend`` puts right in the lanes ``where`` it is not; these are rare."""
+
+    bundle: Bundle
+    where: Bundle
+    amend: Callable[[], Bundle]
+
+    def amended(self) -> Bundle:
+        """The whole answer; nothing is spent on rare lanes as long as there are none."""
+        assembly, plain = self.bundle.assembly, self.bundle
+        return assembly.amended(self.where, plain, lambda: self.where.choose(self.amend(), plain))
 
 
 def exp(x: Bundle) -> Bundle:
     """The exponential; 1e-308 and 8e307 stand for what is smaller and larger."""
-    x = x.compare("olt", -708.0).choose(-708.0, x)
-    x = x.compare("ogt", 709.0).choose(709.0, x)
+    x = _held(x, -708.0, 709.0)
     shifted = x.times_plus(LOG2_E, ROUNDING)
     n = shifted - ROUNDING
     rest = n.times_plus(-LN_2_LOW, n.times_plus(-LN_2_HIGH, x))
@@ -40,31 +70,119 @@ def exp(x: Bundle) -> Bundle:
 
 def log(x: Bundle) -> Bundle:
     """The natural logarithm, of numbers that are not denormal."""
-    # x = 2**n m, log m = 2 atanh(s), s = (m - 1)/(m + 1). n becomes a float through the mantissa of ROUNDING
-    bits = x.cast(BITS) - 4604544271217802189
-    n = ((bits >> EXPONENT) + 4843621399236968448).cast(NUMBER) - ROUNDING
-    m = ((bits & 4503599627370495) + 4604544271217802189).cast(NUMBER)
-    s = (m - 1.0) * _inverse(m + 1.0, 3)
-    q = s * s
-    y = n.times_plus(LN_2, s.times_plus(2.0, s * q * _polynomial(LOGARITHM, q)))
+    n, m = _parts(x)
+    y = _log_of_one_and(m - 1.0, n)
     y = x.compare("oeq", 0.0).choose(-math.inf, y)
     y = x.compare("olt", 0.0).choose(math.nan, y)
     return x.compare("olt", math.inf).choose(y, x)
 
 
-def wrightomega(p: Bundle) -> Bundle:
+def expm1(x: Bundle) -> Bundle:
+    """exp(x) - 1."""
+    return x.compare("oeq", 0.0).choose(x, _grown_less_one(_held(x, FLOOR, CEILING)))
+
+
+def _grown_less_one(x: Bundle) -> Bundle:
+    # 2**n p + (2**n - 1), by halves as 2**1024 is no number
+    shifted, p = _grown(x)
+    half = ((shifted.cast(BITS) << EXPONENT) + HALF).cast(NUMBER)
+    y = half.times_plus(p, half - 0.5)
+    return y + y
+
+
+def tanh(x: Bundle) -> Bundle:
+    """The hyperbolic tangent."""
+    size = x.called("fabs")
+    size = size.compare("ogt", LEVEL).choose(LEVEL, size)
+    grown = _grown_less_one(size + size)
+    y = grown / (grown + 2.0)
+    return (y.cast(BITS) | (x.cast(BITS) & SIGN)).cast(NUMBER)
+
+
+def log1p(x: Bundle) -> Bundle:
+    """log(1 + x)."""
+    whole = x + 1.0
+    n, m = _parts(whole)
+    # what 1 + x has lost by rounding, over 2**n, by halves as 2**-1024 is not exact
+    scale = (x.cast(BITS).like(TWO) - ((n + ROUNDING).cast(BITS) << EXPONENT)).cast(NUMBER)
+    f = ((x - (whole - 1.0)) * scale).times_plus(0.5, m - 1.0)
+    y = _log_of_one_and(f, n)
+    y = x.compare("oeq", 0.0).choose(x, y)
+    y = x.compare("oeq", -1.0).choose(-math.inf, y)
+    y = x.compare("olt", -1.0).choose(math.nan, y)
+    return x.compare("olt", math.inf).choose(y, x)
+
+
+def _log_of_one_and(f: Bundle, n: Bundle) -> Bundle:
+    # log(2**n (1 + f)): log(1 + f) = 2 atanh(s), s = f/(2 + f)
+    s = f * _inverse(f + 2.0, 3)
+    q = s * s
+    return n.times_plus(LN_2, s.times_plus(2.0, s * q * _polynomial(LOGARITHM, q)))
+
+
+def power(x: Bundle, y: Bundle) -> Rare:
+    """x to the power y."""
+    # y log(x) as a sum of two numbers, since exp makes an absolute error of it a relative one
+    large, small = _fine_log(x)
+    t = y * large
+    rest = y.times_plus(small, y.times_plus_exactly(large, -t))
+    shifted, p = _grown(t, rest)
+    z = ((p + 1.0).cast(BITS) + (shifted.cast(BITS) << EXPONENT)).cast(NUMBER)
+    nothing = ~x.cast(BITS).differs(x.cast(BITS).like(0)) & y.compare("ogt", 0.0)
+    plain = x.compare("oge", LEAST) & x.compare("olt", math.inf) & t.called("fabs").compare("olt", TOP)
+    return Rare(nothing.choose(0.0, z), ~(plain | nothing), lambda: one_by_one("pow", [x, y]))
+
+
+def _fine_log(x: Bundle) -> tuple[Bundle, Bundle]:
+    # the logarithm as ``log`` finds it, in two numbers of which the second is what the first lacks
+    n, m = _parts(x)
+    below, above = m - 1.0, m + 1.0
+    inverse = _inverse(above, 3)
+    s = below * inverse
+    left = s.times_plus_exactly(-above, below)
+    left = (-s).times_plus(m - (above - 1.0), left) * inverse
+    q = s * s
+    cube = s * q
+    third = cube * TWO_THIRDS
+    left_of_cube = s.times_plus(s.times_plus_exactly(s, -q), s.times_plus_exactly(q, -cube))
+    left_of_third = cube.times_plus(LEFT_OF_TWO_THIRDS, cube.times_plus_exactly(TWO_THIRDS, -third))
+    rest = (cube * q).times_plus(_polynomial(FINE_LOGARITHM, q), left.times_plus(q + q, left + left))
+    rest = n.times_plus(LN_2_LOW, left_of_cube.times_plus(TWO_THIRDS, left_of_third) + rest)
+    first, second = n * LN_2_HIGH, s + s
+    total = first + second
+    whole = total + third
+    rest = (second - (total - first)) + (third - (whole - total)) + rest
+    large = whole + rest
+    return large, rest - (large - whole)
+
+
+def _grown(x: Bundle, rest: Bundle | None = None) -> tuple[Bundle, Bundle]:
+    # n + ROUNDING and exp(r) - 1, where x + rest = n log(2) + r with |r| <= log(2)/2
+    shifted = x.times_plus(LOG2_E, ROUNDING)
+    n = shifted - ROUNDING
+    r = n.times_plus(-LN_2_LOW, n.times_plus(-LN_2_HIGH, x))
+    r = r if rest is None else r + rest
+    return shifted, (r * r).times_plus(_polynomial(BEYOND_LINEAR, r), r)
+
+
+def _parts(x: Bundle) -> tuple[Bundle, Bundle]:
+    # n and m of x = 2**n m; n becomes a float through the mantissa of ROUNDING
+    bits = x.cast(BITS) - ROOT_OF_HALF
+    n = ((bits >> EXPONENT) + 4843621399236968448).cast(NUMBER) - ROUNDING
+    return n, ((bits & FRACTION) + ROOT_OF_HALF).cast(NUMBER)
+
+
+def _held(x: Bundle, low: float, high: float) -> Bundle:
+    x = x.compare("olt", low).choose(low, x)
+    return x.compare("ogt", high).choose(high, x)
+
+
+def wrightomega(p: Bundle) -> Rare:
     """The solution y of y + log(y) = p."""
-    return wrightomega_above(p, wrightomega_below(p))
+    return Rare(_omega_below(p), p.compare("ogt", OMEGA_HIGH), lambda: _omega_above(p))
 
 
-def wrightomega_above(p: Bundle, below: Bundle) -> Bundle:
-    """The same from what ``wrightomega_below`` answers."""
-    high = p.compare("ogt", OMEGA_HIGH)
-    return p.assembly.amended(high, below, lambda: high.choose(_omega_above(p), below))
-
-
-def wrightomega_below(p: Bundle) -> Bundle:
-    """The Wright omega function of what is not above ``OMEGA_HIGH``."""
+def _omega_below(p: Bundle) -> Bundle:
     # y = exp(L) with L + exp(L) = p. Start: log2(y), below OMEGA_LOW a straight line. Then the series of y around the
     # start, in m and in b = dL/dp there; what is left out is m**4/24
     low = p.compare("olt", OMEGA_LOW).choose(OMEGA_LOW, p)

@@ -11,16 +11,13 @@ from dashpot.expr.node import Node, is_logical
 from dashpot.kernel.ir.layout import LANES, Fusion, Layout, Shelf
 from dashpot.kernel.targets.llvm import functions
 from dashpot.kernel.targets.llvm.assembly import BITS, NUMBER, TRUTH, Assembly, Bundle, joined, parted
+from dashpot.kernel.targets.llvm.library import LIBRARY, one_by_one
 from dashpot.kernel.targets.llvm.packing import packed, unpacked
 
 POWERS = 4  # coefficients of a cubic
 TOGETHER = 8  # vectors of arguments of long functions at once
 COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
             "not_equal": "une"}  # fmt: skip
-# taken from the C library, one lane after the other: its name and how many arguments it has
-LIBRARY = {"expm1": ("expm1", 1), "log1p": ("log1p", 1), "tanh": ("tanh", 1), "sin": ("sin", 1), "cos": ("cos", 1),
-           "power": ("pow", 2)}  # fmt: skip
-
 ARITHMETIC: dict[str, Callable[..., Bundle]] = {
     "add": lambda a, b: a + b,
     "subtract": lambda a, b: a - b,
@@ -37,7 +34,15 @@ ARITHMETIC: dict[str, Callable[..., Bundle]] = {
     "maximum": functions.maximum,
     "sign": functions.sign,
 }
-LONG = {"exp": functions.exp, "log": functions.log, "wrightomega": functions.wrightomega_below}
+LONG: dict[str, Callable[..., Bundle | functions.Rare]] = {
+    "exp": functions.exp,
+    "log": functions.log,
+    "expm1": functions.expm1,
+    "log1p": functions.log1p,
+    "tanh": functions.tanh,
+    "power": functions.power,
+    "wrightomega": functions.wrightomega,
+}
 
 
 @dataclass(frozen=True)
@@ -103,12 +108,13 @@ class Pass:
         kinds: dict[str, list[Node]] = {}
         for call in calls:
             kinds.setdefault(call.operation, []).append(call)
-        given = {kind: together([self.value(call.arguments[0]) for call in same]) for kind, same in kinds.items()}
-        parts: list[Callable[[], Any]] = [*(partial(LONG[kind], x) for kind, x in given.items()),
-                                          partial(self._compute, beside)]  # fmt: skip
-        *answers, _ = self.assembly.woven(parts)
-        for (kind, same), answer in zip(kinds.items(), answers, strict=True):
-            whole = functions.wrightomega_above(given[kind], answer) if kind == "wrightomega" else answer
+        parts: list[Callable[[], Any]] = [partial(self._compute, beside)]
+        for kind, same in kinds.items():
+            given = zip(*([self.value(argument) for argument in call.arguments] for call in same), strict=True)
+            parts.append(partial(LONG[kind], *(together(column) for column in given)))
+        _, *answers = self.assembly.woven(parts)
+        for same, answer in zip(kinds.values(), answers, strict=True):
+            whole = answer.amended() if isinstance(answer, functions.Rare) else answer
             for call, part in zip(same, apart(whole, len(same)), strict=True):
                 self.bundles[call.serial] = part
 
@@ -158,7 +164,7 @@ class Pass:
         if node.operation in COMPARED:
             return arguments[0].compare(COMPARED[node.operation], arguments[1])
         if node.operation in LIBRARY:
-            return _one_by_one(LIBRARY[node.operation][0], arguments)
+            return one_by_one(LIBRARY[node.operation], arguments)
         return ARITHMETIC[node.operation](*arguments)
 
     def _fused(self, node: Node, fusion: Fusion) -> Bundle:
@@ -225,26 +231,3 @@ def _cubic(coefficients: Sequence[Bundle], u: Bundle, order: int) -> Bundle:
     if order == 1:
         return u.times_plus(u.times_plus(c3 * 3.0, c2 * 2.0), c1)
     return u.times_plus(c3 * 6.0, c2 * 2.0)
-
-
-def _one_by_one(name: str, arguments: Sequence[Bundle]) -> Bundle:
-    places = ", ".join(f"{NUMBER} {{{number}}}" for number in range(len(arguments)))
-    return arguments[0].made(f"call {NUMBER} @{name}_of_lanes({places})", NUMBER, *arguments[1:])
-
-
-def library_functions() -> str:
-    """Functions of the C library, taken one lane after the other; NaN and infinity as they have it."""
-    return "\n".join(_lane_by_lane(name, count) for name, count in LIBRARY.values())
-
-
-def _lane_by_lane(name: str, count: int) -> str:
-    assembly = Assembly()
-    total = "poison"
-    for lane in range(LANES):
-        parts = [assembly.new(f"extractelement {NUMBER} %x{place}, i64 {lane}") for place in range(count)]
-        answer = assembly.new(f"call double @{name}({', '.join(f'double {part}' for part in parts)})")
-        total = assembly.new(f"insertelement {NUMBER} {total}, double {answer}, i64 {lane}")
-    assembly.do(f"ret {NUMBER} {total}")
-    places = ", ".join(f"{NUMBER} %x{place}" for place in range(count))
-    head = f"declare double @{name}({', '.join(['double'] * count)})\n"
-    return head + assembly.function(f"internal {NUMBER} @{name}_of_lanes({places})")

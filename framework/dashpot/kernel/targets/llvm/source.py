@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from dashpot.kernel.ir.layout import LANES, Passes, score_row
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
-from dashpot.kernel.targets.llvm.passes import Arrays, Pass, library_functions
+from dashpot.kernel.targets.llvm.library import library_functions
+from dashpot.kernel.targets.llvm.passes import Arrays, Pass
 
 # the machine's full width; without the word LLVM halves the vectors of many processors
 ATTRIBUTES = 'attributes #0 = { nounwind "prefer-vector-width"="512" }\n'
