@@ -22,6 +22,7 @@ SENSOR_KEYS = {
     "zero": "largest error of the zero, in the unit of the channel",
     "delay": "largest delay",
     "noise": "root mean square of the noise, in the unit of the channel",
+    "compliance": "largest compliance of the load cell with its fixture",
 }
 
 # what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
@@ -166,7 +167,7 @@ def _read_sensors(form: Form) -> dict[str, dict[str, float]]:
 
 def _read_sensor(form: Form, channel: str) -> dict[str, float]:
     unit = unit_of_channel(channel) or "1"
-    units = {"gain": "1", "delay": "s"}
+    units = {"gain": "1", "delay": "s", "compliance": "m/N"}
     read = {key: form.quantity(key, units.get(key, unit), None) for key in SENSOR_KEYS}
     form.close()
     return {key: value for key, value in read.items() if value is not None}

@@ -155,8 +155,7 @@ def _numbers(model: Model) -> Mapping[str, float]:
 
 def stands_in_the_data_sheet(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the data sheet of the force channel names what the term is about."""
-    words = {path.rpartition(".")[2] for path in scores.look.model.owned[number]}
-    return any(words & set(sheet) for sheet in refitter.sensors.values())
+    return scores.look.model.terms[number].suspect.quantity in refitter.sheet
 
 
 def told(term: Term) -> str:

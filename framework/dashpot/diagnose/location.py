@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from dashpot.contract.cause import Cause, Suspect
@@ -55,9 +55,12 @@ def locations_of(view: ModelView, network: NetworkSpec, inside: Inside | None) -
 
 
 def gather_candidates(
-    causes: Sequence[type[Cause]], locations: Sequence[Location]
+    causes: Sequence[type[Cause]], locations: Sequence[Location], sheet: Collection[str] = ()
 ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
-    """All forms of all causes that act in every run alike, and the causes that cannot be tried with the reason."""
+    """All forms of all causes that act in every run alike, and the causes that cannot be tried with the reason.
+
+    What only a data sheet can tell is tried where the ``sheet`` of the force channel names its quantity.
+    """
     found: list[Candidate] = []
     unavailable, first = [], 0
     for cause in causes:
@@ -68,6 +71,8 @@ def gather_candidates(
                 unavailable.append((cause.word, str(error)))
                 continue
             for suspect in suspects:
+                if cause.kind == "measurement" and cause.evidence_of == "data_sheet" and suspect.quantity not in sheet:
+                    continue
                 found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid)), location.site))
                 first += len(suspect.grid)
     return found, tuple(dict.fromkeys(unavailable))

@@ -126,7 +126,7 @@ def look_at(
     residual, tangents = refitter.linearise(model, plain)
     inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
     if known is None:
-        candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside))
+        candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside), refitter.sheet)
     else:
         candidates, unavailable = renumbered(known, causes), ()
     bends = bends_of_tables(runs, view, model.fitted)

@@ -52,6 +52,11 @@ class Refitter:
         """Natural sizes in the runs, from which numbers without bounds get theirs."""
         return natural_sizes(self.runs)
 
+    @cached_property
+    def sheet(self) -> frozenset[str]:
+        """What the data sheets of the force channel name."""
+        return frozenset(quantity for sheet in self.sensors.values() for quantity in sheet)
+
     def refit(self, model: Model, terms: Sequence[Term], noise: Noise, change: Array | None = None) -> Model:
         """A model with other terms, all numbers fitted.
 
