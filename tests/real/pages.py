@@ -44,7 +44,7 @@ def short(value: float | None) -> str:
 def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str]:
     """The page of a set."""
     with tempfile.TemporaryDirectory() as place:
-        seen = dashpot.look(dashpot.load_dataset(one.write(Path(place))))
+        seen = dashpot.look(dashpot.load_dataset(one.write(Path(place)), allow_outside=True))
     about, look = one.owners, seen.as_dict()
     yield f"# {one.title}"
     yield (f"Source: [{about['source']}]({about['url']}), licence {about['licence']}. The measurements are not part of "
