@@ -21,6 +21,8 @@ OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", 
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
+MOST_PLACES = 5  # of a table
+SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 
 
 class SettingDependence(Cause):
@@ -37,13 +39,15 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each number of each branch along a straight line over each setting; a stiffness over it, where the spring
-        has a curve; and a force.
+        """Each number of each branch along a straight line over each setting, or with a factor at each of its values;
+        a stiffness over it, where the spring has a curve; and a force.
         """
         for setting in _settings(view):
             numbers = list(numbers_of(network))
             if numbers:
                 yield changed(setting, numbers)
+            if len(setting.places) > 2:
+                yield from (tabulated(setting, number) for number in numbers)
             if has_curved_spring(network):
                 yield stiffness_over(setting)
             yield _force(setting)
@@ -68,11 +72,27 @@ class Setting:
         """How far a run is from the middle, over the spread."""
         return (self.values[run] - self.middle) / self.spread
 
+    @property
+    def places(self) -> tuple[float, ...]:
+        """The places of a table over the setting: its values, or where there are many, a few between the ends."""
+        values = sorted({float(f"{value:.{DIGITS}g}") for value in self.values.values()})
+        spaced = np.linspace(values[0], values[-1], MOST_PLACES).tolist()
+        return tuple(values if len(values) <= MOST_PLACES else spaced)
+
     def over(self, slope: float) -> str:
         """The dependence as it stands in a file, with a slope to be found."""
+        return f"{self._word}, at: {self.middle:.{DIGITS}g}, slope: {{start: {slope:.{DIGITS}g}}}"
+
+    def table(self, factors: Sequence[float], reference: int) -> str:
+        """The dependence as a table, with factors to be found at all places but one."""
+        texts = ["1" if k == reference else f"{{start: {factor:.5g}}}" for k, factor in enumerate(factors)]
+        at = ", ".join(f"{place:.{DIGITS}g}" for place in self.places)
+        return f"{self._word}, at: [{at}], factor: [{', '.join(texts)}]"
+
+    @property
+    def _word(self) -> str:
         kind = "channel" if self.name.startswith(MEAN) else "setting"
-        word = plain_or_quoted(self.name.removeprefix(MEAN))
-        return f"{kind}: {word}, at: {self.middle:.{DIGITS}g}, slope: {{start: {slope:.{DIGITS}g}}}"
+        return f"{kind}: {plain_or_quoted(self.name.removeprefix(MEAN))}"
 
 
 @dataclass(frozen=True)
@@ -117,7 +137,7 @@ def numbers_of(network: NetworkSpec) -> Iterator[Number]:
 def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
     try:
         make_dependent(network.text, branch.name, key, "setting: s, at: 0, slope: 0")
-    except (InputError, ValueError):
+    except InputError:
         return False
     return True
 
@@ -138,6 +158,25 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     grid = tuple(map(float, range(len(numbers))))
     return Suspect(f"a number over {setting.name}", grid, columns, extend, sign=0, unknowns=0, most=2,
                    quantity="change over the settings", unit="1")  # fmt: skip
+
+
+def tabulated(setting: Setting, number: Number) -> Suspect:
+    """A number with a factor at each place of a table over the setting."""
+    places = setting.places
+
+    def columns(view: View, run: str) -> Array:
+        shares = np.array([np.interp(setting.values[run], places, one) for one in np.eye(len(places))])
+        return shares[:, None] * number.column(view, run)
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        changes = dict.fromkeys(places, 0.0) | {place: strength for strength, place in atoms}
+        # the place that changes least keeps the factor one, so that the number found before is a good start
+        reference = int(np.argmin(np.abs(list(changes.values()))))
+        factors = np.clip(1.0 + np.array(list(changes.values())), SMALLEST_FACTOR, LARGEST_FACTOR)
+        return make_dependent(text, number.branch.name, number.key, setting.table(factors.tolist(), reference))
+
+    return Suspect(f"{number.branch.name}.{number.key} in a table over {setting.name}", places, columns, extend,
+                   joint=True, sign=0, unknowns=0, quantity="change of the factor", unit="1")  # fmt: skip
 
 
 def has_curved_spring(network: NetworkSpec) -> bool:

@@ -61,8 +61,8 @@ def add_to_branch(text: str, branch: str, lines: str) -> str:
 def make_dependent(text: str, branch: str, key: str, over: str) -> str:
     """The text in which the number ``key`` of a branch depends on a setting: ``{over}`` is written with it.
 
-    A plain number becomes ``{fixed: ..., over: {...}}``. Raises InputError when there is no such number, ValueError for
-    one that depends on a setting already or is given in another way.
+    A plain number becomes ``{fixed: ..., over: {...}}``. Raises InputError when there is no such number, and for one
+    that depends on a setting already or is given in another way.
     """
     document = Document.parse(text)
     home = _branch_node(document, branch)
@@ -73,7 +73,7 @@ def make_dependent(text: str, branch: str, key: str, over: str) -> str:
         plain = document.text[node.start : node.end]
         return apply_edits(text, [Edit(node.start, node.end, f"{{fixed: {plain}, over: {{{over}}}}}")])
     if not (_has(node, "start") or _has(node, "value")) or _has(node, "over"):
-        raise ValueError(f"expected a number of '{branch}' without 'over', got {node.describe()}")
+        raise InputError.at(node.place, f"expected a number of '{branch}' without 'over', got {node.describe()}")
     return add_entry(document, node, f"over: {{{over}}}")
 
 

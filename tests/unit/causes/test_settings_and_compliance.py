@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
 from unit.causes.test_promises import NETWORK, REGISTRY, VIEW, SmallView
@@ -87,6 +89,57 @@ def test_the_mean_of_a_channel_is_a_setting_too():
     spec = parse_network(numbers.extend(NETWORK, [(-0.2, 1.0)]), REGISTRY.elements)
     over = {slot.path: slot.value for slot in spec.slots()}["damping.damping"].over
     assert (over.word, over.channel, over.at) == ("temperature", True, (303.0,))
+
+
+class Pumped(SmallView):
+    """Three pressures, the middle one of them not in the middle."""
+
+    pressures: ClassVar = {"small": 1e5, "large": 2e5, "again": 4e5}
+
+    def __init__(self):
+        super().__init__()
+        self.runs = tuple(self.pressures)
+
+    def displacement(self, run):
+        return super().displacement(self._motion(run))
+
+    def velocity(self, run):
+        return super().velocity(self._motion(run))
+
+    def respond(self, run, element, values):
+        return super().respond(self._motion(run), element, values)
+
+    def settings(self, run):
+        return {"pressure": self.pressures[run]}
+
+    def _motion(self, run):
+        return "small" if run == "again" else run
+
+
+def test_three_values_of_a_setting_make_a_table():
+    """At each of its values the column is that of the number alone; the file has a factor there."""
+    numbers, stiffness, damping, force = dependence(view=Pumped())
+    assert (damping.form, damping.grid) == ("damping.damping in a table over pressure", (1e5, 2e5, 4e5))
+    for place, run in enumerate(Pumped.pressures):
+        shown = damping.columns(Pumped(), run)
+        assert shown[place] == pytest.approx(300.0 * Pumped().velocity(run), rel=1e-6)
+        assert not np.delete(shown, place, axis=0).any()
+    spec = parse_network(stiffness.extend(NETWORK, [(-0.3, 1e5), (0.01, 2e5), (0.5, 4e5)]), REGISTRY.elements)
+    over = {slot.path: slot.value for slot in spec.slots()}["stiffness.stiffness"].over
+    assert (over.at, [value.number for value in over.numbers]) == ((1e5, 2e5, 4e5), [0.7, 1.0, 1.5])
+    assert [value.searched for value in over.numbers] == [True, False, True]
+
+
+def test_many_values_of_a_setting_share_a_few_places():
+    class Drifting(Pumped):
+        pressures: ClassVar = {f"{k}": 1e5 + 1e4 * k for k in range(11)}
+
+        def _motion(self, run):
+            return "small"
+
+    _, stiffness, *_ = dependence(view=Drifting())
+    assert stiffness.grid == pytest.approx(np.linspace(1e5, 2e5, 5))
+    assert sum(stiffness.columns(Drifting(), "3")) == pytest.approx(200e3 * VIEW.displacement("small"), rel=1e-6)
 
 
 def test_settings_that_do_not_change_or_are_not_known_give_nothing():

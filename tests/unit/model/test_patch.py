@@ -380,7 +380,7 @@ def test_a_number_is_made_to_depend_on_a_setting(text):
     assert found["rubber.stiffness"].number == 220e3
     assert found["rubber.stiffness"].over.word == "pressure"
     assert found["rubber.stiffness.slope"].number == pytest.approx(0.01)
-    with pytest.raises(ValueError, match="without 'over'"):
+    with pytest.raises(InputError, match="without 'over'"):
         make_dependent(make_dependent(text, "rubber", "stiffness", OVER), "rubber", "stiffness", OVER)
 
 
