@@ -10,7 +10,7 @@ from dashpot.model.element import Element, Motion, Parameter, Response
 from dashpot.model.picture import Series, Symbol
 from dashpot_elements.behind_spring import memory, pressed
 
-STEPS = 7
+STEPS = 3
 REST = 1e-3  # of the reference velocity, below which the curve is a straight line
 
 
@@ -23,8 +23,8 @@ class CompliantDamper(Element):
     zero, so that its slope is finite at rest. A `series:` of a spring and any other law does the same for all laws;
     this one is a single branch.
 
-    One step follows TR-BDF2, of second order in the step; its equation is solved by Newton's method in logarithms,
-    where it is convex and converges for every number.
+    One step follows TR-BDF2, of second order in the step; its equation is solved by Householder's method in
+    logarithms, where it converges for every number.
     """
 
     picture = Series(Symbol.SPRING, Symbol.DASHPOT)
@@ -56,14 +56,19 @@ class CompliantDamper(Element):
 def _flow(given: Any, drag: Any, exponent: Any) -> tuple[Any, Any]:
     """The share that r^exponent has in r^exponent + drag r = given, and r.
 
-    The logarithm of the sum is convex in that of r; where one of both terms alone would do, it is at most ln 2 too
-    large, and Newton's method comes down from there without overshooting.
+    Householder's method in y = log(r), in which both terms are exponential functions. The start, one of both terms
+    alone, is at most ln 2 too large for the logarithm of their sum; three steps of fourth order leave 1e-14.
     """
     aim, straight = np.log(given), np.log(drag)
+    excess = exponent - 1.0
     y = np.minimum(aim - straight, aim / exponent)
     for _ in range(STEPS):
         power, line = exponent * y, straight + y
-        top = np.maximum(power, line)
-        left, right = np.exp(power - top), np.exp(line - top)
-        y = y - (top + np.log(left + right) - aim) * (left + right) / (exponent * left + right)
+        lesser = np.exp(-np.abs(power - line))
+        share = np.where(power > line, 1.0, lesser) / (1.0 + lesser)
+        first, bend = 1.0 + excess * share, excess * excess * share * (1.0 - share)
+        move = (aim - np.maximum(power, line) - np.log1p(lesser)) / first
+        part = move / first
+        last = excess * bend * (1.0 - 2.0 * share)
+        y = y + move * (1.0 + 0.5 * bend * part) / (1.0 + bend * part + last * part * move / 6.0)
     return np.exp(exponent * y - aim), np.exp(y)

@@ -65,14 +65,28 @@ def _flow(given: Any, rate: Any, closing: Any, knee: Any, opened: Any, sharpness
     """Force and velocity at which the force and rate times the velocity are ``given``.
 
     In r = |w|/knee: (rate + opened) r + closing r/(1 + r^m)^(1/m) = |given|/knee, which is concave and lies below both
-    of its asymptotes: Newton's method from where they meet the right side never overshoots.
+    of its asymptotes: Newton's method from where they meet the right side never overshoots. For m = 1 it is a quadratic
+    equation.
     """
     size, straight = np.abs(given) / knee, rate + opened
+    ratio = np.where(sharpness == 1.0, _gentle(size, straight, closing), _sharp(size, straight, closing, sharpness))
+    speed = knee * np.where(given < 0.0, -ratio, ratio)
+    return given - rate * speed, speed
+
+
+def _gentle(size: Any, straight: Any, closing: Any) -> Any:
+    # straight r^2 + level r = size, whichever form of the root has no difference of equal numbers
+    level = straight + closing - size
+    root = np.sqrt(level * level + 4.0 * straight * size)
+    high = level > 0.0
+    return np.where(high, 2.0 * size, root - level) / np.where(high, level + root, 2.0 * straight)
+
+
+def _sharp(size: Any, straight: Any, closing: Any, sharpness: Any) -> Any:
     ratio = np.maximum(size / (straight + closing), (size - closing) / straight)
     for _ in range(STEPS):
-        power = np.maximum(ratio, TINY) ** sharpness
+        power = np.exp(sharpness * np.log(np.maximum(ratio, TINY)))
         share = np.exp(-np.log1p(power) / sharpness)
         slope = straight + closing * share / (1.0 + power)
         ratio = ratio + (size - (straight + closing * share) * ratio) / slope
-    speed = knee * np.where(given < 0.0, -ratio, ratio)
-    return given - rate * speed, speed
+    return ratio

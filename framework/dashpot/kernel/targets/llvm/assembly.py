@@ -7,6 +7,7 @@ its coefficients in registers. The text has no optimiser to wait for: it is what
 
 from __future__ import annotations
 
+import math
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -249,10 +250,21 @@ class Assembly:
         yield
         self._open(f"{label}.end")
 
+    def settled(self, bundle: Bundle, pointer: str) -> Bundle:
+        """The same bundle, complete in all its vectors before anything that needs it is computed of one of them.
+
+        For the compiler it may be another one: where the ``pointer`` is null, which it never is.
+        """
+        null = self.new(f"icmp eq ptr {pointer}, null")
+        return self._amended(null, bundle, lambda: bundle.like(math.nan))
+
     def amended(self, where: Bundle, bundle: Bundle, amend: Callable[[], Bundle]) -> Bundle:
         """What amends a bundle where this is true in some lane; nothing is spent on it as long as it is in none."""
+        return self._amended(self.any(where), bundle, amend)
+
+    def _amended(self, condition: str, bundle: Bundle, amend: Callable[[], Bundle]) -> Bundle:
         label, before = self._label("rare"), self.block
-        self._branch(self.any(where), label, f"{label}.end")
+        self._branch(condition, label, f"{label}.end")
         self._begin(label)
         new, after = amend(), self.block
         self._open(f"{label}.end")

@@ -16,6 +16,7 @@ from dashpot.kernel.targets.llvm.packing import packed, unpacked
 
 POWERS = 4  # coefficients of a cubic
 TOGETHER = 8  # vectors of arguments of long functions at once
+SHORT = 4  # stages that the compiler may mix
 COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
             "not_equal": "une"}  # fmt: skip
 ARITHMETIC: dict[str, Callable[..., Bundle]] = {
@@ -115,6 +116,9 @@ class Pass:
         _, *answers = self.assembly.woven(parts)
         for same, answer in zip(kinds.values(), answers, strict=True):
             whole = answer.amended() if isinstance(answer, functions.Rare) else answer
+            if len(self.layout.stages) > SHORT and len(self.arrays.bases) > 1:
+                # left free, the compiler takes one vector through many stages, each waiting for the one before
+                whole = self.assembly.settled(whole, "%w")
             for call, part in zip(same, apart(whole, len(same)), strict=True):
                 self.bundles[call.serial] = part
 
