@@ -255,6 +255,8 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
                         "[inspection tests](../how-to/inspection-tests.md) shows two.", written.metrics),
     "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
                           written.specimens),
+    "modules": _section("Modules", "Every module of the framework, with the first sentence of its docstring; "
+                        "[the inside](../explanation/inside.md) tells how they work together.", written.modules),
     "commands": commands,
     "python": python,
     "accuracy": accuracy,
