@@ -166,7 +166,8 @@ def test_the_index_lists_every_module_with_its_first_sentence():
     found = [path.relative_to(FRAMEWORK) for path in modules(FRAMEWORK) if path.parent != FRAMEWORK]
     names = [path.with_suffix("").as_posix().partition("/") for path in found if path.name != "__init__.py"]
     sections = dict(re.findall(r"### `(\w+)/`\n(.+?)(?=\n### |\Z)", index, flags=re.DOTALL))
-    listed = {f"{layer}/{name}" for layer, text in sections.items() for name in re.findall(r"^- `(.+?)` \S", text, re.M)}
+    lines = {layer: re.findall(r"^- `(.+?)` \S", text, flags=re.MULTILINE) for layer, text in sections.items()}
+    listed = {f"{layer}/{name}" for layer, names_of_layer in lines.items() for name in names_of_layer}
     assert listed == {"".join(name) for name in names}
 
 
