@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dashpot.cli import complete
+from dashpot.cli.outcome import ExitCode
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Place, Problem
@@ -18,16 +19,16 @@ if TYPE_CHECKING:
 
 
 @click.command("check")
-@click.argument("specs", nargs=-1, required=True, metavar="SPEC...", shell_complete=complete.networks)
+@click.argument("specs", nargs=-1, required=True, metavar="MODEL|DATASET...", shell_complete=complete.networks)
 @click.option(
     "--against",
     "other",
-    metavar="SPEC",
-    help="Tell what each SPEC has more, less or different than this one.",
+    metavar="MODEL",
+    help="Tell what each MODEL has more, less or different than this one.",
     shell_complete=complete.networks,
 )
 @switches("json", "quiet", "allow_outside")
-def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
+def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> int:
     """Say every mistake and every weakness of network files, each as file:line:column with what to do.
 
     Of a dataset, all that is wrong with its file and its measurements, such as runs that give back work.
@@ -57,8 +58,13 @@ def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
         for problem in problems:
             if problem.severity == "warning":
                 click.echo(str(problem), err=True)
+    if failed and switches.json:
+        # the problems stand in the JSON above
+        click.echo(str(InputError(failed)), err=True)
+        return ExitCode.WRONG_INPUT
     if failed:
         raise InputError(failed)
+    return ExitCode.DONE
 
 
 def praise(spec: str, problems: tuple[Problem, ...]) -> str:

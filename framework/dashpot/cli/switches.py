@@ -121,7 +121,22 @@ def optimizer_options(verb: Callable[..., Any]) -> Callable[..., Any]:
     return optimizer(settings(verb))
 
 
-def output_option(about: str, **more: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """``-o OUT``, required unless there is a default."""
+# endings that a folder hardly has
+ENDINGS = (".csv", ".fmu", ".html", ".json", ".npz", ".pdf", ".svg", ".txt", ".xlsx", ".yaml", ".yml", ".zip")
+
+
+def output_option(
+    about: str, files: tuple[str, ...] = (), **more: Any
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """``-o OUT``, required unless there is a default: a folder, or a file with one of the endings ``files``."""
     more.setdefault("required", "default" not in more)
-    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about, **more)
+
+    def checked(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
+        if path is not None and path.suffix in set(ENDINGS) - set(files) and not path.is_dir():
+            other = f", or a file ending in {' or '.join(files)}" if files else ""
+            raise click.UsageError(f"-o expected a folder{other}, got '{path}', which looks like a file: "
+                                   f"say -o {path.with_suffix('')}")  # fmt: skip
+        return path
+
+    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about,
+                        callback=checked, **more)  # fmt: skip

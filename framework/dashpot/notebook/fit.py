@@ -14,10 +14,10 @@ from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
-from dashpot.notebook.numbers import numbers_grid
 from dashpot.notebook.plots import plot
 from dashpot.notebook.promoted import promoted
 from dashpot.report.grids import comparison_grid
+from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Grid, Notice
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ class Fit(FitResult):
         remarks |= dict.fromkeys(self.at_bound, "found at the end of its range")
         remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not determined by these data")
         remarks |= dict.fromkeys(self.idle, "without influence on these data")
-        return Listing.of(numbers_grid(self.fitted, remarks))
+        return Listing.of(parameters_grid(self.fitted, remarks))
 
     def to_pandas(self) -> DataFrame:
         """The same as a pandas frame."""
