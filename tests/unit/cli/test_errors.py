@@ -736,7 +736,7 @@ USAGE = {
     "no specimen": ("demo --specimen tyre -o out", "No specimen 'tyre' to demonstrate with, there are: test_tire"),
     "no networks": ("compare --data data -o out", "Missing argument 'MODEL... DATASET'"),
     "no data": ("compare good.yaml -o out", "Missing argument 'DATASET'"),
-    "two models of one": ("fit good.yaml spring data -o out", "expected one MODEL and one DATASET, got good.yaml spring"),
+    "two models of one": ("fit good.yaml spring data -o out", "expected one MODEL and one DATASET, got good.yaml"),
     "a file for a folder": ("fit good.yaml data -o out/a.html", "got 'out/a.html', which looks like a file"),
 }
 
