@@ -1,4 +1,4 @@
-"""``dashpot check``: all mistakes and weaknesses of networks and datasets, and what two networks differ in."""
+"""``dashpot check``: all mistakes and weaknesses of networks and datasets, and the differences of two networks."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     "--against",
     "other",
     metavar="MODEL",
-    help="Tell what each MODEL has more, less or different than this one.",
+    help="List the differences of each MODEL from this one.",
     shell_complete=complete.networks,
 )
 @switches("json", "quiet", "allow_outside")
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> int:
-    """Say every mistake and every weakness of network files, each as file:line:column with what to do.
+    """Report every mistake and every weakness of network files, each as file:line:column with what to do.
 
-    Of a dataset, all that is wrong with its file and its measurements, such as runs that give back work.
+    Of a dataset, all faults of its file and its measurements, such as runs that generate energy.
 
     With --against the networks are compared by their structure, whatever names their parts have; where the structure is
-    the same, by their numbers.
+    the same, by their parameters.
 
     \b
     Example:
@@ -120,6 +120,6 @@ def tell(entry: dict[str, Any], other: str) -> list[str]:
             *(f"  {line}" for line in entry["structure"]),
         ]
     if not entry["numbers"]:
-        return [f"{entry['spec']} against {other}: the same structure and the same numbers"]
-    return [f"{entry['spec']} against {other}: the same structure, other numbers",
+        return [f"{entry['spec']} against {other}: the same structure and the same parameters"]
+    return [f"{entry['spec']} against {other}: the same structure, other parameters",
             *(f"  {line}" for line in entry["numbers"])]  # fmt: skip

@@ -1,4 +1,4 @@
-"""``dashpot diagnose``: what is wrong with a network, why, and what mends it."""
+"""``dashpot diagnose``: what a network gets wrong, the causes, and the extended network."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
 @click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
-              help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
+              help="Causes whose removal increases the error by less are not named.")  # fmt: skip
 @switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
     model: str,
@@ -29,7 +29,7 @@ def verb(
     relevance: float,
     switches: Switches,
 ) -> None:
-    """Say what a network gets wrong, name the cause, extend the network and measure the gain.
+    """Diagnose the residual of a network: name the causes, extend the network and measure the gain.
 
     MODEL is a network file or a shipped name. The gain is measured on held-out runs. That nothing is missing, or that
     no known cause fits, are ordinary answers.

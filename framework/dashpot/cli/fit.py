@@ -22,8 +22,8 @@ def verb(
 ) -> None:
     """Identify the parameters of a network from measurements.
 
-    MODEL is a network file or a shipped name. The identified network is the same file with its numbers filled in, their
-    uncertainty and where they come from.
+    MODEL is a network file or a shipped name. The identified network is the same file with the
+    identified parameters, their 95 % intervals, and the data and range of the identification.
 
     \b
     Example:

@@ -60,11 +60,11 @@ class Verbs(click.Group):
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="dashpot")
 def dashpot() -> None:
-    """Rheological models: fit them to measurements, compare them, and find what is missing.
+    """Rheological models: fit them to measurements, compare them, and diagnose their residuals.
 
     \b
     First steps:
-      dashpot demo                                the whole story on a virtual test tire
+      dashpot demo                                compare and diagnose models of a virtual tire
       dashpot compare kelvin_voigt gehmann my/dataset.yaml -o comparison
       dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
 

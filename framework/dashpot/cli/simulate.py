@@ -37,12 +37,12 @@ ROWS = 50_000  # that are written at a time
               shell_complete=complete.rigs)  # fmt: skip
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".',
               shell_complete=complete.settings)  # fmt: skip
-@click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
+@click.option("--energy", is_flag=True, help="Also the energy balance of every run and part: energy.csv.")
 @click.option("--tolerance", metavar="SHARE", type=click.FloatRange(1e-9, 1.0), default=1e-3, show_default=True,
-              help="Error that is allowed, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
+              help="Allowed numerical error, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000),
               help="N times as many steps between two samples as usual, in place of a tolerance.")  # fmt: skip
-@click.option("--table", is_flag=True, help="Of the rows of tables of dynamic stiffness one table: stiffness.csv.")
+@click.option("--table", is_flag=True, help="Dynamic stiffness at the rows of the dataset's tables: stiffness.csv.")
 @output_option("A folder; with DATASET also a file ending in .npz.", files=(".npz",))
 @switches("seed", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
@@ -61,9 +61,9 @@ def verb(
 
     MODEL is a network file or a shipped name. With DATASET the folder gets a CSV file for every run with time,
     displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
-    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work that the
-    rig puts in is followed to where it is stored or dissipated. With --table the folder gets the dynamic stiffness of
-    the network at the rows of the tables of the dataset, beside the measured one.
+    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work of the rig
+    is balanced with the energy stored and dissipated. With --table the folder gets the dynamic stiffness of the network
+    at the rows of the tables of the dataset, beside the measured one.
 
     \b
     Example:
@@ -188,7 +188,7 @@ def measure_on(
 
 
 def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
-    """What of a run lies outside the motions with which the numbers were identified, in words."""
+    """What of a run lies outside of the range of identification, in words."""
     from dashpot.data.excitation import Excitation
     from dashpot.fit.seen_range import covered
     from dashpot.model.identified import outside
@@ -200,10 +200,10 @@ def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
 
 
 def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
-    """Tell which runs go beyond what the numbers were identified with."""
+    """Warn of runs beyond the range of identification."""
     for name, words in beyond.items():
         if words:
-            session.talk.warn(f"run '{name}' lies outside of what the numbers were identified with: {'; '.join(words)}")
+            session.talk.warn(f"run '{name}' lies outside of the range of identification: {'; '.join(words)}")
 
 
 def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None,

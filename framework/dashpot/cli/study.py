@@ -24,7 +24,7 @@ RECORDS = "checkpoint"
 
 @click.command("study")
 @study_and_dataset()
-@click.option("--dry-run", is_flag=True, help="Only say what the data can and cannot identify.")
+@click.option("--dry-run", is_flag=True, help="Only predict what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
 @switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:

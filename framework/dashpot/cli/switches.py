@@ -72,8 +72,8 @@ SWITCHES = {
         default=available_cores,
         help="Workers; all cores by default.",
     ),
-    "json": click.option("--json", is_flag=True, help="Result on standard output as JSON, talk on standard error."),
-    "quiet": click.option("--quiet", is_flag=True, help="Say nothing but warnings and errors."),
+    "json": click.option("--json", is_flag=True, help="Result as JSON on standard output, messages on standard error."),
+    "quiet": click.option("--quiet", is_flag=True, help="Only warnings and errors."),
     "backend": click.option(
         "--backend",
         type=click.Choice(["llvm", "numba"]),
@@ -83,7 +83,7 @@ SWITCHES = {
     "allow_outside": click.option(
         "--allow-outside",
         is_flag=True,
-        help="Read measured files that do not lie below the folder of their dataset, which you trust.",
+        help="Also read measured files outside of the folder of their dataset; for datasets that you trust.",
     ),
     "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
 }
