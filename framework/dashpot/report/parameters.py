@@ -27,7 +27,9 @@ COLUMNS = (
 def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None) -> Grid:
     """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role."""
     meanings = _meanings(spec)
-    rows = [_row(slot, meanings.get(slot.path), (remarks or {}).get(slot.path)) for slot in spec.slots()]
+    rows = [
+        _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
+    ]
     used = [column for column in COLUMNS if any(row[column.key] is not None for row in rows)]
     waiting = [path for path, curve in spec.data_curves().items() if curve.form == "data"]
     below = [f"A fit takes {', '.join(waiting)} from the data."] if waiting else []
@@ -38,11 +40,12 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
 
 
 def _meanings(spec: NetworkSpec) -> dict[str, str]:
-    return {
-        f"{branch.numbers}.{key}": declared.about
-        for branch in spec.leaves()
-        for key, declared in {**branch.element.declares.curves, **branch.element.declares.parameters}.items()
-    }
+    found: dict[str, str] = {}
+    for branch in spec.leaves():
+        curves = {key: characteristic.curve for key, characteristic in branch.characteristics().items()}
+        for key, declared in {**branch.element.declares.parameters, **curves}.items():
+            found[f"{branch.numbers}.{key}"] = declared.about
+    return found
 
 
 def _range(value: Value) -> tuple[float, float]:
