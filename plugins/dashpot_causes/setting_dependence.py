@@ -24,7 +24,7 @@ DIGITS = 10
 
 
 class SettingDependence(Cause):
-    """A number of the network, or a force of its own, follows pressure, current, temperature or another setting."""
+    """A parameter of the network, or a force of its own, follows pressure, current, temperature or another setting."""
 
     word = "setting_dependence"
     kind = "specimen"
@@ -37,7 +37,7 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each number of each branch along a straight line over each setting; a stiffness over it, where the spring
+        """Each parameter of each branch along a straight line over each setting; a stiffness over it, where the spring
         has a curve; and a force.
         """
         for setting in _settings(view):

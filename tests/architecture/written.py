@@ -63,12 +63,12 @@ def formats() -> Iterator[str]:
 
 
 def causes() -> Iterator[str]:
-    """A section for each cause: how it shows, what mends it, what it is taken for."""
+    """A section for each cause: how it shows, what is tried, and the tests that distinguish it from others."""
     for word, made in things("causes").items():
         yield f"### `{word}`"
         yield f"Class `{made.kind}`: {made.about}. " + " ".join(paragraphs(made))
         lines = [f"- How it shows: {made.shows}.", f"- What is tried: {one_line(made.suspects)}"]
-        lines += [f"- To tell it from `{other}`: {telling}." for other, telling in made.confused_with.items()]
+        lines += [f"- Test against `{other}`: {telling}." for other, telling in made.confused_with.items()]
         yield "\n".join(lines)
 
 
