@@ -40,7 +40,8 @@ fit = dp.fit("gehmann", data, seed=1)
 fit
 
 # %% [markdown]
-# `95 % from ... to` is the confidence interval of the parameter, given the structure. The plot shows whether that is right:
+# `95 % from ... to` is the confidence interval of the parameter, given the structure. The plot shows whether that is
+# right:
 # lines are the model, points the measurement.
 
 # %%
