@@ -17,8 +17,8 @@ def accuracy() -> Iterator[str]:
     yield "# How often a diagnosis is right"
     yield (
         "Virtual specimens with something hidden in them, or nothing, were measured on a virtual rig and diagnosed. "
-        "They share no code with dashpot, and the label was opened after the verdict. So few cases leave wide margins: "
-        "mind the intervals. A family are causes whose forms overlap, such as friction and softening with amplitude."
+        "They share no code with dashpot, and the label was opened after the verdict. Few cases give wide "
+        "intervals. A family are causes whose forms overlap, such as friction and softening with amplitude."
     )
     for name, found in kept_results("blind"):
         yield from _kept(name, found)
@@ -41,15 +41,15 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     )
     yield written.table(("what is counted", "cases", "95 % interval"), [*_rates(found), *_by_strength(found)])
     if (correlation := found.get("gain_calibration")) is not None:
-        yield f"Gains foreseen before the refit and those that came have a rank correlation of {correlation:.2f}."
+        yield f"Gains predicted before the refit and realised gains have a rank correlation of {correlation:.2f}."
     if found.get("by_design"):
         yield written.table(("design", "cases", "right", "exact", "confidently wrong"), list(_designs(found)))
     if found.get("brier") is not None:
         yield (
-            f"The Brier score of the probabilities is {found['brier']:.3f}: the mean square of what they were off, 0 "
-            "at best; 0.25 is that of telling one half of everything. So often what was told came true:"
+            f"The Brier score of the probabilities is {found['brier']:.3f}: the mean squared error, 0 at best; 0.25 "
+            "is that of a constant probability of one half. Calibration:"
         )
-        yield written.table(("probability told", "mean", "names that are hidden", "95 % interval"), list(_told(found)))
+        yield written.table(("predicted probability", "mean", "hidden names", "95 % interval"), list(_told(found)))
     if mistaken := list(_mistaken(found["confusion"])):
         yield "Beside the diagonal of the confusion matrix, effects that a refit of the model absorbs among them:"
         yield written.table(("hidden", "named first instead", "cases"), mistaken)
@@ -67,7 +67,7 @@ BLIND_KINDS = {
     "": "",
     "null": " with nothing hidden",
     "axle": " of an axle",
-    "sensors": " with sensors that err within their data sheet",
+    "sensors": " with sensor errors within their data sheet",
     "sensors-null": " with such sensors and nothing hidden",
     "no_quasi_static": " without a quasi-static run",
     "no_repeats": " without repeated runs",

@@ -175,8 +175,14 @@ class _Parser:
         found = self.atom()
         if self.tokens and self.tokens[0] == "^":
             self.tokens.pop(0)
-            return Term("^", (found, self.atom()))
+            return Term("^", (found, self.exponent()))
         return found
+
+    def exponent(self) -> Term:
+        if self.tokens[0] == "-":
+            self.tokens.pop(0)
+            return Term("minus", (self.atom(),))
+        return self.atom()
 
     def atom(self) -> Term:
         token = self.tokens.pop(0)
@@ -194,6 +200,8 @@ class _Parser:
             return Term("call", (self._closed(")"),), token)
         if token in FUNCTIONS:
             return Term("call", (self.atom(),), token)
+        if not token[0].isalpha():
+            raise ValueError(f"expected a name or a number in '{self.text}', got '{token}'")
         return Term("name", text=token)
 
     def _closed(self, end: str) -> Term:

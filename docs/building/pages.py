@@ -35,8 +35,8 @@ def elements() -> Iterator[str]:
     yield "# Elements"
     yield (
         "Deflection $x > 0$ squeezes, $v$ is its rate and $a$ the rate of that; a force $F > 0$ presses apart. The "
-        "equations are set from the docstring of each class, the tables from its declarations, and the last lines are "
-        "its source: what is compiled is derived from them."
+        "equations come from the docstring of each class, the tables from its declarations; the last lines are its "
+        "source, from which the compiled code is derived."
     )
     for word, made in written.things("elements").items():
         yield from element(word, made)
@@ -77,7 +77,7 @@ def networks() -> Iterator[str]:
 def commands() -> Iterator[str]:
     """Every verb with its arguments and options, as `--help` tells them."""
     yield "# Commands"
-    yield "`dashpot VERB --help` says the same. A SPEC is a network file or a shipped name."
+    yield "`dashpot VERB --help` says the same. A MODEL is a network file or a shipped name."
     for name in VERBS:
         context = click.Context(command, info_name="dashpot")
         verb = command.get_command(context, name)
@@ -200,7 +200,7 @@ def masses() -> Iterator[str]:
         "Cars drawn at random, every other one with rubber top mounts, were measured on virtual rigs that share no "
         "code with dashpot; the study `unsprung_mass` identified the mass of their wheels from the files alone. The "
         "interval is that of the model with the least error on a sweep that it never saw. An error far above the "
-        "noise, here 5 N, says that a model did not come to its end or lacks something: then the interval is wide."
+        "noise, here 5 N, says that a fit did not converge or that an effect is missing: then the interval is wide."
     )
     for version, found in kept_results("unsprung_mass"):
         yield from _weighed(version, found)
@@ -247,14 +247,17 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
                            "[methods of its own](../how-to/own-optimizer.md).", written.optimizers),
     "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run "
                         "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
-    "rigs": _section("Rigs", "`dashpot simulate SPEC --rig WORD` or `dp.measure(model, \"WORD\", ...)`.", written.rigs),
-    "exports": _section("Exports", "`dashpot export SPEC --to WORD -o OUT`: a network [in other "
+    "rigs": _section("Rigs", "`dashpot simulate MODEL --rig WORD` or `dp.measure(model, \"WORD\", ...)`.",
+                     written.rigs),
+    "exports": _section("Exports", "`dashpot export MODEL --to WORD -o OUT`: a network [in other "
                         "programs](../how-to/use-elsewhere.md).", written.exports),
-    "metrics": _section("Metrics", "Numbers that a test is made for. They stand in comparisons, studies and looks, and "
-                        "beside a virtual measurement, of every run that is such a test; "
+    "metrics": _section("Metrics", "Figures for which a test is made. Comparisons, studies and looks contain "
+                        "them, and virtual measurements, for every run that is such a test; "
                         "[inspection tests](../how-to/inspection-tests.md) shows two.", written.metrics),
-    "specimens": _section("Specimens", "Programs that stand for a part on a rig, richer than any network.",
+    "specimens": _section("Specimens", "Virtual specimens: programs that stand for a part on a rig.",
                           written.specimens),
+    "modules": _section("Modules", "Every module of the framework, with the first sentence of its docstring; "
+                        "[the inside](../explanation/inside.md) tells how they work together.", written.modules),
     "commands": commands,
     "python": python,
     "accuracy": accuracy,

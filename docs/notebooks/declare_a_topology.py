@@ -22,10 +22,10 @@ branches:
 mount
 
 # %% [markdown]
-# The branches act in parallel: each sees the whole deflection, and the forces add up. `≈` marks a number that a fit is
-# to find.
+# The branches act in parallel: each sees the whole deflection, and the forces add up. `≈` marks a parameter to
+# be identified.
 #
-# ## Mistakes are told with their place
+# ## Mistakes are reported with their place
 #
 # All of them at once, each with what to do.
 
@@ -87,7 +87,7 @@ carried
 # %% [markdown]
 # ## Try it
 #
-# A model whose numbers are known can be measured on a virtual rig, here along a slow triangle; the answer is a dataset
+# A model with known parameters can be measured on a virtual rig, here along a slow triangle; the result is a dataset
 # like any other.
 
 # %%
@@ -102,7 +102,7 @@ loop = dp.measure(known, "triangle", depth="3 mm", loops=1)
 loop.plot("loops")
 
 # %% [markdown]
-# The loop is as wide as twice the sliding force, 120 N: friction does not care how slowly it is driven.
+# The loop is as wide as twice the sliding force, 120 N: friction does not depend on the speed.
 
 # %%
 import numpy as np

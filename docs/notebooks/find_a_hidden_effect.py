@@ -1,12 +1,12 @@
 # %% [markdown]
 # # Find a hidden effect
 #
-# A mount was measured, and a spring with a damper does not describe it. What is missing?
+# A mount was measured, and a spring with a damper does not describe it. Which effect is missing?
 #
-# ## Something with a secret
+# ## A specimen with a hidden effect
 #
-# To see whether the answer is right, this mount is a model with a secret; a rig of our own measures it with noise, each
-# sweep twice.
+# To check the result, the mount is a model with a hidden effect; a virtual rig measures it with noise, each sweep
+# twice.
 
 # %%
 from pathlib import Path
@@ -37,7 +37,7 @@ data = dp.measure(secret, "bench.yaml", seed=3)
 data
 
 # %% [markdown]
-# ## The model that we believe in
+# ## The model
 
 # %%
 simple = dp.declare("""
@@ -51,22 +51,22 @@ fit = dp.fit(simple, data)
 fit.plot("stiffness")
 
 # %% [markdown]
-# The points are the measurement, the lines the fit: stiffness and loss angle have another course. The table says how
-# much that is, next to the noise floor.
+# The points are the measurement, the lines the fit: stiffness and loss angle deviate. The table has the RMSE
+# next to the noise floor.
 
 # %%
 fit
 
 # %% [markdown]
-# ## What is missing?
+# ## Diagnosis
 
 # %%
 diagnosis = dp.diagnose(simple, data)
 diagnosis
 
 # %% [markdown]
-# The cause was found by its name, and the file was extended by a branch with numbers and their intervals: compare them
-# with the secret. The gain is measured on runs that neither the fit nor the diagnosis has seen.
+# The cause was named, and the file was extended by a branch with parameters and their intervals: compare them with the
+# hidden effect. The gain is measured on held-out runs.
 
 # %%
 diagnosis.plot("stiffness")

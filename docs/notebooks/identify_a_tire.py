@@ -1,14 +1,14 @@
 # %% [markdown]
 # # Identify a tire
 #
-# A tire was pressed slowly, then shaken from 1 to 25 Hz. Which numbers does a model of it have, how sure are they,
-# and how many elements does it take?
+# A tire was pressed slowly, then shaken from 1 to 25 Hz. Which parameters does a model of it have, with which
+# intervals, and how many elements does it need?
 
 # %% [markdown]
 # ## The measurement
 #
 # `test_tire` is a program that stands for a tire on a rig: it shares no law with the models below. It writes a dataset
-# as a rig would. With files of your own, begin at `load_dataset`.
+# as a rig does. With files of your own, begin at `load_dataset`.
 
 # %%
 from pathlib import Path
@@ -33,14 +33,15 @@ data.plot("stiffness")
 #
 # ## One model
 #
-# `gehmann` is a spring and one Maxwell branch. Its spring comes `from: quasi_static`, out of the slow loop.
+# `gehmann` is a spring and one Maxwell branch. Its spring comes `from: quasi_static`, from the slow loop.
 
 # %%
 fit = dp.fit("gehmann", data, seed=1)
 fit
 
 # %% [markdown]
-# `95 % from ... to` is the interval in which the number lies if the structure is right. Whether it is, the plot shows:
+# `95 % from ... to` is the confidence interval of the parameter, given the structure. The plot shows whether that is
+# right:
 # lines are the model, points the measurement.
 
 # %%
@@ -51,7 +52,7 @@ fit.plot("stiffness")
 #
 # ## Several models
 #
-# The error that counts is that on runs the fit has not seen; none can get below the noise floor.
+# The figure of merit is the RMSE on held-out runs; its lower bound is the noise floor.
 
 # %%
 comparison = dp.compare(["kelvin_voigt", "gehmann", "tire_model_1"], data, seed=1)
@@ -63,7 +64,7 @@ comparison.plot()
 # %% [markdown]
 # ## Keep it
 #
-# The identified model is the same file with its numbers filled in.
+# The identified model is the same file with the identified parameters.
 
 # %%
 best = min(comparison.fits, key=lambda fit: fit.errors.held_out or fit.errors.train)

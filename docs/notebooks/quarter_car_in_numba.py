@@ -26,8 +26,8 @@ fit.plot("stiffness")
 # %% [markdown]
 # ## Its solver
 #
-# `step(state, x, v, dt, numbers)` takes the tire to a deflection `x` and its rate `v` and answers the force. All
-# memory is in the array `state`; all numbers of the model are in the array `numbers`, in the order of `names`.
+# `step(state, x, v, dt, numbers)` takes the tire to a deflection `x` and its rate `v` and returns the force. All
+# states are in the array `state`; the parameters of the model are in the array `numbers`, in the order of `names`.
 
 # %%
 solver = tire.jit()

@@ -14,7 +14,7 @@ from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 PROBE = 1e-9  # m/N
-MOST = 30.0  # times what the linear step foresees
+MOST = 30.0  # times the prediction of the linear step
 
 
 class FixtureCompliance(Cause):
@@ -23,7 +23,7 @@ class FixtureCompliance(Cause):
     word = "fixture_compliance"
     kind = "measurement"
     about = "compliance of the fixture"
-    shows = "everything looks softer, the more so the stiffer the specimen; mostly hidden in the numbers of the model"
+    shows = "the specimen looks softer, the more so the stiffer it is; mostly absorbed by the parameters of the model"
     cure = "measure the displacement across the specimen, or a rigid bar in its place and subtract its deflection"
     evidence_of = "data_sheet"
     confused_with = {

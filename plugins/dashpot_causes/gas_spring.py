@@ -18,12 +18,12 @@ LEAST = 1.02  # of the largest deflection: the column may not be squeezed to not
 
 
 class GasSpring(Cause):
-    """A preload that grows like one over what is left of a column of gas, and may lag behind as the gas cools."""
+    """A preload inversely proportional to the remaining gas column, with a lag as the gas exchanges heat."""
 
     word = "gas_spring"
     kind = "specimen"
     about = "a gas spring"
-    shows = "a force at rest and a stiffness that grow together with compression; slow motion is softer by up to 1.4"
+    shows = "static force and stiffness that grow together with compression; quasi-static motion is softer by up to 1.4"
     confused_with = {
         "stiffness_curve": "a second pressure: preload and stiffness of gas grow in proportion to it",
         "relaxation": "a second preload: rubber relaxes by the same share, gas by more where its force is larger",

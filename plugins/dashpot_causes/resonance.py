@@ -64,7 +64,7 @@ class Mode:
     turbulence: float = 0.0
 
     def values(self, mass: str, stiffness: float) -> dict[str, float]:
-        """The numbers of an element with a stiffness in N/m; ``mass`` is the word for its mass."""
+        """The parameters of an element with a stiffness in N/m; ``mass`` is the word for its mass."""
         speed = 2.0 * np.pi * self.frequency
         found = {"stiffness": stiffness, mass: stiffness / speed**2, "damping": 2.0 * self.ratio * stiffness / speed}
         return found | ({"quadratic_damping": 2.0 * self.turbulence * stiffness / speed} if self.turbulence else {})

@@ -18,7 +18,7 @@ CHANGES = 0.01  # of its size: a condition that changes by less is the same in a
 def order_of(view: View) -> Mapping[str, float]:
     """The places of the runs in their dataset, from 0 for the first one.
 
-    Empty where they are not known, or where strokes, middles, speeds and settings of the runs foretell them.
+    Empty where they are not known, or where strokes, middles, speeds and settings of the runs predict them.
     """
     settings = {run: view.settings(run) for run in view.runs}
     if len(settings) < FEWEST or any(ORDER not in each for each in settings.values()):

@@ -26,12 +26,12 @@ SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 
 
 class SettingDependence(Cause):
-    """A number of the network, or a force of its own, follows pressure, current, temperature or another setting."""
+    """A parameter of the network, or a force of its own, follows pressure, current, temperature or another setting."""
 
     word = "setting_dependence"
     kind = "specimen"
     about = "dependence on a setting or on a measured channel"
-    shows = "what is left sorts by the setting: runs of one setting err alike, those of another the other way"
+    shows = "the residual depends on the setting: alike in runs of one setting, opposite in those of another"
     confused_with = {
         "gain": "the same setting once more: a gain of single runs does not come back with it",
         "drift": "settings in another order: drift follows the clock",
@@ -39,7 +39,7 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each number of each branch along a straight line over each setting, or with a factor at each of its values;
+        """Each parameter of each branch along a straight line over each setting, or with a factor at each of its values;
         a stiffness over it, where the spring has a curve; and a force.
         """
         for setting in _settings(view):
@@ -122,7 +122,7 @@ def _settings(view: View) -> Iterator[Setting]:
 
 
 def numbers_of(network: NetworkSpec) -> Iterator[Number]:
-    """The numbers of a network with two ends that may be written as dependent on a setting."""
+    """The parameters of a network with two ends that may be written as dependent on a setting."""
     if network.document is None or network.joints:
         return
     for branch in network.leaves():
@@ -143,7 +143,7 @@ def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
 
 
 def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
-    """One or two of the numbers along a straight line over the setting."""
+    """One or two of the parameters along a straight line over the setting."""
 
     def columns(view: View, run: str) -> Array:
         return setting.share(run) * np.array([number.column(view, run) for number in numbers])

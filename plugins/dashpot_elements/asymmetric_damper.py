@@ -35,7 +35,7 @@ class AsymmetricDamper(Element):
                                      symbol="n_c", default=1.0)  # fmt: skip
     rebound_exponent = Parameter("1", "power of the velocity in rebound", bounds=(0.05, 4.0), scale="linear",
                                  symbol="n_r", default=1.0)  # fmt: skip
-    reference = Parameter("m/s", "velocity at which the dampings are told", bounds=(1e-4, 1e2), symbol="v_r",
+    reference = Parameter("m/s", "velocity at which the dampings are given", bounds=(1e-4, 1e2), symbol="v_r",
                           default=0.1)  # fmt: skip
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -27,7 +27,7 @@ class EndStop(Element):
     rebound = Parameter("m", "deflection at which the rebound stop is touched", bounds=(-OUT_OF_REACH, 0.0),
                         scale="linear", symbol="x_r", default=-OUT_OF_REACH)  # fmt: skip
     exponent = Parameter("1", "power of the depth", bounds=(1.0, 5.0), scale="linear", symbol="n", default=1.0)
-    reference = Parameter("m", "depth at which the stiffness is told", bounds=(1e-6, 10.0), symbol="x_0", default=1e-3)
+    reference = Parameter("m", "depth at which the stiffness is given", bounds=(1e-6, 10.0), symbol="x_0", default=1e-3)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Both buffers at the end of the step."""

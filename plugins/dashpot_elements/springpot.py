@@ -32,7 +32,7 @@ class Springpot(Element):
 
     stiffness = Parameter("N/m", "dynamic stiffness at the reference frequency", bounds=(1.0, 1e9), symbol="k_a")
     order = Parameter("1", "0 of a spring, 1 of a dashpot", bounds=(0.01, 0.99), scale="linear", symbol="a")
-    reference = Parameter("Hz", "frequency at which the stiffness is told", bounds=(1e-4, 1e5), symbol="f_r",
+    reference = Parameter("Hz", "frequency at which the stiffness is given", bounds=(1e-4, 1e5), symbol="f_r",
                           default=1.0)  # fmt: skip
     lowest = Parameter("Hz", "low end of the range of frequencies", bounds=(1e-6, 1e5), symbol="f_1", default=0.1)
     decades = Parameter("1", "length of the range of frequencies", bounds=(0.5, 8.0), scale="linear", symbol="N",

@@ -25,7 +25,7 @@ NAMES = {names!r}
 UNITS = {units!r}
 NUMBERS = np.array({values!r})
 DRIVEN, LOADED, FREE = {driven!r}, {loaded!r}, {free!r}
-RANGE = {seen!r}  # with which the numbers were identified
+RANGE = {seen!r}  # with which the parameters were identified
 
 
 def fresh_state(span={smallest!r}):

@@ -43,7 +43,7 @@ def beyond(network: NetworkSpec, sines: Sequence[tuple[float, float, float]]) ->
     known = network.identified.range
     ends = {key: (float(seen[quantity_of(key)].min()), float(seen[quantity_of(key)].max())) for key in known}
     words = outside(ends, known)
-    return f"Sines outside of what the numbers were identified with: {'; '.join(words)}." if words else ""
+    return f"Sines outside of the range of identification: {'; '.join(words)}." if words else ""
 
 
 def require_one_end(network: NetworkSpec, what: str) -> None:

@@ -134,7 +134,7 @@ class MockUpUnit(Export):
 
     @abstractmethod
     def add_range(self, root: Element, seen: Range) -> None:
-        """The least and the largest of the motions with which the numbers were identified."""
+        """The least and the largest of the motions with which the parameters were identified."""
 
     @abstractmethod
     def build_description(self, name: str, sources: list[str]) -> bytes | None:

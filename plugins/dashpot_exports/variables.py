@@ -1,4 +1,4 @@
-"""The variables of a mock-up unit: inputs, outputs, the status, and the numbers of the network."""
+"""The variables of a mock-up unit: inputs, outputs, the status, and the parameters of the network."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ class Optuna(Search):
     """A sampler of the library optuna, asked for a block of points at a time.
 
     sampler: `tpe`, `cmaes`, `gp` or `random`; block: points of a block; evaluations: after which the search ends.
-    Its samplers look at every earlier point, so they are for few and dear evaluations.
+    Its samplers look at every earlier point, so they are for few and expensive evaluations.
 
     Akiba et al., Proc. KDD (2019) 2623.
     """

@@ -35,7 +35,7 @@ class CarTire:
 
 @dataclass(frozen=True)
 class Car:
-    """What an axle is made of, in SI; the numbers hold at the wheel, for one side.
+    """What an axle is made of, in SI; the parameters hold at the wheel, for one side.
 
     ``rebound`` and ``compression`` are the slope at rest and the velocity at which the shock absorber has half of it.
     A ``mount_stiffness`` of infinity is a rod that is bolted to the body.

@@ -7,7 +7,9 @@ import re
 import click
 import pytest
 from architecture.source import FRAMEWORK, MANUAL, PLUGINS, ROOT, manual, modules, texts
+from architecture.test_layers import LAYERS
 from architecture.written import PAGES, renewed, things
+from architecture.written import modules as module_index
 
 import dashpot as dp
 from dashpot.cli.list import KINDS as LISTS
@@ -23,6 +25,8 @@ from dashpot.report.schematic.svg import svg
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 TOLD = manual()
+INSIDE = (ROOT / "framework" / "README.md").read_text(encoding="utf-8")
+HOW = (ROOT / "docs" / "explanation" / "inside.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^dashpot (.+)$", TOLD, flags=re.MULTILINE)
 VARIABLES = {
     found
@@ -134,7 +138,37 @@ def test_every_verdict_is_explained(verdict):
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)
 def test_every_hook_is_explained_to_plugin_authors(kind):
-    assert f"| `{kind.hook}` |" in (ROOT / "framework" / "README.md").read_text(encoding="utf-8")
+    assert f"| `{kind.hook}` |" in INSIDE
+
+
+def test_the_page_of_the_framework_shows_the_order_of_imports():
+    assert INSIDE.count("\n") <= 110
+    [order] = re.findall(r"^    (text, expr <- .+)$", INSIDE, flags=re.MULTILINE)
+    assert [set(names.split(", ")) for names in order.split(" <- ")] == list(LAYERS)
+
+
+def test_the_flow_and_its_page_name_every_package():
+    [flow] = re.findall(r"```text\n(.+?)```", INSIDE, flags=re.DOTALL)
+    missing = [name for layer in LAYERS for name in layer if not re.search(rf"\b{name}\b", flow)]
+    assert missing == ["contract"]  # the door of the plugins takes no part in the flow
+
+
+@pytest.mark.parametrize("page", [INSIDE, HOW], ids=["framework/README.md", "inside.md"])
+def test_modules_that_a_page_sends_to_are_there(page):
+    packages = "|".join(sorted(name for layer in LAYERS for name in layer))
+    named = set(re.findall(rf"`((?:{packages})/[\w/]+)`", page))
+    assert len(named) > 5
+    assert not [name for name in named if not any((FRAMEWORK / name).with_suffix(end).exists() for end in ("", ".py"))]
+
+
+def test_the_index_lists_every_module_with_its_first_sentence():
+    index = "\n".join(module_index())
+    found = [path.relative_to(FRAMEWORK) for path in modules(FRAMEWORK) if path.parent != FRAMEWORK]
+    names = [path.with_suffix("").as_posix().partition("/") for path in found if path.name != "__init__.py"]
+    sections = dict(re.findall(r"### `(\w+)/`\n(.+?)(?=\n### |\Z)", index, flags=re.DOTALL))
+    lines = {layer: re.findall(r"^- `(.+?)` \S", text, flags=re.MULTILINE) for layer, text in sections.items()}
+    listed = {f"{layer}/{name}" for layer, names_of_layer in lines.items() for name in names_of_layer}
+    assert listed == {"".join(name) for name in names}
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.name)

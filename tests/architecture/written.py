@@ -63,12 +63,12 @@ def formats() -> Iterator[str]:
 
 
 def causes() -> Iterator[str]:
-    """A section for each cause: how it shows, what mends it, what it is taken for."""
+    """A section for each cause: how it shows, what is tried, and the tests that distinguish it from others."""
     for word, made in things("causes").items():
         yield f"### `{word}`"
         yield f"Class `{made.kind}`: {made.about}. " + " ".join(paragraphs(made))
         lines = [f"- How it shows: {made.shows}.", f"- What is tried: {one_line(made.suspects)}"]
-        lines += [f"- To tell it from `{other}`: {telling}." for other, telling in made.confused_with.items()]
+        lines += [f"- Test against `{other}`: {telling}." for other, telling in made.confused_with.items()]
         yield "\n".join(lines)
 
 
@@ -104,18 +104,13 @@ def metrics() -> Iterator[str]:
 
 
 def modules() -> Iterator[str]:
-    """A list for each layer of the framework: its modules, each with what it says about itself."""
-    layers = (
-        "text", "expr", "model", "data", "contract", "kernel", "fit", "triage", "compare", "diagnose", "study",
-        "report", "cli", "notebook", "testing",
-    )  # fmt: skip
-    for layer in layers:
-        found = sorted(path for path in (FRAMEWORK / layer).rglob("*.py") if path.name != "__init__.py")
-        if found:
-            names = [path.relative_to(FRAMEWORK / layer).with_suffix("").as_posix() for path in found]
-            lines = [f"- `{name}` {_module_line(path)}" for name, path in zip(names, found, strict=True)]
-            yield f"### `{layer}/`"
-            yield "\n".join([f"{_module_line(FRAMEWORK / layer / '__init__.py')}", "", *lines])
+    """A list for each package of the framework: its modules, each with the first paragraph of its docstring."""
+    for layer in sorted(path.parent for path in FRAMEWORK.glob("*/__init__.py")):
+        found = sorted(path for path in layer.rglob("*.py") if path.name != "__init__.py")
+        names = [path.relative_to(layer).with_suffix("").as_posix() for path in found]
+        lines = [f"- `{name}` {_module_line(path)}" for name, path in zip(names, found, strict=True)]
+        yield f"### `{layer.name}/`"
+        yield "\n".join([_module_line(layer / "__init__.py"), "", *lines])
 
 
 PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
@@ -129,7 +124,6 @@ PAGES: Mapping[str, Mapping[str, Callable[[], Iterator[str]]]] = {
         "exports": exports,
         "metrics": metrics,
     },
-    "framework/README.md": {"modules": modules},
 }
 
 

@@ -20,7 +20,7 @@ def control_charts(
 ) -> list[dict[str, Any]]:
     """For each number its batches in their order: ``mean``, ``low`` and ``high`` limit in SI, ``count``, ``outside``.
 
-    ``means`` (q, p) takes out what the numbers owe to properties; only the specimens that are ``sound`` (n,) count.
+    ``means`` (q, p) takes out what the parameters owe to properties; only the specimens that are ``sound`` (n,) count.
     The limits are three standard errors from the mean of all, by the scatter within batches. An empty list without two
     batches of which one has two specimens.
 

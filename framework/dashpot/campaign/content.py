@@ -89,7 +89,7 @@ def _named(
 
 
 def _shared(model: str, shared: Shared | None, outcomes: Mapping[Job, Outcome]) -> dict[str, Any] | None:
-    """The numbers in common, and what each specimen comes to with them."""
+    """The parameters in common, and what each specimen comes to with them."""
     if shared is None:
         return None
     again = {job.specimen: outcome["models"][0] for job, outcome in outcomes.items()

@@ -50,7 +50,7 @@ class Job:
 class CampaignSpec:
     """Specimens, the models and verbs for each of them, and what is asked of the population.
 
-    shared: patterns of the numbers that all specimens have in common; dependence: the properties that numbers may
+    shared: patterns of the parameters that all specimens have in common; dependence: the properties that numbers may
     depend on; batch: the property that control charts go along; memory: bytes that a job may take; reports: whether
     every job writes a report.
     """

@@ -50,7 +50,7 @@ def run_job(work: Work, job: Job) -> Outcome:
 
 
 def inputs_of(job: Job) -> dict[str, Any]:
-    """What a job starts from beside the campaign: the state of its files, and the numbers that it is given."""
+    """What a job starts from beside the campaign: the state of its files, and the parameters that it is given."""
     return {"files": state_of(job.data), "held": dict(job.held)}
 
 
@@ -99,7 +99,7 @@ def _told(found: Found) -> Outcome:
 
 
 def _model(fit: FitResult) -> dict[str, Any]:
-    """The numbers of a model that specimens can be compared by, with the correlation of their errors."""
+    """The parameters of a model that specimens can be compared by, with the correlation of their errors."""
     searched = [slot for slot in fit.fitted.slots() if slot.value.searched]
     tables = {path for path, curve in fit.fitted.curves().items() if curve.form == "table"}
     kept = [number for number, slot in enumerate(searched)

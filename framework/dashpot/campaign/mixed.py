@@ -1,6 +1,6 @@
 """How specimens scatter, beyond what each of them is known to: a linear model with mixed effects.
 
-The numbers of a specimen are y = B' x + b + e: what its properties x make of the mean, its own deviation b with the
+The parameters of a specimen are y = B' x + b + e: what its properties x make of the mean, its own deviation b with the
 covariance that all specimens share, and its error e whose covariance is known.
 """
 
@@ -43,7 +43,7 @@ def fit_mixed(at: Array, errors: Array, design: Array, weights: Array | None = N
     """Restricted maximum likelihood for numbers ``at`` (n, p) with known ``errors`` (n, p, p) over a design (n, q).
 
     ``weights`` (n,) from 0 to 1 say how far each specimen counts. Every step of the EM algorithm makes the likelihood
-    larger and keeps the covariance positive. The interval of a standard deviation takes the variance of the numbers,
+    larger and keeps the covariance positive. The interval of a standard deviation takes the variance of the parameters,
     between specimens and of typical errors together, as a multiple of chi-square, as it is where errors are alike.
 
     Sources: Laird and Ware, Biometrics 38 (1982) 963; Searle, Casella and McCulloch, Variance components (1992);

@@ -45,7 +45,7 @@ def named_by_error(model: str, numbers: Numbers, found: Unlike) -> Iterator[Name
     for i, specimen in enumerate(numbers.specimens):
         if found.outside[i] >= NAMED and found.shifts[i, 0] > 0.0:
             error, ratio = pretty(float(np.exp(numbers.at[i, 0])), "N", 3), float(np.exp(found.shifts[i, 0]))
-            told = f"the model errs by {error}, {ratio:.3g} times as much as on the others"
+            told = f"the RMSE of the model is {error}, {ratio:.3g} times that of the others"
             yield Named(specimen, model, MISFIT, float(found.outside[i]), (told,))
 
 
@@ -68,13 +68,13 @@ def _evidence(numbers: Numbers, found: Unlike, which: int, way: str) -> Iterator
     if way in KINDS:
         likely = ", ".join(f"{other} {found.probability[which][k]:.2g}" for k, other in enumerate(found.ways)
                            if found.probability[which][k] > 0.05)  # fmt: skip
-        yield f"all numbers moved together as with a {KINDS[way]} (probabilities: {likely})"
+        yield f"all parameters changed together as with a {KINDS[way]} (probabilities: {likely})"
     order = np.argsort(-np.abs(found.distances[which]))
     far = [k for k in order if abs(found.distances[which, k]) >= NOTABLE][:MOST_NOTABLE] or [order[0]]
     for k in far:
         yield _moved(numbers, int(k), which, float(found.shifts[which, k]), float(found.distances[which, k]))
     if way == SEVERAL and len(far) == 1:
-        yield "several numbers together are where no other specimen has them"
+        yield "several parameters together are outside of the population"
 
 
 def _moved(numbers: Numbers, which: int, specimen: int, shift: float, distance: float) -> str:

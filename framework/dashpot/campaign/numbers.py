@@ -1,4 +1,4 @@
-"""The numbers of one model over all specimens, in the coordinates in which they are compared."""
+"""The parameters of one model over all specimens, in the coordinates in which they are compared."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def models_of(outcomes: Mapping[Job, Outcome], model: str) -> dict[str, Outcome]
 
 
 def numbers_of(fits: Mapping[str, Outcome]) -> Numbers:
-    """The numbers that all specimens have, without dependence on anything."""
+    """The parameters that all specimens have, without dependence on anything."""
     every = [set(fit["numbers"]) for fit in fits.values()]
     first: Outcome = next(iter(fits.values()), {"numbers": {}})
     paths = tuple(path for path in first["numbers"] if all(path in known for known in every))
@@ -85,10 +85,10 @@ def depending(numbers: Numbers, campaign: CampaignSpec) -> tuple[Numbers, list[s
                 columns.append(column)
                 effects.append(effect)
             else:
-                reason = f"what '{effect}' does cannot be told from what the properties before it do"
+                reason = f"the effect of '{effect}' is collinear with the properties before it"
         remarks += [reason] if reason else []
     if len(columns) + 2 > len(chosen):
-        return numbers, [f"{len(chosen)} specimens are too few to tell what {', '.join(effects)} do"] * bool(effects)
+        return numbers, [f"{len(chosen)} specimens are too few for the effects of {', '.join(effects)}"] * bool(effects)
     return replace(numbers, design=np.column_stack(columns), effects=tuple(effects)), remarks
 
 

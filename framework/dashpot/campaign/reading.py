@@ -126,5 +126,5 @@ def _refuse_unknown(form: Form, campaign: CampaignSpec) -> None:
     paths = {slot.path for model in campaign.models for slot in model.slots() if slot.value.searched}
     wrong = nameless(campaign.shared, [[path] for path in sorted(paths)]) if campaign.models else []
     if wrong:
-        hint = nearest(wrong[0], paths) or f"searched numbers are: {', '.join(sorted(paths)[:12])}"
-        form.complain("shared", f"expected a pattern of searched numbers, got '{wrong[0]}', which names none", hint)
+        hint = nearest(wrong[0], paths) or f"searched parameters are: {', '.join(sorted(paths)[:12])}"
+        form.complain("shared", f"expected a pattern of searched parameters, got '{wrong[0]}', which names none", hint)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class CampaignResult:
-    """What became of every job: its outcome, or why it failed. ``shared`` are the numbers in common, by model."""
+    """What became of every job: its outcome, or why it failed. ``shared`` are the parameters in common, by model."""
 
     campaign: CampaignSpec
     outcomes: Mapping[Job, Outcome]
@@ -84,7 +84,7 @@ class _Conduct:
         return {job: found[job.name] for job in asked if job not in failures}, failures
 
     def with_common(self, model: str, shared: Shared) -> list[Job]:
-        """Every specimen once more, with the numbers held that all have in common."""
+        """Every specimen once more, with the parameters held that all have in common."""
         return [Job(one.name, one.address, "fit", (model,), shared.values) for one in self.campaign.specimens
                 if one.name in shared.specimens]  # fmt: skip
 

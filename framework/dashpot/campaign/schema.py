@@ -25,9 +25,9 @@ def campaign_schema() -> Schema:
         "models": s.items(s.text("a shipped name, or a file beside this one")),
         "verbs": {"anyOf": [verb, s.items(verb)], "description": "what is done with each specimen; fit if left out"},
         "seed": s.integer("same seed, same result files"),
-        "shared": s.patterns("numbers that all specimens have in common"),
-        "dependence": s.patterns("properties that numbers may depend on; all but the batch if left out"),
-        "batch": s.text(f"the property that control charts go along; {BATCH} if left out"),
+        "shared": s.patterns("parameters that all specimens share"),
+        "dependence": s.patterns("properties that parameters may depend on; all but the batch if left out"),
+        "batch": s.text(f"the property over which control charts are drawn; {BATCH} if left out"),
         "memory": s.text("what a job may take, such as 2 GB"),
         "reports": s.flag("whether every job writes a report"),
     }  # fmt: skip

@@ -17,7 +17,7 @@ NORMAL = 1.959964
 
 @dataclass(frozen=True)
 class Shared:
-    """The numbers in common, SI by path, with 95 % ``intervals``; ``specimens`` are those that they come from.
+    """The parameters in common, SI by path, with 95 % ``intervals``; ``specimens`` are those that they come from.
 
     ``probability`` is how often chance alone would make the specimens differ in them as much as they do.
     """
@@ -29,10 +29,10 @@ class Shared:
 
 
 def pooled(model: str, patterns: Sequence[str], outcomes: Mapping[Job, Outcome]) -> Shared | None:
-    """The values of the numbers of a model that patterns name, from the fits of all specimens together.
+    """The values of the parameters of a model that patterns name, from the fits of all specimens together.
 
-    It is the generalised least squares estimate from the numbers of each specimen and their covariance, which is what a
-    fit of all runs at once comes to where the losses are quadratic. The probability is that of Cochran's Q. None where
+    It is the generalised least squares estimate from the parameters of each specimen and their covariance: that of a
+    fit of all runs at once where the losses are quadratic. The probability is that of Cochran's Q. None where
     the patterns name no number of the model.
 
     Source: Hedges and Olkin, Statistical methods for meta-analysis (1985), chapter 6.

@@ -112,7 +112,7 @@ def _ways(numbers: Numbers, population: Mixed) -> tuple[tuple[str, ...], list[Ar
 
 
 def _gains(numbers: Numbers, means: Array) -> Sequence[tuple[str, Array]]:
-    """How the numbers move with a gain: the powers of force and length in their units."""
+    """How the parameters move with a gain: the powers of force and length in their units."""
     powers = np.array([dimensions(unit)[:2] for unit in numbers.units])
     force, travel = (powers * np.where(numbers.log, 1.0, means)[:, None]).T
     lines = [(way, line) for way, line in ((FORCE, force), (TRAVEL, travel)) if np.count_nonzero(line) > 1]

@@ -28,7 +28,7 @@ FILES = ("campaign.json", "campaign.html", "specimens.csv", "population.csv", "s
 @click.command("campaign")
 @click.argument("campaign", shell_complete=complete.campaigns)
 @click.option("--scheduler", metavar="WHERE", help="local:N for N processes here, or the address of a Dask scheduler.")
-@click.option("--dry-run", is_flag=True, help="Do the first job of each kind, and tell what all of them would cost.")
+@click.option("--dry-run", is_flag=True, help="Run the first job of each kind, and estimate the time of all.")
 @click.option("--parquet", is_flag=True, help="Write the table of specimens as Parquet, too.")
 @output_option("Folder for campaign.json, campaign.html, the tables, a folder for each job and the checkpoint.",
                required=False)  # fmt: skip
@@ -36,9 +36,9 @@ FILES = ("campaign.json", "campaign.html", "specimens.csv", "population.csv", "s
 def verb(
     campaign: str, scheduler: str | None, dry_run: bool, parquet: bool, output: Path | None, switches: Switches
 ) -> None:
-    """Fit, compare or diagnose many specimens, and say what they are as a population.
+    """Fit, compare or diagnose many specimens, and evaluate them as a population.
 
-    CAMPAIGN is a file. Without --scheduler jobs are done one after the other in this process. After an interruption the
+    CAMPAIGN is a file. Without --scheduler jobs run one after the other in this process. After an interruption the
     same command goes on where it stopped, and the results are the same to the last byte; a job that failed is set aside
     with its message and tried again by the same command.
 

@@ -1,4 +1,4 @@
-"""``dashpot check``: all mistakes and weaknesses of networks and datasets, and what two networks differ in."""
+"""``dashpot check``: all mistakes and weaknesses of networks and datasets, and the differences of two networks."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from dashpot.cli import complete
+from dashpot.cli.outcome import ExitCode
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Place, Problem
@@ -18,22 +19,22 @@ if TYPE_CHECKING:
 
 
 @click.command("check")
-@click.argument("specs", nargs=-1, required=True, metavar="SPEC...", shell_complete=complete.networks)
+@click.argument("specs", nargs=-1, required=True, metavar="MODEL|DATASET...", shell_complete=complete.networks)
 @click.option(
     "--against",
     "other",
-    metavar="SPEC",
-    help="Tell what each SPEC has more, less or different than this one.",
+    metavar="MODEL",
+    help="List the differences of each MODEL from this one.",
     shell_complete=complete.networks,
 )
 @switches("json", "quiet", "allow_outside")
-def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
-    """Say every mistake and every weakness of network files, each as file:line:column with what to do.
+def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> int:
+    """Report every mistake and every weakness of network files, each as file:line:column with what to do.
 
-    Of a dataset, all that is wrong with its file and its measurements, such as runs that give back work.
+    Of a dataset, all faults of its file and its measurements, such as runs that generate energy.
 
     With --against the networks are compared by their structure, whatever names their parts have; where the structure is
-    the same, by their numbers.
+    the same, by their parameters.
 
     \b
     Example:
@@ -57,8 +58,13 @@ def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> None:
         for problem in problems:
             if problem.severity == "warning":
                 click.echo(str(problem), err=True)
+    if failed and switches.json:
+        # the problems stand in the JSON above
+        click.echo(str(InputError(failed)), err=True)
+        return ExitCode.WRONG_INPUT
     if failed:
         raise InputError(failed)
+    return ExitCode.DONE
 
 
 def praise(spec: str, problems: tuple[Problem, ...]) -> str:
@@ -114,6 +120,6 @@ def tell(entry: dict[str, Any], other: str) -> list[str]:
             *(f"  {line}" for line in entry["structure"]),
         ]
     if not entry["numbers"]:
-        return [f"{entry['spec']} against {other}: the same structure and the same numbers"]
-    return [f"{entry['spec']} against {other}: the same structure, other numbers",
+        return [f"{entry['spec']} against {other}: the same structure and the same parameters"]
+    return [f"{entry['spec']} against {other}: the same structure, other parameters",
             *(f"  {line}" for line in entry["numbers"])]  # fmt: skip

@@ -144,7 +144,7 @@ def plugins(registry: Registry) -> Iterator[Finding]:
         brought = sum(holder == origin for holder in registry.origins.values())
         faults = [fault.message for fault in registry.faults if fault.origin == origin]
         for message in faults:
-            advice = f"mend, update or uninstall {origin.distribution}; DASHPOT_PLUGINS leaves a plugin out"
+            advice = f"correct, update or uninstall {origin.distribution}; DASHPOT_PLUGINS leaves a plugin out"
             yield Finding("fault", f"plugin {origin}", f"set aside: {message}", advice)
         if not faults:
             yield Finding("good", f"plugin {origin}", f"brings {brought} things")

@@ -1,4 +1,4 @@
-"""``dashpot demo``: the whole story on a virtual specimen."""
+"""``dashpot demo``: measurement, comparison and diagnosis of a virtual specimen."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 @output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
 @switches("seed", "jobs", "json", "quiet", "force", "backend")
 def verb(specimen: str | None, output: Path, switches: Switches) -> None:
-    """Measure a virtual specimen, compare the shipped networks on it, and find what the simplest one lacks.
+    """Measure a virtual specimen, compare the shipped networks on it, and diagnose the simplest one.
 
-    The specimen is a program of its own and richer than any network, as reality is.
+    The specimen is a program of its own with more effects than any network.
 
     \b
     Example:

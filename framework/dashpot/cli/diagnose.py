@@ -1,4 +1,4 @@
-"""``dashpot diagnose``: what is wrong with a network, why, and what mends it."""
+"""``dashpot diagnose``: what a network gets wrong, the causes, and the extended network."""
 
 from __future__ import annotations
 
@@ -7,22 +7,21 @@ from pathlib import Path
 
 import click
 
-from dashpot.cli import complete
+from dashpot.cli.arguments import model_and_dataset
 from dashpot.cli.results import checked, diagnosis_files, diagnosis_text, write_diagnosis
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
 
 
 @click.command("diagnose")
-@click.argument("spec", shell_complete=complete.networks)
-@click.argument("dataset", shell_complete=complete.datasets)
+@model_and_dataset()
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
 @click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
-              help="By how much a cause must make the error smaller to be of interest.")  # fmt: skip
+              help="Causes whose removal increases the error by less are not named.")  # fmt: skip
 @switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
-    spec: str,
+    model: str,
     dataset: str,
     output: Path,
     optimizer: str | None,
@@ -30,10 +29,10 @@ def verb(
     relevance: float,
     switches: Switches,
 ) -> None:
-    """Say what a network gets wrong, name the cause, extend the network and measure the gain.
+    """Diagnose the residual of a network: name the causes, extend the network and measure the gain.
 
-    SPEC is a network file or a shipped name. The gain is measured on runs that took no part in the fit. That nothing is
-    missing, or that no known cause fits, are ordinary answers.
+    MODEL is a network file or a shipped name. The gain is measured on held-out runs. That nothing is missing, or that
+    no known cause fits, are ordinary answers.
 
     \b
     Example:
@@ -42,7 +41,7 @@ def verb(
     from dashpot.diagnose.diagnose import diagnose
 
     session = Session(switches, optimizer, settings)
-    network, measured = session.network(spec), session.dataset(dataset)
+    network, measured = session.network(model), session.dataset(dataset)
     folder = session.claim(output, *diagnosis_files(network.name))
     diagnosis = session.run(partial(diagnose, relevance=relevance / 100.0), network, measured)
     with session.watch("writing the report"):

@@ -23,9 +23,9 @@ MARKS = {"good": "ok", "note": "--", "fault": "!!"}
 @click.command("doctor")
 @switches("json", "quiet")
 def verb(switches: Switches) -> int:
-    """Check the installation, and say what to do about each fault.
+    """Check the installation, with advice for each fault.
 
-    Looked at are Python, the libraries, the compiler, the cache of compiled networks, the plugins, what is shipped, and
+    Checked are Python, the libraries, the compiler, the cache of compiled networks, the plugins, what is shipped, and
     what could be added. Reports are files that any browser opens; none is needed here. The exit code is 1 when there is
     a fault.
 

@@ -17,14 +17,15 @@ WRITTEN = (".svg", ".txt")
 
 
 @click.command("draw")
-@click.argument("spec", shell_complete=complete.networks)
-@output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", required=False)
+@click.argument("model", shell_complete=complete.networks)
+@output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", files=WRITTEN,
+               required=False)  # fmt: skip
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @switches("json", "quiet", "force")
-def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> None:
+def verb(model: str, output: Path | None, plain: bool, switches: Switches) -> None:
     """Draw the schematic of a network: springs, dashpots, sliders, masses, names and values.
 
-    SPEC is a network file or a shipped name. Where the terminal knows ASCII only, the drawing does without more.
+    MODEL is a network file or a shipped name. Where the terminal knows ASCII only, the drawing does without more.
 
     \b
     Example:
@@ -34,7 +35,7 @@ def verb(spec: str, output: Path | None, plain: bool, switches: Switches) -> Non
     if output is not None and output.suffix not in WRITTEN:
         raise click.UsageError(f"-o expected a file ending in {' or '.join(WRITTEN)}, got '{output.name}'")
     session = Session(switches)
-    network = session.network(spec)
+    network = session.network(model)
     if output is None:
         text = text_for_terminal(network, plain)
         if switches.json:

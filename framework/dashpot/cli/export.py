@@ -14,17 +14,17 @@ from dashpot.text.problem import nearest
 
 
 @click.command("export")
-@click.argument("spec", shell_complete=complete.networks)
+@click.argument("model", shell_complete=complete.networks)
 @click.option("--to", "target", metavar="TARGET", required=True, help="See `dashpot list exports`.",
               shell_complete=complete.installed("exports"))  # fmt: skip
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the target.",
               shell_complete=complete.settings)  # fmt: skip
 @output_option("A folder.")
 @switches("json", "quiet", "force", "backend")
-def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
-    """Write a network for another program, with the numbers of its file.
+def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
+    """Write a network for another program, with the parameters of its file.
 
-    SPEC is a network file or a shipped name. What a target cannot express is refused before anything is written.
+    MODEL is a network file or a shipped name. What a target cannot express is refused before anything is written.
 
     \b
     Example:
@@ -42,7 +42,7 @@ def verb(spec: str, target: str, settings: tuple[str, ...], output: Path, switch
         export = exports[target](**read_options(exports[target], dict(map(split_setting, settings))))
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    network = session.network(spec)
+    network = session.network(model)
     with session.watch("exporting"):
         files = export.files(network)
     folder = session.claim(output, *map(escape, files))

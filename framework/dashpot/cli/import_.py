@@ -28,11 +28,11 @@ FORMAT = "dashpot-import/1"
     type=click.Path(path_type=Path),
     help="The dataset file; by default dataset.yaml beside the files.",
 )
-@click.option("--sampling", metavar="RATE", help="The sampling rate, e.g. '1 kHz', where the files do not tell it.")
+@click.option("--sampling", metavar="RATE", help="The sampling rate, e.g. '1 kHz', where the files do not state it.")
 @click.option(
     "--reader",
     metavar="NAME",
-    help="The format, where the names do not tell it: `dashpot list formats`.",
+    help="The format, where the names do not show it: `dashpot list formats`.",
     shell_complete=complete.installed("formats"),
 )
 @switches("json", "quiet", "force")
@@ -41,8 +41,8 @@ def verb(
 ) -> None:
     """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
 
-    FILE is a measured file or a folder of them. Nothing is asked: what names, units and numbers tell is taken from
-    there, and what has to be confirmed is said, here and in the file. No measured file is changed.
+    FILE is a measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses
+    are marked for confirmation, here and in the file. No measured file is changed.
 
     \b
     Example:

@@ -35,6 +35,9 @@ KINDS = (
 )
 
 
+ALSO = {"models": "networks"}
+
+
 @dataclass(frozen=True)
 class Entry:
     """A line of a list."""
@@ -50,20 +53,22 @@ class Entry:
 
 @click.command("list")
 @click.argument("kind", required=False, metavar="[KIND]",
-                shell_complete=lambda _, __, typed: beginning(KINDS, typed))  # fmt: skip
+                shell_complete=lambda _, __, typed: beginning((*KINDS, *ALSO), typed))  # fmt: skip
 @switches("json")
 def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed: each thing with the distribution and the plugin that brought it.
 
-    KIND is elements, networks, optimizers, causes, formats, specimens, rigs, studies, exports, metrics or
-    plugins; without it, everything is listed.
+    KIND is elements, networks (or models), optimizers, causes, formats, specimens, rigs, studies, exports, metrics
+    or plugins; without it, everything is listed. `dashpot show MODEL` tells more of a network.
 
     \b
     Example:
+      dashpot list models
       dashpot list elements
     """
+    kind = ALSO.get(kind, kind) if kind else None
     if kind is not None and kind not in KINDS:
-        hint = nearest(kind, KINDS) or f"there are: {', '.join(KINDS)}"
+        hint = nearest(kind, (*KINDS, *ALSO)) or f"there are: {', '.join(KINDS)}"
         raise click.UsageError(f"No list of '{kind}', {hint}")
     session = Session(switches)
     shown = {name: entries_of(name, session) for name in ([kind] if kind else KINDS)}

@@ -20,7 +20,7 @@ def verb(dataset: str, output: Path, switches: Switches) -> None:
     """Look at measured runs before any model.
 
     Loops, force over velocity at mid stroke, over deflection at low speed and after reversals, dynamic stiffness,
-    energy per cycle, repeats and spectra; and how much of the force any model of the past motion could explain.
+    energy per cycle, repeats and spectra; and the explainable error.
 
     \b
     Example:

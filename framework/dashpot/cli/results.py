@@ -133,7 +133,7 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
             raise InputError.at(Place(str(folder.path / name)), f"expected an RMSE of {one:.9g} N, got {other:.9g} N",
                                 "the result does not hold: please report it with the dataset")  # fmt: skip
     unseen = "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
-    return f"check: {name} read again and simulated errs by {found.train:.4g} N on training runs{unseen}, as told"
+    return f"check: {name} read again and simulated has the reported RMSE: {found.train:.4g} N on training runs{unseen}"
 
 
 def with_schematics(evidence: Mapping[str, Any], networks: Mapping[str, NetworkSpec]) -> Evidence:

@@ -43,8 +43,25 @@ class Session:
     def network(self, spec: str) -> NetworkSpec:
         """The network of a file or of a shipped name."""
         from dashpot.model.reading import read_network
+        from dashpot.text.problem import InputError, Place
 
-        return read_network(spec, self.registry.elements)
+        try:
+            return read_network(spec, self.registry.elements)
+        except InputError:
+            if spec in self.registry.elements:
+                raise InputError.at(Place(spec), "expected a network, got the name of an element",
+                                    "`dashpot list models` lists networks") from None  # fmt: skip
+            if self._is_data(Path(spec)):
+                raise InputError.at(Place(spec), "expected a network, got measured data",
+                                    "the models stand first: MODEL... DATASET") from None  # fmt: skip
+            raise
+
+    def _is_data(self, path: Path) -> bool:
+        """Whether a path that is no network is a dataset, or ends as a measured file does."""
+        from dashpot.data.description import is_dataset
+
+        endings = {ending for reader in self.registry.formats.values() for ending in reader.suffixes}
+        return path.suffix in endings or is_dataset(path)
 
     def readers(self) -> dict[str, Reader]:
         """The readers of measured files by their word."""
@@ -54,6 +71,7 @@ class Session:
         """The dataset at ``path``; what is wrong with single runs is warned of."""
         from dashpot.data.dataset import read_dataset
 
+        refuse_network(path)
         with self.watch(f"reading {path}"):
             dataset = read_dataset(path, self.readers(), self.switches.allow_outside)
         self.warn_of(dataset.problems)
@@ -73,6 +91,7 @@ class Session:
         """The runs of the dataset at ``path`` one at a time; ``warn_of`` its problems when they were read."""
         from dashpot.data.stream import open_dataset
 
+        refuse_network(path)
         return open_dataset(path, self.readers(), self.switches.allow_outside)
 
     def warn_of(self, problems: Iterable[Problem]) -> None:
@@ -110,6 +129,16 @@ class Session:
                 registry=self.registry,
                 progress=progress,
             )
+
+
+def refuse_network(path: str | Path) -> None:
+    """InputError for the name of a shipped network where a dataset is wanted."""
+    from dashpot.model.shipped import shipped_networks
+    from dashpot.text.problem import InputError, Place
+
+    if str(path) in shipped_networks() and not Path(path).exists():
+        raise InputError.at(Place(str(path)), "expected a dataset, got the name of a network",
+                            "the dataset stands last: MODEL... DATASET")  # fmt: skip
 
 
 def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Registry) -> dict[str, Any]:

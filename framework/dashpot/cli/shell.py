@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from importlib import import_module
 from keyword import iskeyword
@@ -11,11 +12,12 @@ import click
 
 from dashpot import __version__
 from dashpot.cli.outcome import exit_code_of
-from dashpot.text.problem import nearest
+from dashpot.text.problem import of_family
 
 VERBS = (
     "demo",
     "list",
+    "show",
     "import",
     "check",
     "look",
@@ -51,25 +53,27 @@ class Verbs(click.Group):
         """As click does, with the nearest verb for one that is unknown."""
         word = args[0]
         if word not in VERBS and not word.startswith("-"):
-            ctx.fail(f"No such verb '{word}', {nearest(word, VERBS) or 'there are: ' + ', '.join(VERBS)}")
+            ctx.fail(f"No such verb '{word}', {of_family(word, VERBS) or 'there are: ' + ', '.join(VERBS)}")
         return super().resolve_command(ctx, args)
 
 
 @click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="dashpot")
 def dashpot() -> None:
-    """Rheological models: fit them to measurements, compare them, and find what is missing.
+    """Rheological models: fit them to measurements, compare them, and diagnose their residuals.
 
     \b
     First steps:
-      dashpot demo                                the whole story on a virtual test tire
-      dashpot compare kelvin_voigt gehmann --data my/dataset.yaml -o comparison
+      dashpot demo                                compare and diagnose models of a virtual tire
+      dashpot compare kelvin_voigt gehmann my/dataset.yaml -o comparison
       dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
 
-    `dashpot VERB --help` explains a verb. SPEC is a YAML file or the name of a shipped network.
+    `dashpot VERB --help` explains a verb. Arguments stand in one order, MODEL...
+    DATASET; a MODEL is a YAML file or the name of a shipped network, see `dashpot list models`.
     """
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit code."""
-    return exit_code_of(lambda: dashpot.main(args=arguments, prog_name="dashpot", standalone_mode=False))
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    return exit_code_of(lambda: dashpot.main(args=words, prog_name="dashpot", standalone_mode=False), "--json" in words)

@@ -12,6 +12,7 @@ from zipfile import ZipFile, ZipInfo
 import click
 
 from dashpot.cli import complete
+from dashpot.cli.arguments import model_and_dataset
 from dashpot.cli.energy import FILE as ENERGIES
 from dashpot.cli.energy import write_energies
 from dashpot.cli.session import Session, split_setting
@@ -31,23 +32,21 @@ ROWS = 50_000  # that are written at a time
 
 
 @click.command("simulate")
-@click.argument("spec", shell_complete=complete.networks)
-@click.option("--data", "dataset", metavar="DATASET", help="Measured runs that give the motion.",
-              shell_complete=complete.datasets)  # fmt: skip
+@model_and_dataset(optional=True)
 @click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.",
               shell_complete=complete.rigs)  # fmt: skip
 @click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".',
               shell_complete=complete.settings)  # fmt: skip
-@click.option("--energy", is_flag=True, help="Also the balance of energy of every run and part: energy.csv.")
+@click.option("--energy", is_flag=True, help="Also the energy balance of every run and part: energy.csv.")
 @click.option("--tolerance", metavar="SHARE", type=click.FloatRange(1e-9, 1.0), default=1e-3, show_default=True,
-              help="Error that is allowed, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
+              help="Allowed numerical error, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
 @click.option("--refine", metavar="N", type=click.IntRange(1, 1000),
               help="N times as many steps between two samples as usual, in place of a tolerance.")  # fmt: skip
-@click.option("--table", is_flag=True, help="Of the rows of tables of dynamic stiffness one table: stiffness.csv.")
-@output_option("A folder; with --data also a file ending in .npz.")
+@click.option("--table", is_flag=True, help="Dynamic stiffness at the rows of the dataset's tables: stiffness.csv.")
+@output_option("A folder; with DATASET also a file ending in .npz.", files=(".npz",))
 @switches("seed", "json", "quiet", "force", "backend", "allow_outside")
 def verb(
-    spec: str,
+    model: str,
     dataset: str | None,
     rig: str | None,
     settings: tuple[str, ...],
@@ -60,23 +59,23 @@ def verb(
 ) -> None:
     """Simulate a network along measured motions, or measure it on a virtual test rig.
 
-    SPEC is a network file or a shipped name. With --data the folder gets a CSV file for every run with time,
+    MODEL is a network file or a shipped name. With DATASET the folder gets a CSV file for every run with time,
     displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
-    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work that the
-    rig puts in is followed to where it is stored or dissipated. With --table the folder gets the dynamic stiffness of
-    the network at the rows of the tables of the dataset, beside the measured one.
+    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work of the rig
+    is balanced with the energy stored and dissipated. With --table the folder gets the dynamic stiffness of the network
+    at the rows of the tables of the dataset, beside the measured one.
 
     \b
     Example:
-      dashpot simulate gehmann.yaml --data my/dataset.yaml -o simulated
+      dashpot simulate gehmann.yaml my/dataset.yaml -o simulated
       dashpot simulate gehmann.yaml --rig tire_bench -o measured
     """
     if (dataset is None) == (rig is None):
-        raise click.UsageError("Say either --data DATASET or --rig RIG")
+        raise click.UsageError("Say either DATASET or --rig RIG")
     session = Session(switches)
-    network = session.network(spec)
+    network = session.network(model)
     if table and (dataset is None or energy):
-        raise click.UsageError("--table goes with --data, and without --energy")
+        raise click.UsageError("--table goes with DATASET, and without --energy")
     if rig is not None:
         return measure_on(rig, settings, network, output, session, energy, refine or 1)
     if settings:
@@ -189,7 +188,7 @@ def measure_on(
 
 
 def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
-    """What of a run lies outside the motions with which the numbers were identified, in words."""
+    """What of a run lies outside of the range of identification, in words."""
     from dashpot.data.excitation import Excitation
     from dashpot.fit.seen_range import covered
     from dashpot.model.identified import outside
@@ -201,10 +200,10 @@ def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
 
 
 def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
-    """Tell which runs go beyond what the numbers were identified with."""
+    """Warn of runs beyond the range of identification."""
     for name, words in beyond.items():
         if words:
-            session.talk.warn(f"run '{name}' lies outside of what the numbers were identified with: {'; '.join(words)}")
+            session.talk.warn(f"run '{name}' lies outside of the range of identification: {'; '.join(words)}")
 
 
 def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None,

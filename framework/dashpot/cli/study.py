@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from dashpot.cli import complete
+from dashpot.cli.arguments import study_and_dataset
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, output_option, switches
 
@@ -23,17 +23,15 @@ RECORDS = "checkpoint"
 
 
 @click.command("study")
-@click.argument("study", shell_complete=complete.studies)
-@click.option("--data", "dataset", metavar="DATASET", help="Other measured runs than those that the study names.",
-              shell_complete=complete.datasets)  # fmt: skip
-@click.option("--dry-run", is_flag=True, help="Only say what the data can and cannot identify.")
+@study_and_dataset()
+@click.option("--dry-run", is_flag=True, help="Only predict what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
 @switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
     """Identify models in stages, as a study file says.
 
-    STUDY is a file or the name of a shipped study. After an interruption the same command goes on where it stopped,
-    and the results are the same to the last byte.
+    STUDY is a file or the name of a shipped study; DATASET takes the place of the one that the study names. After an
+    interruption the same command goes on where it stopped, and the results are the same to the last byte.
 
     \b
     Example:

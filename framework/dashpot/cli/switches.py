@@ -72,8 +72,8 @@ SWITCHES = {
         default=available_cores,
         help="Workers; all cores by default.",
     ),
-    "json": click.option("--json", is_flag=True, help="Result on standard output as JSON, talk on standard error."),
-    "quiet": click.option("--quiet", is_flag=True, help="Say nothing but warnings and errors."),
+    "json": click.option("--json", is_flag=True, help="Result as JSON on standard output, messages on standard error."),
+    "quiet": click.option("--quiet", is_flag=True, help="Only warnings and errors."),
     "backend": click.option(
         "--backend",
         type=click.Choice(["llvm", "numba"]),
@@ -83,7 +83,7 @@ SWITCHES = {
     "allow_outside": click.option(
         "--allow-outside",
         is_flag=True,
-        help="Read measured files that do not lie below the folder of their dataset, which you trust.",
+        help="Also read measured files outside of the folder of their dataset; for datasets that you trust.",
     ),
     "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
 }
@@ -121,7 +121,22 @@ def optimizer_options(verb: Callable[..., Any]) -> Callable[..., Any]:
     return optimizer(settings(verb))
 
 
-def output_option(about: str, **more: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """``-o OUT``, required unless there is a default."""
+# endings that a folder hardly has
+ENDINGS = (".csv", ".fmu", ".html", ".json", ".npz", ".pdf", ".svg", ".txt", ".xlsx", ".yaml", ".yml", ".zip")
+
+
+def output_option(
+    about: str, files: tuple[str, ...] = (), **more: Any
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """``-o OUT``, required unless there is a default: a folder, or a file with one of the endings ``files``."""
     more.setdefault("required", "default" not in more)
-    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about, **more)
+
+    def checked(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
+        if path is not None and path.suffix in set(ENDINGS) - set(files) and not path.is_dir():
+            other = f", or a file ending in {' or '.join(files)}" if files else ""
+            raise click.UsageError(f"-o expected a folder{other}, got '{path}', which looks like a file: "
+                                   f"say -o {path.with_suffix('')}")  # fmt: skip
+        return path
+
+    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about,
+                        callback=checked, **more)  # fmt: skip

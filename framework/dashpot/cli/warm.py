@@ -10,12 +10,12 @@ from dashpot.cli.switches import Switches, switches
 
 
 @click.command("warm")
-@click.argument("specs", nargs=-1, metavar="[SPEC]...", shell_complete=complete.networks)
+@click.argument("models", nargs=-1, metavar="[MODEL]...", shell_complete=complete.networks)
 @switches("json", "quiet")
-def verb(specs: tuple[str, ...], switches: Switches) -> None:
+def verb(models: tuple[str, ...], switches: Switches) -> None:
     """Compile networks now, so that the first simulation or fit with them starts at once.
 
-    Without SPEC all shipped ones. What is compiled already is left as it is.
+    Without MODEL all shipped ones. What is compiled already is left as it is.
 
     \b
     Example:
@@ -27,11 +27,11 @@ def verb(specs: tuple[str, ...], switches: Switches) -> None:
     from dashpot.model.shipped import shipped_networks
 
     session = Session(switches)
-    before, names = compiled_files(), specs or tuple(shipped_networks())
+    before, names = compiled_files(), models or tuple(shipped_networks())
     with session.watch("compiling") as progress:
-        for number, spec in enumerate(names):
-            progress(spec, number / len(names))
-            compile_ahead(session.network(spec))
+        for number, model in enumerate(names):
+            progress(model, number / len(names))
+            compile_ahead(session.network(model))
     new = len(compiled_files() - before)
     content = {"format": "dashpot-warm/1", "networks": list(names), "new": new, "folder": str(cache_folder())}
     many = f"{len(names)} network{'s' * (len(names) != 1)}"

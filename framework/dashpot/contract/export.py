@@ -14,7 +14,7 @@ class Export(ABC):
 
     Examples:
         >>> class Listed(dp.Export):
-        ...     '''The names of the numbers of a network.'''
+        ...     '''The names of the parameters of a network.'''
         ...     word = "listed"
         ...     def files(self, network):
         ...         paths = [slot.path for slot in network.slots()]

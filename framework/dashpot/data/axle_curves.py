@@ -1,4 +1,4 @@
-"""Springs, friction and anti-roll bar of an axle from slow motions of its wheels, in phase and against each other."""
+"""Springs, friction and anti-roll bar of an axle from quasi-static runs of its wheels, in phase and anti-phase."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ def locate(path: Path) -> Source:
     if not path.exists():
         raise InputError.at(Place(str(path)), "there is no such file or folder", _neighbour(path))
     if not sidecar.exists():
-        hint = f"write '{sidecar.name}' beside it, with its kind and its channels"
+        hint = f"`dashpot import {path}` writes a dataset.yaml over it; or write '{sidecar.name}' yourself"
         raise InputError.at(Place(str(path)), "nothing says what this file holds", hint)
     return Source(sidecar, path.parent, path.name)
 
@@ -47,7 +47,8 @@ def _in_folder(folder: Path) -> Source:
     for name in DESCRIPTIONS:
         if (folder / name).is_file():
             return Source(folder / name, folder)
-    raise InputError.at(Place(str(folder)), "the folder holds no dataset.yaml", "write one that names its runs")
+    raise InputError.at(Place(str(folder)), "the folder holds no dataset.yaml",
+                        f"`dashpot import {folder}` writes a first one over the measured files in it")  # fmt: skip
 
 
 def _neighbour(path: Path) -> str:

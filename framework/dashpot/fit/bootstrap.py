@@ -1,4 +1,4 @@
-"""How much the numbers depend on which runs were measured: refits on runs drawn with replacement."""
+"""How much the parameters depend on which runs were measured: refits on runs drawn with replacement."""
 
 from __future__ import annotations
 

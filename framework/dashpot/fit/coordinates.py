@@ -77,7 +77,7 @@ class Coordinates:
         return float(np.exp(at) if self.log[which] else at)
 
     def numbers(self, point: Array) -> list[float]:
-        """The numbers in SI of a point (p,)."""
+        """The parameters in SI of a point (p,)."""
         return [self.number(which, at) for which, at in enumerate(point)]
 
     def held(self, number: int, at: float) -> Coordinates:
@@ -101,7 +101,7 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
     unbounded = [slots[number].path for number in which if slots[number].value.bounds is None]
     if unbounded:
         names = ", ".join(unbounded)
-        raise ValueError(f"expected bounds for every searched number, got none for {names}; see with_ranges")
+        raise ValueError(f"expected bounds for every searched parameter, got none for {names}; see with_ranges")
     log = np.array([value.scale == "log" for value in values], dtype=bool)
     bounds = np.array([value.bounds for value in values], dtype=float).reshape(-1, 2)
     low, high = (np.where(log, np.log(np.where(log, side, 1.0)), side) for side in bounds.T)
@@ -118,7 +118,7 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
 
 
 def with_point(spec: NetworkSpec, coordinates: Coordinates, point: Array) -> NetworkSpec:
-    """The network with the numbers of a point."""
+    """The network with the parameters of a point."""
     values = coordinates.to_values(point)[0]
     slots = spec.slots()
     return spec.with_values(

@@ -64,10 +64,10 @@ def dictionary_start(objective: Objective, coordinates: Coordinates) -> Start | 
 
 @dataclass(frozen=True, eq=False)
 class _Kind:
-    """Branches of one make: ``member`` is its number, ``slots`` are those of each branch in the network, ``lanes`` the
-    dictionary's numbers of such a branch.
+    """Branches of one structure: ``member`` is its number, ``slots`` are those of each branch in the network, ``lanes``
+    the dictionary's parameters of such a branch.
 
-    ``forces`` are the numbers that hold a force, none where they are known; ``shape`` is the one that is on the grid.
+    ``forces`` are the parameters proportional to the force, none where they are known; ``shape`` is that on the grid.
     """
 
     member: int

@@ -31,7 +31,7 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
 
     Only runs are held out whose motion lies inside what the others cover, at first those whose settings (amplitude,
     preload ...) the others still have, so that the held-out error tests the model and not its extrapolation. One of the
-    liveliest runs is among them, as much shows only there. Where every run goes beyond the others in some way a single
+    fastest runs is among them, as much shows only there. Where every run goes beyond the others in some way a single
     one is held out nevertheless.
     """
     if any(run.held_out is not None for run in dataset.runs):

@@ -42,7 +42,7 @@ class Direction:
 
     @property
     def named(self) -> list[str]:
-        """The numbers that have a part in it worth naming."""
+        """The parameters that have a part in it worth naming."""
         return [path for path, share in self.parts if abs(share) >= SHARE * abs(self.parts[0][1])]
 
     @property
@@ -76,7 +76,7 @@ class Identifiability:
 
     @property
     def undetermined(self) -> list[str]:
-        """The numbers of which the data do not even tell the order of magnitude."""
+        """The parameters of which the data do not even tell the order of magnitude."""
         lost = [path for path, deviation in self.deviations.items() if not deviation < LOST]
         return [*self.unsolved, *self.idle, *lost]
 
@@ -92,14 +92,14 @@ class Identifiability:
 
     @property
     def firm(self) -> list[str]:
-        """The numbers that are known to better than 10 % each."""
+        """The parameters that are known to better than 10 % each."""
         return [path for path, deviation in self.deviations.items() if deviation < WEAK]
 
 
 def identifiability(
     objective: Objective, coordinates: Coordinates, point: Array, noise: Mapping[str, NoiseSpectrum]
 ) -> Identifiability:
-    """How well a fit of this objective would know the numbers at a point (p,), whose force has this ``noise`` by run.
+    """How well a fit of this objective determines the parameters at a point (p,), with this ``noise`` by run.
 
     The information is the inverse of the covariance of the weighted least-squares estimate, W J N J' W with W the
     inverse of J J' and N the covariance of the noise, whose colour counts; for white noise that is Fisher's.

@@ -68,7 +68,7 @@ class Refinement:
     loss: Loss
 
     def at(self, point: Array) -> NetworkSpec:
-        """The network with the numbers of a point (p,); a kept curve goes on being one."""
+        """The network with the parameters of a point (p,); a kept curve goes on being one."""
         found = with_point(self.free, self.coordinates, point)
         for path, curve in kept_curves(self.spec).items():
             force = np.array([value.number for value in found.curves()[path].values])
@@ -77,7 +77,7 @@ class Refinement:
 
 
 def refinement(spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool]) -> Refinement:
-    """The refinement of the numbers that are ``chosen`` on an objective of the network.
+    """The refinement of the parameters that are ``chosen`` on an objective of the network.
 
     A kept curve of which knots are chosen follows the other numbers, as the widest slow loop among the runs wants it;
     without such a loop it stays as it is.

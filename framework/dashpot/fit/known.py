@@ -25,14 +25,14 @@ class KnownNumber:
 
 
 def known_numbers(objective: Objective) -> list[KnownNumber]:
-    """The known numbers of the objective's network, at the numbers of its file."""
+    """The known numbers of the objective's network, at the parameters of its file."""
     known = {number: slot for number, slot in enumerate(objective.network.spec.slots()) if slot.value.known}
     shifts = _shifts_of(objective, list(known), [_standard_error(slot.value) for slot in known.values()])
     return [KnownNumber(slot.path, slot.value, shift) for slot, shift in zip(known.values(), shifts, strict=True)]
 
 
 def residual_shift(objective: Objective, step: Array) -> Array:
-    """What a ``step`` (p,) of all numbers (SI) does to the residual (samples,) at the numbers of the file.
+    """What a ``step`` (p,) of all numbers (SI) does to the residual (samples,) at the parameters of the file.
 
     Where the network cannot be solved after the step it is taken the other way.
     """

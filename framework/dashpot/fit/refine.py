@@ -20,7 +20,7 @@ DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
 
 
 class Loss(Protocol):
-    """What is refined: the root mean square of a residual, and how the residual changes with the numbers."""
+    """What is refined: the root mean square of a residual, and how the residual changes with the parameters."""
 
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,) of slots (lanes, slots) in SI; a lane that fails costs infinity."""
@@ -33,8 +33,8 @@ class Outcome(Enum):
     """How a refinement ended; the value is the message."""
 
     CONVERGED = "converged"
-    STEPS_SPENT = "the largest number of steps was reached before the fit stood still; allow more steps"
-    BUDGET_SPENT = "the budget was spent before the fit stood still"
+    STEPS_SPENT = "the largest number of steps was reached before the fit converged; allow more steps"
+    BUDGET_SPENT = "the budget was spent before the fit converged"
     LEFT_BEHIND = "another model was out of reach"
     FAILED = "the simulation is not finite at the start; check the start values"
 

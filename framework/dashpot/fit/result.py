@@ -36,7 +36,7 @@ class FitResult:
 
     ``declared`` is the network as its file has it; ``fitted`` has numbers, intervals and tables. ``spread`` holds the
     losses that different starts ended at, best first: near one another they are evidence of convergence. ``known`` says
-    what the data tell of the numbers; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
+    the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
     is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
     so.
     """
@@ -112,7 +112,7 @@ def floor_of(floor: NoiseFloor) -> dict[str, Any]:
 
 
 def identifiability_of(spec: NetworkSpec, known: Identifiability) -> dict[str, Any]:
-    """What data tell of the numbers of a network as it stands in result files."""
+    """What data tell of the parameters of a network as it stands in result files."""
     return {
         "condition": known.condition,
         "deviations": known.deviations,

@@ -32,7 +32,7 @@ NOISE_KNOWN = 1.05  # noise floors may be this much too low
 class Uncertainty:
     """``covariance`` (p, p) and half ``widths`` (p,) of the intervals, both in natural steps of the coordinates.
 
-    ``moved`` (k, p), in the same steps, is what each of k systematic deviations does to the numbers.
+    ``moved`` (k, p), in the same steps, is what each of k systematic deviations does to the parameters.
     ``idle`` names parameters the data do not feel. The interval of an idle parameter, of one that others can make up
     for entirely, and of one around which the network cannot be solved, is its whole range.
     """
@@ -46,7 +46,7 @@ class Uncertainty:
 
     @property
     def correlation(self) -> Array:
-        """The correlation (p, p) of the errors of the numbers; of those that the data do not feel 0."""
+        """The correlation (p, p) of the errors of the parameters; of those that the data do not feel 0."""
         scale = np.sqrt(np.diag(self.covariance))
         known = np.where(np.isfinite(scale) & (scale > 0.0), scale, np.inf)
         found = np.where(np.isfinite(self.covariance), self.covariance, 0.0) / np.outer(known, known)
@@ -103,7 +103,7 @@ def assess_uncertainty(
 def widening(loss: float, noise: float | None) -> float:
     """The factor on intervals of a model whose loss is above the noise (N); 1 where it is not, or the noise unknown.
 
-    The numbers of a model that errs take most of its error in; what is left to be seen is a share of it that the
+    The parameters of a model that errs take most of its error in; what is left to be seen is a share of it that the
     scatter between blocks cannot know. ``ABSORBED`` is how many times more is thought to be taken in than is left, in
     squares: a rule of thumb, under which ``tests/unsprung_mass`` shows how often the intervals hold.
     """

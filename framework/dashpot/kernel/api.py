@@ -74,7 +74,7 @@ def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: in
 
 def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int | None = None,
           tolerance: float = TOLERANCE) -> RunSolution:  # fmt: skip
-    """One run with the numbers of the network's file. Raises InputError with the reason where it cannot be solved."""
+    """One run with the parameters of the file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start, excitation.settings)
     if isinstance(network, CompiledNetwork):
         alone = network.simulate(network.prepare(excitation))
@@ -115,7 +115,7 @@ def _bound(found: Solution, before: Solution | None) -> Array:
 def _good(network: CompiledSystem, found: Solution, excitation: Excitation) -> Solution:
     if found.status[0] is not Status.GOOD:
         raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
-                            f"{found.status[0].value}", "check the numbers with 'dashpot check'")  # fmt: skip
+                            f"{found.status[0].value}", "check the parameters with 'dashpot check'")  # fmt: skip
     return found
 
 

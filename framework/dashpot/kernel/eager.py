@@ -36,7 +36,7 @@ Numbers = Mapping[str, Array]
 def simulate_eagerly(spec: NetworkSpec, drive: Drive, values: Array | None = None) -> Array:
     """The force (lanes, samples) in N for ``values`` (lanes, slots), by the elements' own numpy code.
 
-    ``values`` are in the order of ``spec.slots()``; a single lane (slots,), or None for the numbers of the network, is
+    ``values`` are in the order of ``spec.slots()``; a single lane (slots,), or None for those of the network, is
     answered as (samples,).
     """
     block = _block(spec, values)

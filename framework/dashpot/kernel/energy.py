@@ -81,7 +81,7 @@ class EnergyCounter:
         return cls(compile_system(spec, topology, EnergyMeter(topology)))
 
     def balance(self, motion: Drive | Excitation, values: Array | None = None, pairs: int = 1) -> EnergyBalance:
-        """The energies of a run for one lane of ``values`` (slots,), by default the numbers of the network.
+        """The energies of a run for one lane of ``values`` (slots,), by default the parameters of the network.
 
         ``pairs`` of steps lie in a sample. ArithmeticError with the reason for a run that cannot be simulated.
         """

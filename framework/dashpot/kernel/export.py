@@ -33,7 +33,7 @@ class Exported:
 
 
 def exported(spec: NetworkSpec, settings: Mapping[str, float] = MappingProxyType({})) -> Exported:
-    """The network with the numbers that it has; InputError where one is missing, or depends on a setting not given."""
+    """The network with its own parameters; InputError where one is missing, or depends on a setting not given."""
     online = online_of(spec)
     slots = spec.slots()
     start = np.array([[slot.value.number for slot in slots]])
@@ -49,7 +49,7 @@ def digest_of(spec: NetworkSpec) -> str:
 
 def _about(spec: NetworkSpec) -> str:
     found = sum(slot.value.role == "identified" for slot in spec.slots())
-    origin = f"{found} of {len(spec.slots())} numbers identified" if spec.slots() else "without numbers"
+    origin = f"{found} of {len(spec.slots())} parameters identified" if spec.slots() else "without parameters"
     record = spec.identified.record
     by = f" ({', '.join(f'{key} {word}' for key, word in record.items())})" if record else ""
     told = spec.identified.told()

@@ -63,7 +63,7 @@ class Solver:
 
 
 def jit_network(spec: NetworkSpec, settings: Mapping[str, float] = MappingProxyType({})) -> Solver:
-    """The solver of a network; ``settings`` give the numbers that depend on the settings of a run.
+    """The solver of a network; ``settings`` give the parameters that depend on the settings of a run.
 
     Raises InputError for a network that cannot be compiled, or that depends on a setting that is not given.
     """

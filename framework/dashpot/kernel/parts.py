@@ -1,7 +1,8 @@
 """A parallel network branch by branch: what each branch adds to the force, and how that changes with its numbers.
 
 The force of a parallel network is the sum over its branches, and a branch feels only its own numbers. So the Jacobian
-of the whole network needs no more than every branch alone, moved number by number; branches of one make share a block.
+of the whole network needs no more than every branch alone, parameter by parameter; branches of one structure share a
+block.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Branches of one make: ``network`` is the first of them alone, ``slots`` the numbers of each in the whole."""
+    """Branches of one structure: ``network`` is the first of them alone, ``slots`` those of each in the whole."""
 
     network: CompiledNetwork
     slots: tuple[tuple[int, ...], ...]

@@ -17,7 +17,7 @@ STEEPEST = 50.0  # exponent of a rate over the settings, so that a search may tr
 
 
 def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
-    """The lanes (lanes, slots) with the numbers that the run itself gives, and with those that depend on its settings.
+    """The lanes (lanes, slots) with the parameters that the run gives, and with those that depend on its settings.
 
     A number over a setting that is not there stays what it is at the place where it is told.
     """
@@ -32,7 +32,7 @@ def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]
     if given:
         own[:, list(given)] = list(given.values())
     for number, over in moving:
-        # the numbers of a dependence stand behind the number that depends
+        # the parameters of a dependence stand behind the number that depends
         inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
         moved = _at(over, lanes[:, number], inner, settings[key_of(over)])
         own[:, number] = np.clip(moved, *slots[number].value.sensible)

@@ -126,7 +126,7 @@ class BranchReader:
         other = form.text("use")
         fixed = form.flag("fixed", False)
         if "fixed" in form and not fixed:
-            form.complain("fixed", "expected 'true': without the key its numbers are searched as it says itself",
+            form.complain("fixed", "expected 'true': without the key its parameters are searched as it declares",
                           "leave the key out")  # fmt: skip
         form.close()
         try:
@@ -213,7 +213,7 @@ def _join(*names: str) -> str:
 
 
 def _sharing(member: Branch | Group, name: str, twin: str) -> Branch | Group:
-    # the same part once more, under another name, with the numbers of the first
+    # the same part once more, under another name, with the parameters of the first
     renamed = twin + member.name.removeprefix(name)
     if isinstance(member, Branch):
         return replace(member, name=renamed, family=renamed, shares=member.numbers)

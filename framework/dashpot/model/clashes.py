@@ -34,7 +34,7 @@ def _equal_paths(spec: NetworkSpec) -> Iterator[Problem]:
     for slot in spec.slots():
         name, place = slot.path.rpartition(".")[0], slot.value.node.place if slot.value.node else Place()
         if slot.path in seen and name not in _doubled(spec):
-            yield Problem(place, f"two numbers are called '{slot.path}'",
+            yield Problem(place, f"two parameters are called '{slot.path}'",
                           f"rename the {'branch' if name in branches else 'node'} '{name}'")  # fmt: skip
         seen.add(slot.path)
 
@@ -96,8 +96,8 @@ def _shared_numbers(spec: NetworkSpec) -> Iterator[Problem]:
         home = f"{families.get(name, name)}.{key}"
         known, first = homes.setdefault(id(number), (home, node))
         if known != home or first is not node:
-            yield Problem(node.place, f"'{slot.path}' is an alias of '{known}', a number that is to be identified",
-                          "write it out: an alias does not tie two numbers together")  # fmt: skip
+            yield Problem(node.place, f"'{slot.path}' is an alias of '{known}', a parameter to be identified",
+                          "write it out: an alias does not tie two parameters together")  # fmt: skip
 
 
 def _number_of(value: Value) -> Node | None:

@@ -1,4 +1,4 @@
-"""Where the numbers of an identified network came from, and the motions with which they were found."""
+"""Where the parameters of an identified network came from, and the motions with which they were found."""
 
 from __future__ import annotations
 

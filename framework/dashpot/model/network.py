@@ -83,7 +83,7 @@ class Over:
 
     @property
     def endings(self) -> tuple[str, ...]:
-        """What stands behind the path of b in the paths of the numbers."""
+        """What stands behind the path of b in the paths of the parameters."""
         if self.way not in LISTED:
             return (f".{self.way}",)
         return tuple(f".{self.way}[{number}]" for number in range(len(self.numbers)))
@@ -286,7 +286,7 @@ class NetworkSpec:
 
 
 def over_slots(slot: Slot) -> Iterator[Slot]:
-    """The numbers by which the number of a slot depends on a setting."""
+    """The parameters by which the number of a slot depends on a setting."""
     over = slot.value.over
     if over:
         for ending, value in zip(over.endings, over.numbers, strict=True):
@@ -294,7 +294,7 @@ def over_slots(slot: Slot) -> Iterator[Slot]:
 
 
 def branch_slots(branch: Branch) -> Iterator[Slot]:
-    """The numbers of one branch, in the order of its declaration; those of a twin have the paths of its model.
+    """The parameters of one branch, in the order of its declaration; those of a twin have the paths of its model.
 
     What they do over settings is left out.
     """

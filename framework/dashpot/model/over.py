@@ -15,7 +15,7 @@ from dashpot.text.quantity import base_unit_of, measure
 
 UNBOUNDED = (-math.inf, math.inf)
 FACTORS = (1e-3, 1e3)
-# the numbers of a shift with temperature: name, unit, and the range in which they make sense
+# the parameters of a shift with temperature: name, unit, and the range in which they make sense
 SHIFTS = {
     "wlf": (("C1", "1", (0.1, 100.0)), ("C2", "K", (5.0, 1000.0))),
     "arrhenius": (("activation temperature", "K", (100.0, 1e5)),),
@@ -41,7 +41,7 @@ def read_over(form: Form, unit: str, read: ReadNumber) -> Over | None:
         form.complain(None, f"{form.what} lacks one of {', '.join(WAYS_OVER)}",
                       "write 'slope: {start: 0}' for a straight line")  # fmt: skip
     elif node is None:
-        form.complain(None, f"{form.what} lacks 'at'", "say at which setting the number is the one that is told")
+        form.complain(None, f"{form.what} lacks 'at'", "give the setting at which the parameter has its base value")
     form.close()
     if word is None or way is None or node is None or entry is None:
         return None
@@ -78,7 +78,7 @@ def _places(node: Node, several: bool) -> tuple[tuple[float, ...], str]:
 
 
 def _shift(form: Form, way: Way, entry: Node, setting: str, read: ReadNumber) -> tuple[Value, ...]:
-    """The numbers of a shift with temperature."""
+    """The parameters of a shift with temperature."""
     wanted = SHIFTS[way]
     items = entry.items if isinstance(entry, Items) else () if way in LISTED else (entry,)
     if CALLED.get(setting) != "K":

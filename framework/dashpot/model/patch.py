@@ -19,7 +19,7 @@ INTERVAL_DIGITS = (4, 8, 17)  # as many as tell its two ends apart
 
 
 def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, str], seen: Range | None = None) -> str:
-    """The text of ``spec`` with the numbers of ``fitted``: ``start`` becomes ``value``, with its interval.
+    """The text of ``spec`` with the parameters of ``fitted``: ``start`` becomes ``value``, with its interval.
 
     ``fitted`` is the same network with other values; curves from data become tables, and a network that is used and
     has searched numbers is written out. ``record`` is written at the end under ``identified:`` and says where the
@@ -196,7 +196,7 @@ def _with_record(text: str, entries: Sequence[str], file: str | None) -> str:
         start, end = root.keys["identified"].start, end_of_line(text, root.entries["identified"].end)
         text = text[:start].rstrip("\n") + "\n" + text[end:].lstrip("\n")
     lines = "".join(f"  {entry}\n" for entry in entries)
-    return text.rstrip("\n") + f"\nidentified:                         # where the numbers came from\n{lines}"
+    return text.rstrip("\n") + f"\nidentified:                         # where the parameters came from\n{lines}"
 
 
 def _pair(value: Value) -> str:

@@ -78,7 +78,7 @@ def _ways(law: str, inner: str, ends: Mapping[str, Schema]) -> Schema:
     needed = ("between",) if ends else ()
     group = s.named(s.part(inner), minProperties=1, propertyNames=NAMES)
     cases = {
-        SAME_AS: s.mapping({SAME_AS: s.text("the branch above whose numbers it has"), ABOUT: s.text(), **ends},
+        SAME_AS: s.mapping({SAME_AS: s.text("the branch above whose parameters it has"), ABOUT: s.text(), **ends},
                            (SAME_AS, *needed)),
         SERIES: s.mapping({SERIES: group, **common}, (SERIES, *needed)),
         PARALLEL: s.mapping({PARALLEL: group, **common}, (PARALLEL, *needed)),
@@ -123,15 +123,15 @@ def _value() -> Schema:
                           "description": "how well it is known"},
              "over": s.part("over")}  # fmt: skip
     numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
-    searched = s.mapping({"start": numbers, **found}, ("start",), "a number to be found")
-    known = s.mapping({"value": numbers, **found}, ("value",), "a number found by an earlier fit")
+    searched = s.mapping({"start": numbers, **found}, ("start",), "a parameter to be identified")
+    known = s.mapping({"value": numbers, **found}, ("value",), "a parameter identified by an earlier fit")
     given = s.mapping(
         {"setting": s.text("the setting of a run that gives it"), "value": s.quantity()}, ("setting", "value")
     )
     measured = s.mapping({"known": s.quantity(), "interval": s.pair(s.quantity(), "its 95 % interval")},
-                         ("known", "interval"), "a number known from elsewhere, not searched")  # fmt: skip
+                         ("known", "interval"), "a parameter known from elsewhere, not searched")  # fmt: skip
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
-    fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a number that is not searched")
+    fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a parameter that is not searched")
     return s.by_key({"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
                     {"if": {"type": "object"}, "then": searched, "else": plain})  # fmt: skip
 
@@ -140,7 +140,7 @@ def _over() -> Schema:
     """What a number does over a setting or over the mean of a channel."""
     words = {"setting": s.text("the setting of a run on which it depends"),
              "channel": s.text("the channel on whose mean over the run it depends")}  # fmt: skip
-    place = {"at": s.quantity("", "where it is the number that is told")}
+    place = {"at": s.quantity("", "where it has its base value")}
     ways = {
         "slope": s.mapping({**words, **place, "slope": s.part("value", "what it rises by per setting")},
                            ("at", "slope"), "along a straight line"),
@@ -181,7 +181,7 @@ def _data(curve: Curve) -> Schema:
     over, value = curve.over[0], curve.value[0]
     keys = {"from": s.choice(SOURCES, "the runs that it is taken from"),
             "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS),
-            "refine": s.flag("whether a fit moves it together with the other numbers"), **_axes(curve)}  # fmt: skip
+            "refine": s.flag("whether a fit moves it together with the other parameters"), **_axes(curve)}  # fmt: skip
     return s.mapping(keys, ("from",), dependencies={over: [value], value: [over]})
 
 
@@ -214,7 +214,7 @@ def _identified() -> Schema:
     names = {"pattern": f"^({'|'.join(QUANTITIES)})(@.+)?$"}
     seen = s.named(s.pair(s.quantity()), "the least and the largest of the motions that were seen, e.g. speed@wheel",
                    propertyNames=names)  # fmt: skip
-    return {"properties": {"range": seen}, "description": "where the numbers come from: written by a fit"}
+    return {"properties": {"range": seen}, "description": "where the parameters come from: written by a fit"}
 
 
 def _measurement() -> Schema:

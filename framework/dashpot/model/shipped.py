@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from dashpot.text.problem import InputError, Place, nearest
+from dashpot.text.problem import InputError, Place, of_family
 
 SUFFIXES = (".yaml", ".yml")
 
@@ -47,5 +47,5 @@ def _find_shipped(name: str) -> Path:
     shipped = shipped_networks()
     if name in shipped:
         return shipped[name]
-    hint = nearest(name, shipped) or f"shipped networks: {', '.join(shipped)}"
+    hint = of_family(name, shipped) or f"shipped networks: {', '.join(shipped)}"
     raise InputError.at(Place(name), "there is no such file and no shipped network of that name", hint)

@@ -1,4 +1,4 @@
-"""Reading the numbers of a branch."""
+"""Reading the parameters of a branch."""
 
 from __future__ import annotations
 

@@ -3,7 +3,7 @@
 - `verbs`       what one calls: load, declare, fit, compare, diagnose ...
 - `model`, `data`, `fit`, `comparison`, `diagnosis`   the results, each with a display, tables and plots
 - `promoted`    from a result of a layer below to one that shows itself
-- `numbers`     the numbers of a network as a table
+- `numbers`     the parameters of a network as a table
 - `listing`     a table in a cell, and as a pandas frame
 - `plots`       the figures of the report, for a cell
 - `cell`        the parts of a report as HTML for one cell

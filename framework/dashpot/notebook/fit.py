@@ -14,10 +14,10 @@ from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
-from dashpot.notebook.numbers import numbers_grid
 from dashpot.notebook.plots import plot
 from dashpot.notebook.promoted import promoted
 from dashpot.report.grids import comparison_grid
+from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Grid, Notice
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class Fit(FitResult):
-    """A network with the numbers that were found. In a notebook it shows its errors and its numbers with intervals.
+    """A network with the parameters that were found. In a notebook it shows its errors and its numbers with intervals.
 
     Examples:
         >>> fit = dp.fit("mount.yaml", data, seed=1)
@@ -40,11 +40,11 @@ class Fit(FitResult):
 
     def table(self) -> Listing:
         """Every number with its 95 % interval, the bounds of the search, and what is to be said of it."""
-        remarks = {slot.path: "found" for slot in self.fitted.slots() if slot.value.searched}
-        remarks |= dict.fromkeys(self.at_bound, "found at the end of its range")
+        remarks = {slot.path: "identified" for slot in self.fitted.slots() if slot.value.searched}
+        remarks |= dict.fromkeys(self.at_bound, "identified at the end of its range")
         remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not determined by these data")
         remarks |= dict.fromkeys(self.idle, "without influence on these data")
-        return Listing.of(numbers_grid(self.fitted, remarks))
+        return Listing.of(parameters_grid(self.fitted, remarks))
 
     def to_pandas(self) -> DataFrame:
         """The same as a pandas frame."""
@@ -59,7 +59,7 @@ class Fit(FitResult):
 
     @cached_property
     def model(self) -> Model:
-        """The identified network: it has the numbers, and can be simulated, fitted again and saved."""
+        """The identified network: it has the parameters, and can be simulated, fitted again and saved."""
         own = {branch.element.word: branch.element for branch in self.fitted.leaves()}
         elements = {**load_registry().elements, **own}
         return promoted(Model, parse_network(self.identified_text, elements, self.declared.file))

@@ -9,7 +9,7 @@ from dashpot.model.lint import find_weaknesses
 from dashpot.model.network import NetworkSpec
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
-from dashpot.notebook.numbers import numbers_grid
+from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Notice, Picture
 from dashpot.report.schematic.svg import svg
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Model(NetworkSpec):
-    """A network. In a notebook it shows its schematic and its numbers.
+    """A network. In a notebook it shows its schematic and its parameters.
 
     Examples:
         >>> model = dp.load("gehmann")
@@ -33,8 +33,8 @@ class Model(NetworkSpec):
     """
 
     def table(self) -> Listing:
-        """Every number with its unit, bounds and role."""
-        return Listing.of(numbers_grid(self))
+        """Every parameter with its meaning, unit, bounds and role."""
+        return Listing.of(parameters_grid(self))
 
     def to_pandas(self) -> DataFrame:
         """The same as a pandas frame."""
@@ -52,7 +52,7 @@ class Model(NetworkSpec):
     def jit(self, **settings: float) -> Solver:
         """Functions compiled by numba, ``step`` and ``simulate``, for your own compiled code; see ``Solver``.
 
-        ``settings`` in SI give the numbers that depend on the settings of a run.
+        ``settings`` in SI give the parameters that depend on the settings of a run.
         """
         from dashpot.kernel.jit import jit_network
 
@@ -68,5 +68,5 @@ class Model(NetworkSpec):
         notices = [Notice("warning", text) for text in self.weaknesses()]
         about = [self.about] if self.about else []
         return cell(
-            self.name, *about, Picture(f"Schematic of {self.name}", self.schematic), numbers_grid(self), *notices
+            self.name, *about, Picture(f"Schematic of {self.name}", self.schematic), parameters_grid(self), *notices
         )

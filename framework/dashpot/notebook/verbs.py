@@ -156,7 +156,7 @@ def fit(
 ) -> Fit:
     """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
 
-    Runs with a fault of the measurement are mended or left out first; ``fit.dataset.problems`` tells of them. ``jobs``
+    Runs with a fault of the measurement are corrected or left out first; ``fit.dataset.problems`` lists them. ``jobs``
     are threads, or a pool or cluster that does it: an Executor of ``concurrent.futures``, or a client of Dask.
 
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several

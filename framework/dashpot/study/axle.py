@@ -151,7 +151,7 @@ def tire_curve(network: NetworkSpec, platform: str, force: float) -> SlowCurve:
 
 
 def _with_own_numbers(member: Branch | Group) -> Branch | Group:
-    """A part that stands alone: where it shares the numbers of another one, it has copies of them."""
+    """A part that stands alone: where it shares the parameters of another one, it has copies of them."""
     if isinstance(member, Group):
         return replace(member, members=tuple(_with_own_numbers(inner) for inner in member.members))
     return replace(member, shares="")

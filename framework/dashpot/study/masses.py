@@ -1,4 +1,4 @@
-"""The answer of a study about each mass: the value of the model that errs least, and what could make it another."""
+"""The answer of a study about each mass: the value of the model with the lowest RMSE, and its sensitivities."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def identified_masses(models: Iterable[Json], noise_floor: float | None) -> list
 def mass_sentence(mass: Json) -> str:
     """The answer in words."""
     within = f", 95 % interval {mass['interval'][0]:.2f} to {mass['interval'][1]:.2f} kg" if mass["interval"] else ""
-    error = "" if mass["error"] is None else f", which errs least ({mass['error']:.3g} N{_floor(mass)})"
+    error = "" if mass["error"] is None else f", which has the lowest RMSE ({mass['error']:.3g} N{_floor(mass)})"
     return f"{mass['node']}: {mass['value']:.2f} kg{within}; from {mass['model']}{error}"
 
 
@@ -39,17 +39,17 @@ def mass_warnings(mass: Json) -> Iterator[str]:
         percent = PERCENT / part["share"] * part["moved"]
         way = "large" if percent < 0.0 else "small"
         allowed = f"{100.0 * part['share']:.2g} % for the force of {part['branch']}"
-        yield (f"{mass['node']}: the interval allows {allowed}, what {part['model']} erred by itself, or the whole "
-               "errs, or load cells differ by. Were it 1 % stiffer here than where it was identified, this mass would "
-               f"be {abs(percent):.2g} kg too {way}, and the error would hardly show it")  # fmt: skip
+        yield (f"{mass['node']}: the interval includes {allowed}, the RMSE of {part['model']} by itself or of all, "
+               "or a difference of load cells. If it were 1 % stiffer here than at its identification, this mass would "
+               f"be {abs(percent):.2g} kg too {way}, with hardly any effect on the RMSE")  # fmt: skip
     for number in mass["owed_to_known"]:
         low, high = (pretty(end, number["unit"], 3) for end in number["interval"])
         way = "larger" if number["moved"] > 0.0 else "smaller"
-        yield (f"{mass['node']}: the interval allows {number['number']} {low} to {high}; with {high} this mass would "
-               f"be {abs(NORMAL * number['moved']):.2g} kg {way}")  # fmt: skip
+        yield (f"{mass['node']}: the interval includes {number['number']} from {low} to {high}; with {high} this "
+               f"mass would be {abs(NORMAL * number['moved']):.2g} kg {way}")  # fmt: skip
     others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
     if others:
-        yield f"{mass['node']}: other structures say {', '.join(others)}"
+        yield f"{mass['node']}: other structures give {', '.join(others)}"
 
 
 def _answer(node: str, pairs: list[tuple[Json, Json]], noise_floor: float | None) -> dict[str, Any]:

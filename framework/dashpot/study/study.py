@@ -63,11 +63,11 @@ def preview_text(previews: Sequence[Preview]) -> str:
     blocks = []
     for each in previews:
         count, firm = len(each.known.deviations) + len(each.known.idle), len(each.known.firm)
-        head = f"{each.model}: {firm} of {count} numbers can be known to better than 10 %"
+        head = f"{each.model}: {firm} of {count} parameters can be determined to better than 10 %"
         cost = f"at most {each.budget} parameter vectors" if each.budget else "nothing to search"
         blocks.append("\n".join([f"{head}; {cost}", *(f"  {text}" for text in each.known.sentences)]))
     noise = (
-        f"At the start values, with noise of {previews[0].noise:.3g} N in the colour that the records show."
+        f"At the start values, with noise of {previews[0].noise:.3g} N coloured as in the records."
         if previews
         else ""
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
@@ -66,3 +67,22 @@ def nearest(word: str, known: Iterable[str]) -> str:
     by_lower_case = {name.lower(): name for name in known}
     found = difflib.get_close_matches(word.lower(), by_lower_case, n=1, cutoff=0.6)
     return f"did you mean '{by_lower_case[found[0]]}'?" if found else ""
+
+
+def of_family(word: str, known: Iterable[str]) -> str:
+    """`did you mean 'a_1' or 'a_2'?` for the words with all parts of `word`, else as `nearest`."""
+    names = list(known)
+    same = [name for name in names if _parts(name) == _parts(word)]
+    family = same or [name for name in names if _parts(word) and all(_is_part(part, name) for part in _parts(word))]
+    if len(family) < 2:
+        return nearest(word, family or names)
+    *others, last = (f"'{name}'" for name in family)
+    return f"did you mean {', '.join(others)} or {last}?"
+
+
+def _parts(name: str) -> list[str]:
+    return re.findall(r"[a-z]+|[0-9]+", name.lower())
+
+
+def _is_part(part: str, name: str) -> bool:
+    return any(other.startswith(part) for other in _parts(name))

@@ -69,7 +69,7 @@ def test_every_verb_and_model_is_a_job_but_a_comparison_takes_all_models(tmp_pat
     ("memory: 2 apples", "campaign.yaml:3:9: the campaign, 'memory': expected an amount of memory such as '2 GB'"),
     ("memory: -1 GB", "expected an amount of memory above 0"),
     ("dependence: temprature", "no specimen has a property 'temprature'"),
-    ("shared: 'spring.*'", "expected a pattern of searched numbers, got 'spring.*', which names none"),
+    ("shared: 'spring.*'", "expected a pattern of searched parameters, got 'spring.*', which names none"),
     ("sed: 1", "the campaign has no key 'sed'"),
 ])  # fmt: skip
 def test_mistakes_of_the_file_are_told(tmp_path, line, told):

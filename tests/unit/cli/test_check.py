@@ -56,7 +56,7 @@ def test_a_weakness_is_a_warning_and_no_mistake(call, file):
     twins = file("twins.yaml", TWINS)
     code, out, err = call("check", twins)
     assert (code, out.strip()) == (0, f"{twins}: good, with 1 warning")
-    assert err.startswith(f"{twins}:5:33: warning: 'a.damping' and 'b.damping' cannot be told apart")
+    assert err.startswith(f"{twins}:5:33: warning: 'a.damping' and 'b.damping' cannot be distinguished")
     code, out, _ = call("check", twins, "--json")
     (problem,) = json.loads(out)["specs"][0]["problems"]
     assert code == 0 and problem["severity"] == "warning"
@@ -90,7 +90,7 @@ def test_networks_of_one_structure_are_compared_by_their_numbers(call, file):
     assert (
         call("check", series, "--against", series)[1]
         .splitlines()[1]
-        .endswith("the same structure and the same numbers")
+        .endswith("the same structure and the same parameters")
     )
 
 

@@ -145,7 +145,7 @@ def test_this_installation_is_examined(call):
 def test_a_fault_has_an_exit_code_and_its_advice(call, registry):
     code, out, _ = call("doctor")
     assert code == 1
-    assert "plugin strange (dashpot-strange 0.3)" in out and "-> mend, update or uninstall dashpot-strange" in out
+    assert "plugin strange (dashpot-strange 0.3)" in out and "-> correct, update or uninstall dashpot-strange" in out
     assert out.rstrip().splitlines()[-1].endswith("faults: see what is marked !!")
     code, out, error = call("doctor", "--quiet")
     assert (code, out) == (1, "") and "cannot be loaded: ImportError: no" in error

@@ -119,6 +119,7 @@ NETWORKS = {
         "no such file",
         "did you mean 'kelvin_voigt'",
     ),
+    "an element": ("draw maxwell", None, "maxwell: ", "expected a network", "of an element", "dashpot list models"),
     "a folder": ("check folder", None, "folder: ", "expected a network file", "got a folder", "name a file in it"),
     "an empty file": (
         "check empty.yaml",
@@ -316,8 +317,8 @@ NETWORKS = {
         "simulate gehmann --data data -o out",
         None,
         "gehmann.yaml:",
-        "is to come from data",
-        "has no numbers yet",
+        "is to be taken from data",
+        "has no knots yet",
         "fit the network first",
     ),
 }
@@ -337,7 +338,7 @@ DATASETS = {
         "folder: ",
         "dataset.yaml",
         "holds no dataset.yaml",
-        "write one that names its runs",
+        "`dashpot import folder` writes a first one",
     ),
     "a file without words": (
         "fit good.yaml data/a.csv -o out",
@@ -345,7 +346,23 @@ DATASETS = {
         "data/a.csv: ",
         "holds",
         "nothing says what this file holds",
-        "write 'a.csv.yaml' beside it",
+        "`dashpot import data/a.csv` writes a dataset.yaml|write 'data/a.csv.yaml'",
+    ),
+    "a network in its place": (
+        "compare good.yaml spring -o out",
+        None,
+        "spring: ",
+        "expected a dataset",
+        "got the name of a network",
+        "the dataset stands last",
+    ),
+    "the other way round": (
+        "fit data good.yaml -o out",
+        None,
+        "data: ",
+        "expected a network",
+        "got measured data",
+        "the models stand first",
     ),
     "another kind of file": (
         "fit good.yaml good.yaml -o out",
@@ -650,17 +667,17 @@ COMMANDS = {
         "study x.yaml -o out",
         STUDY + "stages: [{name: all, free: 'zz*'}]\n" + MODELS,
         "s: ",
-        "expected a pattern of numbers",
+        "expected a pattern of parameters",
         "got 'zz*', which names none",
-        "numbers are: k.stiffness",
+        "parameters are: k.stiffness",
     ),
     "a pattern of profiles": (
         "study x.yaml -o out",
         STUDY + STAGES + MODELS + "profiles: 'zz*'",
         "s: ",
-        "expected a pattern of numbers",
+        "expected a pattern of parameters",
         "got 'zz*', which names none",
-        "numbers are: k.stiffness",
+        "parameters are: k.stiffness",
     ),
     "a model above": (
         "study x.yaml -o out",
@@ -703,8 +720,8 @@ USAGE = {
     "a value beyond": ("fit good.yaml data -o out --optimizer pso --set particles=1", "expected at least 2, got 1"),
     "a seed below": ("fit good.yaml data -o out --seed -1", "-1 is not in the range x>=0"),
     "no worker": ("fit good.yaml data -o out --jobs 0", "0 is not in the range x>=1"),
-    "no motion": ("simulate good.yaml -o out", "Say either --data DATASET or --rig RIG"),
-    "two motions": ("simulate good.yaml --data data --rig triangle -o out", "Say either --data DATASET or --rig RIG"),
+    "no motion": ("simulate good.yaml -o out", "Say either DATASET or --rig RIG"),
+    "two motions": ("simulate good.yaml --data data --rig triangle -o out", "Say either DATASET or --rig RIG"),
     "an option of no rig": ("simulate good.yaml --data data --set depth=3mm -o out", "name it with --rig"),
     "an option of a bench": (
         "simulate good.yaml --rig tire_bench --set depth=3mm -o out",
@@ -717,8 +734,10 @@ USAGE = {
     "no picture": ("draw good.yaml -o x.png", "expected a file ending in .svg or .txt, got 'x.png'"),
     "no list": ("list element", "No list of 'element', did you mean 'elements'?"),
     "no specimen": ("demo --specimen tyre -o out", "No specimen 'tyre' to demonstrate with, there are: test_tire"),
-    "no networks": ("compare --data data -o out", "Missing argument 'SPEC...'"),
-    "no data": ("compare good.yaml -o out", "Missing option '--data'"),
+    "no networks": ("compare --data data -o out", "Missing argument 'MODEL... DATASET'"),
+    "no data": ("compare good.yaml -o out", "Missing argument 'DATASET'"),
+    "two models of one": ("fit good.yaml spring data -o out", "expected one MODEL and one DATASET, got good.yaml"),
+    "a file for a folder": ("fit good.yaml data -o out/a.html", "got 'out/a.html', which looks like a file"),
 }
 
 
@@ -815,7 +834,7 @@ def test_a_checkpoint_that_cannot_be_used(blame, folder, monkeypatch, file, text
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    output = f"study_{file}"
+    output = f"study_{Path(file).stem}"
     with monkeypatch.context() as patched:
         patched.setattr(run, "search", interrupted)
         assert blame(f"study x.yaml -o {output}", "x.yaml", STUDY + STAGES + MODELS)[0] == 3

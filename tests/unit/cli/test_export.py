@@ -41,7 +41,7 @@ def test_an_unknown_target_is_told_with_the_nearest(file, capsys):
 
 def test_nothing_is_written_for_a_network_that_cannot_be_exported(file, capsys):
     assert main(["export", "gehmann", "--to", "c", "-o", "out"]) == 1
-    assert "is to come from data" in capsys.readouterr().err
+    assert "is to be taken from data" in capsys.readouterr().err
     assert not (file.parent / "out").exists()
 
 

@@ -15,6 +15,7 @@ KEYS = {
     "list elements": {"elements"},
     "check gehmann": {"specs"},
     "check gehmann --against gehmann": {"specs", "against"},
+    "show gehmann": {"network", "about", "source", "file", "parameters", "curves"},
     "draw gehmann": {"network", "file", "drawing"},
     "doctor": {"healthy", "findings"},
     "simulate n.yaml --rig triangle": {
@@ -35,6 +36,28 @@ def test_the_result_is_one_object_with_a_format(call, tmp_path, monkeypatch, lin
     assert code == 0
     assert content.keys() == {"format", *keys}
     assert content["format"] == FORMATS[line.split()[0]]
+
+
+@pytest.mark.parametrize(
+    "line, code, word",
+    [
+        ("fit nope.yaml data -o out --json", 1, "there is no such file"),
+        ("fit spring --json", 2, "Missing argument 'DATASET'"),
+        ("nope --json", 2, "No such verb 'nope'"),
+    ],
+)
+def test_an_error_is_one_object_too(call, line, code, word):
+    found, out, error = call(*line.split())
+    content = json.loads(out)
+    assert (found, content["exit_code"], content["format"]) == (code, code, "dashpot-error/1")
+    [problem] = content["problems"]
+    assert word in problem["message"] and word in error
+
+
+def test_a_failed_check_is_one_object(call):
+    code, out, error = call("check", "spring", "nope.yaml", "--json")
+    assert code == 1 and "nope.yaml: there is no such file" in error
+    assert [bool(spec["problems"]) for spec in json.loads(out)["specs"]] == [False, True]
 
 
 def test_every_verb_with_json_has_a_documented_format():

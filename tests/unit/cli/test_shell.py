@@ -49,7 +49,7 @@ def test_the_version_is_told(call):
         (["list", "elments"], "No list of 'elments', did you mean 'elements'?"),
         (["list", "zzz"], "No list of 'zzz', there are: elements, "),
         (["demo", "--seed", "-1"], "-1 is not in the range x>=0"),
-        (["compare", "spring"], "Missing option '--data'"),
+        (["compare", "spring"], "Missing argument 'DATASET'"),
         (["fit", "spring"], "Missing argument 'DATASET'"),
     ],
 )

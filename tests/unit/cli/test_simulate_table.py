@@ -40,7 +40,7 @@ def folder(tmp_path):
 
 
 def test_a_table_holds_the_stiffness_of_the_network_beside_the_measured_one(folder):
-    code = main(["simulate", str(folder / "n.yaml"), "--data", str(folder), "--table", "-o", str(folder / "out")])
+    code = main(["simulate", str(folder / "n.yaml"), str(folder), "--table", "-o", str(folder / "out")])
     assert code == 0
     names, units, *lines = (folder / "out" / "stiffness.csv").read_text().splitlines()
     assert units.split(",")[:4] == ["Hz", "m", "m", "N/m"]
@@ -54,8 +54,8 @@ def test_a_table_holds_the_stiffness_of_the_network_beside_the_measured_one(fold
 
 def test_a_table_needs_tables(folder, capsys):
     assert main(["simulate", str(folder / "n.yaml"), "--table", "--rig", "tire_bench", "-o", str(folder / "out")]) != 0
-    assert "--table goes with --data" in capsys.readouterr().err
+    assert "--table goes with DATASET" in capsys.readouterr().err
     np.savez(folder / "a.npz", t=np.arange(400) / 1000, x=np.sin(0.1 * np.arange(400)), F=np.cos(0.1 * np.arange(400)))
     (folder / "dataset.yaml").write_text(DATASET.partition("tables")[0] + RUNS)
-    assert main(["simulate", str(folder / "n.yaml"), "--data", str(folder), "--table", "-o", str(folder / "out")]) != 0
+    assert main(["simulate", str(folder / "n.yaml"), str(folder), "--table", "-o", str(folder / "out")]) != 0
     assert "has no table of dynamic stiffness" in capsys.readouterr().err

@@ -10,7 +10,7 @@ import pytest
 VERBS = {
     "fit": (["fit", "spring", "bench.yaml"], {"fit.json", "numbers.csv", "knots.csv", "spring.yaml", "report.html"}),
     "compare": (
-        ["compare", "spring", "--data", "bench.yaml"],
+        ["compare", "spring", "bench.yaml"],
         {"compare.json", "compare.csv", "report.html"},
     ),
     "diagnose": (
@@ -76,8 +76,17 @@ def test_force_overwrites(call, layers, tmp_path, arguments, files):
 
 
 def test_a_comparison_keeps_the_order_of_the_networks(call, layers, tmp_path):
-    assert call("compare", "b", "c", "a", "--data", "bench.yaml", "-o", tmp_path)[0] == 0
+    assert call("compare", "b", "c", "a", "bench.yaml", "-o", tmp_path)[0] == 0
     assert [network.name for network in layers[0]["subject"]] == ["b", "c", "a"]
+
+
+def test_data_says_the_same_as_the_last_argument(call, layers, tmp_path):
+    assert call("compare", "b", "--data", "bench.yaml", "-o", tmp_path / "one")[0] == 0
+    assert call("compare", "b", "bench.yaml", "-o", tmp_path / "two")[0] == 0
+    assert call("fit", "b", "--data", "bench.yaml", "-o", tmp_path / "three")[0] == 0
+    first, second, third = layers
+    assert first["dataset"] == second["dataset"] == third["dataset"]
+    assert [network.name for network in first["subject"]] == [third["subject"].name] == ["b"]
 
 
 def test_a_diagnosis_without_an_extension_writes_one_network(call, layers, fake_result, tmp_path, monkeypatch):

@@ -68,7 +68,7 @@ def test_a_text_of_the_file_does_not_end_its_comment(tmp_path):
 def test_a_curve_without_numbers_is_refused_by_name():
     import dashpot as dp
 
-    with pytest.raises(InputError, match="the curve 'stiffness.stiffness' is to come from data"):
+    with pytest.raises(InputError, match="the curve 'stiffness.stiffness' is to be taken from data"):
         load_registry().exports["c"]().files(dp.load("tire_model_5"))
 
 

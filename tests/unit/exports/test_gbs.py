@@ -68,6 +68,6 @@ identified:
 def test_sines_stand_at_the_preloads_of_the_identification_and_those_outside_are_told():
     text, rows = converted(DRY + IDENTIFIED)
     assert set(rows[:, 2]) == {8e-3, 10e-3, 12e-3}
-    assert "$ Sines outside of what the numbers were identified with: amplitude 0.5 mm to 2 mm" in text
+    assert "$ Sines outside of the range of identification: amplitude 0.5 mm to 2 mm" in text
     text, _ = converted(DRY + IDENTIFIED, amplitudes=(2e-3,), frequencies=(1.0, 5.0))
     assert "Sines outside" not in text

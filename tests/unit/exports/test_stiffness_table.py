@@ -67,5 +67,5 @@ def test_a_negative_amplitude_is_refused():
 def test_rows_outside_of_the_identification_are_told():
     seen = VISCOELASTIC + "identified: {range: {preload: [2 mm, 6 mm], frequency: [2 Hz, 20 Hz]}}\n"
     told = load_registry().exports["stiffness_table"]().files(declare(seen))["mount_stiffness.txt"].decode()
-    assert "identified with: frequency 1 Hz to 25 Hz, identified in 2 Hz to 20 Hz." in told
+    assert "outside of the range of identification: frequency 1 Hz to 25 Hz, identified in 2 Hz to 20 Hz." in told
     assert set(rows(seen)[:, 2]) == {2e-3, 4e-3, 6e-3}

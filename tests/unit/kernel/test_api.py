@@ -52,7 +52,7 @@ def test_a_network_may_be_named_or_lie_in_a_file(tmp_path):
 
 def test_a_curve_that_is_still_to_come_from_data_is_told():
     with pytest.raises(
-        InputError, match="the curve 'stiffness.stiffness' is to come from data .* fit the network first"
+        InputError, match="the curve 'stiffness.stiffness' is to be taken from data .* fit the network first"
     ):
         simulate_runs("gehmann", DATASET)
 

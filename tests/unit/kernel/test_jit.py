@@ -127,5 +127,5 @@ print(sum(found.simulate.stats.cache_misses.values()), sum(found.simulate.stats.
 def test_a_curve_without_numbers_is_told():
     import dashpot as dp
 
-    with pytest.raises(InputError, match="the curve 'stiffness.stiffness' is to come from data"):
+    with pytest.raises(InputError, match="the curve 'stiffness.stiffness' is to be taken from data"):
         dp.load("gehmann").jit()

@@ -49,7 +49,7 @@ def test_a_factor_acts_on_the_force_and_not_on_the_memory():
 def test_a_curve_without_numbers_is_refused_with_what_to_do():
     spec = network("it: {element: spring, stiffness: {from: quasi_static}}")
     assert trace_network(spec)
-    told = "n.yaml:4:36: the curve 'it.stiffness' is to come from data and has no numbers yet. fit the network first"
+    told = "n.yaml:4:36: the curve 'it.stiffness' is to be taken from data and has no knots yet. fit the network first"
     with pytest.raises(InputError, match=told):
         compile_network(spec)
 

@@ -75,12 +75,12 @@ def test_two_ends_are_the_same_whether_they_are_named_or_not():
     ("{x: {<s>}}", "{x: {<s>}, y: {<r>}}", "'two' has one dahl more between the driven end and ground"),
     ("{x: {<s>}, y: {<r>}, z: {<r>}}", "{x: {<s>}}", "'one' has two dahl more between the driven end and ground"),
     ("{x: {<s>}}", "{x: {element: spring, stiffness: {start: 5}}}", "between the driven end and ground: spring "
-     "(nothing to be found) in 'one', spring (stiffness to be found) in 'two'"),
+     "(nothing free) in 'one', spring (stiffness free) in 'two'"),
     ("{x: {<s>}}", "{x: {element: spring, stiffness: {polynomial: [5, 6]}}}", "between the driven end and ground: "
-     "spring (nothing to be found) in 'one', spring (stiffness as a polynomial of degree 2; nothing to be found) in "
+     "spring (nothing free) in 'one', spring (stiffness as a polynomial of degree 2; nothing free) in "
      "'two'"),
     ("{x: {<d>}}", "{x: {<d>, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}}", "between the driven end and "
-     "ground: damper (nothing to be found) in 'one', damper (scale as a table of 2; nothing to be found) in 'two'"),
+     "ground: damper (nothing free) in 'one', damper (scale as a table of 2; nothing free) in 'two'"),
 ])  # fmt: skip
 def test_what_one_has_more_or_otherwise_is_told(first, second, told):
     assert against(first, second).structure == (told,)
@@ -108,13 +108,13 @@ def test_a_two_sided_characteristic_may_not_be_turned_round():
                        f"{{x: {{{table}, between: [b, a]}}, y: {{<s>, between: [a, m]}}, z: {{<s>, between: [m, b]}}}}",
                        NODES)  # fmt: skip
     (found,) = likeness.structure
-    assert found == ("between a and b: damper (damping as a table of 3; nothing to be found) in 'one', damper (damping "
-                     "as a table of 3; nothing to be found; turned round) in 'two'")  # fmt: skip
+    assert found == ("between a and b: damper (damping as a table of 3; nothing free) in 'one', damper (damping "
+                     "as a table of 3; nothing free; reversed) in 'two'")  # fmt: skip
 
 
 @pytest.mark.parametrize(("other", "told"), [
     ("nodes: {a: driven, b: ground, m: {mass: 30 kg}}",
-     "the node m is free with mass to be found in 'one', m is free with mass in 'two'"),
+     "the node m is free with mass free in 'one', m is free with mass in 'two'"),
     ("nodes: {a: loaded, b: ground, m: {mass: {start: 30 kg}}}", "the node a is driven in 'one', a is loaded in 'two'"),
     ("nodes: {a: driven, b: ground, m: {mass: {start: 30 kg}}, c: ground}",
      "'two' has one node more, c, which is ground"),
@@ -128,8 +128,8 @@ def test_numbers_that_a_twin_shares_are_not_numbers_of_its_own():
     model = "x: {element: spring, stiffness: {start: 5}, between: [a, m]}"
     own = model.replace("x:", "y:").replace("[a, m]", "[m, b]")
     (found,) = against(f"{{{model}, y: {{same_as: x, between: [m, b]}}}}", f"{{{model}, {own}}}", NODES).structure
-    assert found == ("between b and m: spring (stiffness to be found, as those of another branch) in 'one', spring "
-                     "(stiffness to be found) in 'two'")  # fmt: skip
+    assert found == ("between b and m: spring (stiffness free, as those of another branch) in 'one', spring "
+                     "(stiffness free) in 'two'")  # fmt: skip
 
 
 def test_of_one_structure_the_numbers_are_compared():

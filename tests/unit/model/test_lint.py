@@ -126,14 +126,14 @@ def test_a_number_on_which_nothing_depends():
         oil: {{element: damper, damping: 5, between: [a, b], offset: {{start: 3 mm}}}}
     """, "{a: driven, b: ground}")  # fmt: skip
     assert str(found) == (
-        "n.yaml:6:63: warning: nothing that can be measured depends on 'oil.offset', which is to be found. write a "
+        "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it by a "
         "plain number, or remove it"
     )
 
 
 def confused(found: list[Problem]) -> list[list[str]]:
-    """What cannot be told apart, as lists of paths."""
-    groups = [problem.message for problem in found if "cannot be told apart" in problem.message]
+    """What cannot be distinguished, as lists of paths."""
+    groups = [problem.message for problem in found if "cannot be distinguished" in problem.message]
     return [[word for word in message.split("'")[1::2]] for message in groups]
 
 
@@ -175,8 +175,8 @@ def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():
         b: {element: damper, damping: {start: 9}}
     """)
     assert str(found) == (
-        "n.yaml:5:33: warning: 'a.damping' and 'b.damping' cannot be told apart: the others make up for any change of "
-        "one of them. fix one of them with a plain number, or remove a branch"
+        "n.yaml:5:33: warning: 'a.damping' and 'b.damping' cannot be distinguished: they compensate each other. "
+        "fix one of them with a plain number, or remove a branch"
     )
 
 
@@ -270,8 +270,8 @@ def test_a_factor_that_makes_a_law_give_work():
     text = f"format: dashpot-network/1\nname: n\nbranches:\n  it: {{element: mass_between, mass: 3, {FALLING}}}\n"
     (found,) = find_weaknesses(parse_network(text, {"mass_between": Mass}, "n.yaml"))
     assert str(found) == (
-        "n.yaml:4:47: warning: with its factor over deflection the branch 'it' can give back more work than was put "
-        "in. use the factor on a law that loses work at every instant"
+        "n.yaml:4:47: warning: with its factor over deflection the branch 'it' can generate energy. "
+        "use the factor on a law that dissipates at every instant"
     )
     even = text.replace("[3, 0.3]", "[2, 2]")
     assert not find_weaknesses(parse_network(even, {"mass_between": Mass}))

@@ -242,7 +242,7 @@ def test_a_wrong_branch_is_told_once_with_its_place(branch, told):
      "x_2: {same_as: x2, between: [a, b]}}", "there is no branch 'x2' above; did you mean 'x'?"),
     ("{x: {element: elastic, stiffness: 5, between: [a, b], offset: &o {start: 1 mm}}, "
      "y: {element: elastic, stiffness: 5, between: [a, b], offset: *o}}",
-     "'y.offset' is an alias of 'x.offset', a number that is to be identified. write it out"),
+     "'y.offset' is an alias of 'x.offset', a parameter to be identified. write it out"),
 ])  # fmt: skip
 def test_twins_that_do_not_go_together_are_told(branches, told):
     (found,) = problems("{a: driven, b: ground}", branches)
@@ -252,7 +252,7 @@ def test_twins_that_do_not_go_together_are_told(branches, told):
 def test_a_mass_behind_an_alias_is_told_unless_it_is_fixed():
     it = "it: {element: elastic, stiffness: 5, between: [a, b]}"
     (found,) = problems("{a: driven, b: {mass: &m {start: 3 kg}}, c: {mass: *m}}", it)
-    assert "'c.mass' is an alias of 'b.mass', a number that is to be identified" in found
+    assert "'c.mass' is an alias of 'b.mass', a parameter to be identified" in found
     spec = small("{a: driven, b: {mass: &m 3 kg}, c: {mass: *m}, d: ground}", it)
     assert numbers(spec) == {"it.stiffness": 5.0, "b.mass": 3.0, "c.mass": 3.0}
 
@@ -313,7 +313,7 @@ def test_a_fitted_network_is_used_with_its_numbers_fixed(tmp_path):
 
 def test_a_network_with_curves_from_data_has_to_be_fitted_before_it_is_used_in_an_axle(tmp_path):
     (tmp_path / "tire.yaml").write_text(written("core: {element: elastic, stiffness: {from: quasi_static}}"))
-    for fixed, told in ((", fixed: true", "has no numbers yet. fit this network first and use the file that the fit"),
+    for fixed, told in ((", fixed: true", "has no knots yet. fit this network first and use the file that the fit"),
                         ("", "cannot come from quasi_static data in a network with nodes")):  # fmt: skip
         (tmp_path / "n.yaml").write_text(HEAD + USER.lstrip("\n") % fixed)
         with pytest.raises(InputError, match=told) as caught:
@@ -324,7 +324,7 @@ def test_a_network_with_curves_from_data_has_to_be_fitted_before_it_is_used_in_a
 def test_a_used_network_is_not_fixed_by_halves(tmp_path):
     (tmp_path / "tire.yaml").write_text(written("core: {element: elastic, stiffness: 5}"))
     (tmp_path / "n.yaml").write_text(HEAD + USER.lstrip("\n") % ", fixed: false")
-    with pytest.raises(InputError, match="expected 'true': without the key its numbers are searched"):
+    with pytest.raises(InputError, match="expected 'true': without the key its parameters are searched"):
         read_network(tmp_path / "n.yaml", ELEMENTS)
 
 

@@ -60,7 +60,7 @@ def test_factors_between_places():
 
 
 @pytest.mark.parametrize(("number", "message"), [
-    ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. say at which setting"),
+    ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
     ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
     ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
     ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),

@@ -34,19 +34,21 @@ def test_without_held_out_runs_the_training_error_decides():
 def test_the_answer_in_words():
     (mass,) = identified_masses([PLAIN, MOUNT], 9.0)
     assert mass_sentence(mass) == (
-        "wheel: 47.40 kg, 95 % interval 47.15 to 47.90 kg; from mount, which errs least (12 N at a noise floor of 9 N)"
+        "wheel: 47.40 kg, 95 % interval 47.15 to 47.90 kg; from mount, "
+        "which has the lowest RMSE (12 N at a noise floor of 9 N)"
     )
 
 
 def test_a_stiffer_tire_and_the_other_structures_are_named_with_what_they_mean():
     (mass,) = identified_masses([PLAIN, MOUNT], 9.0)
     tire, rod, others = mass_warnings(mass)
-    assert "allows 0.2 % for the force of tire" in tire
+    assert "includes 0.2 % for the force of tire" in tire
     assert "0.35 kg too small" in tire  # five times 0.07 kg, and the mass rises with the stiffness of the tire
     assert (
-        rod == "wheel: the interval allows rod.mass 0.8 kg to 2.2 kg; with 2.2 kg this mass would be 0.098 kg smaller"
+        rod == "wheel: the interval includes rod.mass from 0.8 kg to 2.2 kg; "
+        "with 2.2 kg this mass would be 0.098 kg smaller"
     )
-    assert others == "wheel: other structures say 46.20 kg with plain (31 N)"
+    assert others == "wheel: other structures give 46.20 kg with plain (31 N)"
 
 
 def test_the_sense_of_the_shift_is_told():

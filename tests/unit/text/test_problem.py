@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dashpot.text.problem import InputError, Place, Problem, nearest
+import pytest
+
+from dashpot.text.problem import InputError, Place, Problem, nearest, of_family
 
 
 def test_a_place_reads_as_file_line_column():
@@ -34,3 +36,18 @@ def test_the_nearest_word_is_found_whatever_its_case():
     assert nearest("sprng", ["spring", "dahl"]) == "did you mean 'spring'?"
     assert nearest("hz", ["Hz", "m"]) == "did you mean 'Hz'?"
     assert nearest("capacitor", ["spring", "dahl"]) == ""
+
+
+@pytest.mark.parametrize(
+    "word, found",
+    [
+        ("axle", "did you mean 'axle_1' or 'axle_2'?"),
+        ("Axle-2", "did you mean 'axle_2'?"),
+        ("tire2", "did you mean 'tire_2'?"),
+        ("tire", "did you mean 'tire_2' or 'big_tire_2'?"),
+        ("sprng", "did you mean 'spring'?"),
+        ("capacitor", ""),
+    ],
+)
+def test_words_of_one_family_are_offered_together(word, found):
+    assert of_family(word, ["axle_1", "axle_2", "tire_2", "big_tire_2", "spring"]) == found

@@ -161,7 +161,7 @@ def _finding(
     agreed: Agreed | None,
 ) -> Finding:
     confirm = [*timing.confirm, *(remark for channel in found.values() for remark in _doubts(channel))]
-    confirm += [f"no column was found for the {name}: say it under channels" for name in NEEDED if name not in found]
+    confirm += [f"no column was found for the {name}: name it under channels" for name in NEEDED if name not in found]
     channels, signals, motion = dict(found), {}, Motion("transient", {})
     if all(name in found for name in NEEDED):
         raw = {name: _filled(columns)[found[name].role.column] for name in NEEDED}

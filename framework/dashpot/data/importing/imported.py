@@ -266,5 +266,5 @@ def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str
             about.setdefault("a run is a copy of another one to the last digit: remove one of them", []).append(
                 run.name
             )
-    about["the kinds and settings of the runs: they were found from the motion"] = [run.name for run in runs]
+    about["the kinds and settings of the runs: they were derived from the motion"] = [run.name for run in runs]
     return {remark: tuple(names) for remark, names in about.items()}

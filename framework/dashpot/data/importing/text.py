@@ -97,7 +97,7 @@ def _channel_lines(finding: Finding) -> list[str]:
 def _timing(finding: Finding) -> Iterable[str]:
     timing = finding.timing
     if timing.column is not None:
-        remark = "   # CONFIRM: as told above" if timing.confirm else ""
+        remark = "   # CONFIRM: see above" if timing.confirm else ""
         entries = {"column": _column(finding, timing.column), "unit": quoted(timing.unit or "s")}
         yield f"  time: {_flow(entries)}{remark}"
     elif timing.sampling:

@@ -55,13 +55,13 @@ class OwedToKnown:
 
     @classmethod
     def of(cls, known: KnownNumber, numbers: Mapping[str, float]) -> OwedToKnown:
-        """What the numbers owe to one that is known."""
+        """What the parameters owe to one that is known."""
         assert known.value.interval is not None
         return cls(known.path, known.value.unit, known.value.interval, numbers)
 
 
 def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
-    """The allowance for the force of a branch of the objective's network, at the numbers of its file."""
+    """The allowance for the force of a branch of the objective's network, at the parameters of its file."""
     network, slots = objective.network, force_slots(objective.network.spec, branch)
     start = np.atleast_2d(network.start)[0]
     step = np.zeros_like(start)
@@ -70,7 +70,7 @@ def allowance(objective: Objective, branch: str, model: str, share: float) -> Al
 
 
 def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
-    """The numbers of a branch that are proportional to its force: moved alike, they move the force alike."""
+    """The parameters of a branch that are proportional to its force: moved alike, they move the force alike."""
     return [number for number, slot in enumerate(spec.slots())
             if slot.path.startswith(f"{branch}.") and force_dimension(slot.value.unit) == 1]  # fmt: skip
 

@@ -83,7 +83,7 @@ class StudySpec:
 
     hold_out: patterns of the runs that only judge, None where the seed chooses; weights: pattern -> weight of the runs
     that it names; amplitude: the one at which the report compares dynamic stiffness (m); bootstrap: how many
-    resamplings of the runs, profiles: patterns of the numbers whose profile likelihood is computed.
+    resamplings of the runs, profiles: patterns of the parameters whose profile likelihood is computed.
     """
 
     name: str

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Preview:
-    """What the training runs tell about the numbers of a model at its start values; ``noise``: its floor in N."""
+    """The identifiability of a model from the training runs at its start values; ``noise``: its floor in N."""
 
     model: str
     budget: int

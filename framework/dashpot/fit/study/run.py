@@ -53,7 +53,7 @@ class ModelResult:
     """An identified model: the fit, how its stages went, and what the data tell about its numbers.
 
     ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them. ``owed`` says
-    for each part, and ``owed_to_known`` for each number known from elsewhere, how far its error moves the numbers.
+    for each part, and ``owed_to_known`` for each number known from elsewhere, how far its error moves the parameters.
     """
 
     setting: Setting
@@ -104,7 +104,7 @@ def run_study(
 
 
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
-    """What the numbers of a study depend on."""
+    """What the parameters of a study depend on."""
     networks = [plan.network.text for plan in study.models]
     parts = [dashpot.__version__, str(study.seed), dataset.digest, study.text, *networks]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()

@@ -21,12 +21,12 @@ def study_schema(optimizers: Mapping[str, type[Optimizer]], specimens: Collectio
         "about": s.text("a remark for the report"),
         "data": {"if": {"type": "object"}, "then": measured, "else": s.text("a dataset, relative to this file")},
         "seed": s.integer("same seed, same result files"),
-        "hold_out": s.patterns("runs that only judge"),
+        "hold_out": s.patterns("held-out runs"),
         "weights": s.named({"type": "number", "exclusiveMinimum": 0}, "of the runs named; all others count 1"),
         "budget": s.integer(f"of each stage that does not say its own; {BUDGET} if left out"),
         "amplitude": s.quantity("m", "of the figure of dynamic stiffness over frequency"),
         "bootstrap": s.integer("refits on runs drawn with replacement"),
-        "profiles": s.patterns("numbers whose profile likelihood is computed"),
+        "profiles": s.patterns("parameters whose profile likelihood is computed"),
         "stages": s.items(s.part("stage"), "of every model that has none of its own"),
         "models": s.items({"if": {"type": "object"}, "then": s.part("model"), "else": s.text()}, "in this order"),
     }
@@ -38,7 +38,7 @@ def study_schema(optimizers: Mapping[str, type[Optimizer]], specimens: Collectio
 def _model() -> Schema:
     keys = {
         "network": s.text("a shipped name, or a file beside this one"),
-        "start_from": s.text("a model above, whose numbers it takes over"),
+        "start_from": s.text("a model above, whose parameters it takes over"),
         "stages": s.items(s.part("stage"), "its own stages"),
         "runs": s.patterns("the runs that it is about"),
         "parts": s.named(s.text(), "branch: the model above that it uses"),
@@ -48,12 +48,12 @@ def _model() -> Schema:
 
 def _stage(optimizers: Mapping[str, type[Optimizer]]) -> Schema:
     name = s.text("the name of the stage")
-    take = s.mapping({"name": name, "take": s.choice(TAKEN, "numbers that are read from the data")}, ("name", "take"))
+    take = s.mapping({"name": name, "take": s.choice(TAKEN, "parameters read from the data")}, ("name", "take"))
     word = "(" + "|".join(optimizers) + ")"
     search = s.mapping(
         {
             "name": name,
-            "free": s.patterns("numbers that are searched"),
+            "free": s.patterns("parameters that are searched"),
             "fixed": s.patterns("those that stay although `free` names them"),
             "runs": s.choice(STAGE_RUNS),
             "optimizer": s.text("A+B lets B begin where A ended", f"^({OWN_METHOD}|{word}(\\+{word})*)$"),

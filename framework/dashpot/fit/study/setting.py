@@ -54,8 +54,8 @@ def refuse_idle_patterns(study: StudySpec) -> None:
     for patterns in (study.profiles, *(stage.free for stage in searches)):
         wrong = nameless(patterns, [[path] for path in paths])
         if wrong:
-            message = f"expected a pattern of numbers, got '{wrong[0]}', which names none"
-            hint = nearest(wrong[0], paths) or f"numbers are: {', '.join(sorted(paths)[:12])}"
+            message = f"expected a pattern of parameters, got '{wrong[0]}', which names none"
+            hint = nearest(wrong[0], paths) or f"parameters are: {', '.join(sorted(paths)[:12])}"
             raise InputError.at(Place(study.name), message, hint)
 
 

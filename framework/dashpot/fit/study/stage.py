@@ -30,7 +30,7 @@ Watch = Callable[[int, float], None]
 
 @dataclass(frozen=True)
 class StageResult:
-    """How a search went. ``free`` are the numbers it moved, ``spread`` the losses of its starts, the best first."""
+    """How a search went. ``free`` are the parameters it moved, ``spread`` the losses of its starts, the best first."""
 
     name: str
     optimizer: str
@@ -59,7 +59,7 @@ class Task:
 def search(
     spec: NetworkSpec, stage: SearchStage, task: Task, record: Callable[[int], Record], watch: Watch
 ) -> tuple[NetworkSpec, StageResult]:
-    """The network with the numbers that the stage found; ``record(start)`` holds what is known of each start.
+    """The network with the parameters that the stage found; ``record(start)`` holds what is known of each start.
 
     KeyboardInterrupt leaves the records as far as they came.
     """

@@ -72,7 +72,7 @@ def online_of(spec: NetworkSpec) -> Online:
 
 @lru_cache(KEPT)
 def recipe_of(program: Program) -> Recipe:
-    """How the constants of a program come from the numbers of a lane."""
+    """How the constants of a program come from the parameters of a lane."""
     return Recipe(program.constants)
 
 

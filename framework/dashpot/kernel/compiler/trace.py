@@ -66,7 +66,7 @@ def refuse_missing_numbers(spec: NetworkSpec) -> None:
     for path, curve in spec.data_curves().items():
         if curve.form == "data":
             place = curve.node.place if curve.node else Place()
-            raise InputError.at(place, f"the curve '{path}' is to come from data and has no numbers yet",
+            raise InputError.at(place, f"the curve '{path}' is to be taken from data and has no knots yet",
                                 "fit the network first, or write a table")  # fmt: skip
 
 

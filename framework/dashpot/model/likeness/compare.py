@@ -18,7 +18,7 @@ COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
 @dataclass(frozen=True)
 class Likeness:
-    """The differences in words: of the structure, and of the numbers where the structure is the same."""
+    """The differences in words: of the structure, and of the parameters where the structure is the same."""
 
     structure: tuple[str, ...]
     numbers: tuple[str, ...]
@@ -66,7 +66,7 @@ class _Pair:
         cells = [{key: value.searched for key, value in network.spec.measurement.items()}
                  for network in (self.first, self.second)]  # fmt: skip
         if cells[0] != cells[1]:
-            told = [", ".join(f"{key}{' to be found' * found}" for key, found in cell.items()) or "nothing"
+            told = [", ".join(f"{key}{' free' * found}" for key, found in cell.items()) or "nothing"
                     for cell in cells]  # fmt: skip
             yield f"measurement: {told[0]} in {self.names[0]}, {told[1]} in {self.names[1]}"
 
@@ -150,7 +150,7 @@ def _node(name: str) -> str:
 
 
 def _held(joint: Joint) -> str:
-    masses = [key + (" to be found" if value.searched else "") + (" told by runs" if value.setting else "")
+    masses = [key + (" free" if value.searched else "") + (" given by runs" if value.setting else "")
               for key, value in joint.masses.items()]  # fmt: skip
     tied = ", tied to another node" if joint.shares else ""
     return joint.hold + (f" with {', '.join(masses)}{tied}" if masses else "")

@@ -18,7 +18,7 @@ class Make:
     """One element. ``searched`` names its numbers to be found, ``curves`` the form of each curve and its knots.
 
     ``tied`` is true where they are those of another branch, ``turned`` where it lies the other way round and that
-    matters. ``offset`` is true where its deflection has an offset to be found.
+    matters. ``offset`` is true where its deflection has a free offset.
     """
 
     word: str
@@ -32,14 +32,14 @@ class Make:
         """The element in words."""
         if not fully:
             return self.word
-        tied = f"{', '.join(self.searched)} to be found" + (", as those of another branch" if self.tied else "")
-        parts = [*self.curves, tied if self.searched else "nothing to be found"]
-        parts += ["an offset to be found"] * self.offset + ["turned round"] * self.turned
+        tied = f"{', '.join(self.searched)} free" + (", as those of another branch" if self.tied else "")
+        parts = [*self.curves, tied if self.searched else "nothing free"]
+        parts += ["a free offset"] * self.offset + ["reversed"] * self.turned
         return f"{self.word} ({'; '.join(parts)})"
 
 
 def make_of(branch: Branch, offset: Value | None, turned: bool) -> Make:
-    """The make of a branch that lies as the file says, or turned round in a way that matters."""
+    """The make of a branch that lies as the file says, or reversed in a way that matters."""
     curves = branch.characteristics()
     searched = [key for key, value in branch.values.items() if value.searched]
     searched += [f"{key}.{value.over.way} over {value.over.word}" for key, value in branch.values.items() if value.over]

@@ -32,7 +32,7 @@ class Law:
 
     @classmethod
     def of(cls, branch: Branch) -> Law:
-        """The law with the numbers of the file."""
+        """The law with the parameters of the file."""
         own = stand_in(branch)
         return cls(own, {slot.path: slot.value.number for slot in branch_slots(own)})
 

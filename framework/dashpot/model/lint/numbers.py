@@ -1,4 +1,4 @@
-"""Numbers without influence, and numbers that cannot be told apart: the rank of what is measured over the numbers."""
+"""Parameters without influence, and indistinguishable ones: the rank of the measured signals over the parameters."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ STEP = 1e-4  # relative, of a difference quotient
 NONE, DEPENDENT, INVOLVED = 1e-6, 1e-5, 1e-3
 # the ends of a range, and what is there without any motion
 NOT_TRIED = tuple(f"measurement.force.{key}" for key in ("least", "largest", "hum."))
-SPREAD = 0.3  # of the numbers at which structure is judged
+SPREAD = 0.3  # of the parameters at which structure is judged
 
 
 def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Problem]:
-    """Branches and searched numbers on which nothing depends, and searched numbers that make up for each other."""
+    """Branches and free parameters without influence, and free parameters that compensate each other."""
     slots = searched_slots(spec)
     outputs, table = _sensitivities(topology, spec, slots, 0)
     idle = [edge.branch for k, edge in enumerate(topology.edges)
@@ -33,8 +33,8 @@ def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Pr
     names = {branch.numbers for branch in idle}
     for slot, column in zip(slots, table.T, strict=True):
         if slot.path.rpartition(".")[0] not in names and not _is_felt(column):
-            yield Problem(_place(slot), f"nothing that can be measured depends on '{slot.path}', which is to be found",
-                          "write a plain number, or remove it", "warning")  # fmt: skip
+            yield Problem(_place(slot), f"'{slot.path}' is free, but has no influence on the measured signals",
+                          "fix it by a plain number, or remove it", "warning")  # fmt: skip
     groups = _dependencies(table)
     if groups:
         # what is so at other numbers as well is no accident
@@ -58,7 +58,7 @@ def find_equal_starts(topology: Topology) -> Iterator[Problem]:
 
 
 def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
-    """The numbers to be found that show in a small motion; two for a curve that is to come from data."""
+    """The parameters to be found that show in a small motion; two for a curve that is to come from data."""
     curves = set(spec.data_curves())
     own = [slot for slot in spec.slots() if slot.path.partition("[")[0] not in curves]
     bent = [slot for branch in spec.leaves() if not branch.shares for slot in branch_slots(stand_in(branch))
@@ -124,9 +124,9 @@ def _dependencies(table: Array) -> list[frozenset[int]]:
 def _confusion(slots: list[Slot]) -> Problem:
     last = max(slots, key=lambda slot: slot.value.place)
     names = list(dict.fromkeys(f"'{slot.path.partition('[')[0]}'" for slot in sorted(slots, key=lambda s: s.path)))
-    listed = f"{', '.join(names[:-1])} and {names[-1]} cannot be told apart" if len(names) > 1 else (
-        f"the numbers of {names[0]} cannot be told apart")  # fmt: skip
-    return Problem(_place(last), f"{listed}: the others make up for any change of one of them",
+    listed = f"{', '.join(names[:-1])} and {names[-1]} cannot be distinguished" if len(names) > 1 else (
+        f"the parameters of {names[0]} cannot be distinguished")  # fmt: skip
+    return Problem(_place(last), f"{listed}: they compensate each other",
                    "fix one of them with a plain number, or remove a branch", "warning")  # fmt: skip
 
 

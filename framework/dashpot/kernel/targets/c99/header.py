@@ -38,13 +38,13 @@ typedef struct {{
     double value;
 }} {name}_number;
 
-/* The numbers of the network, as they were exported. */
+/* The parameters of the network, as they were exported. */
 extern const {name}_number {name}_numbers[{guard}_NUMBERS + 1];
 
-/* The numbers of the export, at rest. span (m) is how far the motion will go: inner nodes are solved for to a millionth
+/* The parameters of the export, at rest. span (m) is the span of the motion: inner nodes are solved for to a millionth
    of it. */
 void {name}_init({name}_network *network, double span);
-/* At rest again, with the numbers as they are. */
+/* At rest again, with the parameters as they are. */
 void {name}_reset({name}_network *network);
 /* Another value of a number, by name, at any time; 0 where there is none of that name. */
 int {name}_set({name}_network *network, const char *number, double value);
@@ -54,7 +54,7 @@ void {name}_advance({name}_network *network, const double *inputs, double dt, do
 double {name}_acceleration(const {name}_network *network, int node, double x, double v, double dt);
 {step}/* How the steps went: 0 good, 1 forces at inner nodes not balanced, 2 no equilibrium, 3 a force not finite. */
 int {name}_status(const {name}_network *network);
-/* What of the motion has left the range in which the numbers were identified, since the begin, as a sum:
+/* What of the motion has left the range of identification since the begin, as a sum:
    1 displacement, 2 speed, 4 amplitude, 8 preload, 16 frequency; the last three are known when the motion turns.
    {range} */
 int {name}_outside(const {name}_network *network);

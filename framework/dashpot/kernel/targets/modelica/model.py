@@ -50,7 +50,7 @@ SAMPLED: Arguments = [("array", "s"), ("number", "dt"), ("array", "p"), ("array"
 
 
 def print_model(online: Online, name: str, title: str, values: Sequence[float], units: Sequence[str]) -> str:
-    """The text of a package with the ``values`` and ``units`` of the numbers as parameters of its model."""
+    """The text of a package with the ``values`` and ``units`` of the parameters as parameters of its model."""
     code = ModelicaCode()
     write_network(code, online)
     _write_sampled(code, online)

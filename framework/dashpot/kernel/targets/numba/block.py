@@ -62,7 +62,7 @@ def _run(code: PythonCode, arguments: Arguments) -> Iterator[None]:
 
 @contextmanager
 def _own_memory(code: PythonCode) -> Iterator[None]:
-    # the numbers of a lane side by side; a slice would take numba a second to compile
+    # the parameters of a lane side by side; a slice would take numba a second to compile
     pairs = (("own", "space", "w"), ("own_tables", "all_tables", "tables"))
     for own, array, name in pairs:
         code.let(own, f"np.empty({array}.size // n)", "array")

@@ -45,7 +45,7 @@ def write_parallel(code: Code, online: Online) -> None:
 
 
 def write_common(code: Code, online: Online) -> None:
-    """Functions, tables, and what is made of the numbers."""
+    """Functions, tables, and what is made of the parameters."""
     nodes = walk([*_roots(online), *online.program.constants])
     write_functions(code, {node.operation for node in nodes})
     if online.knots:

@@ -1,4 +1,4 @@
-"""What depends on the numbers and on the step alone: the constants of the workspaces, the tables."""
+"""What depends on the parameters and on the step alone: the constants of the workspaces, the tables."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def write_prepare(code: Code, online: Online) -> None:
     """The function ``prepare`` and those that it calls."""
     if online.program.constants:
         _write_constants(code, online)
-    with code.function("nothing", "prepare", MEMORY, "What depends on the numbers and on the step alone."):
+    with code.function("nothing", "prepare", MEMORY, "What depends on the parameters and on the step alone."):
         for course, start in enumerate(online.courses):
             step = f"dt / {2 ** (course + 1)}.0" if online.system else "dt"
             if online.program.constants:
@@ -64,7 +64,7 @@ def _of_branches(online: Online) -> Iterator[tuple[dict[int, Node], list[str]]]:
 
 
 def _text(code: Code, rows: Mapping[int, Node], paths: Sequence[str], given: Mapping[str, str]) -> str:
-    """The text of a function for constants of some numbers, which branches of one make share; nothing is written."""
+    """The text of a function for constants shared by branches of one structure; nothing is written."""
     first = len(code.lines)
     _write_function(code, "constants_of", rows, paths, given)
     text = "\n".join(code.lines[first:])

@@ -1,0 +1,72 @@
+"""The parameters of a network as a table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from dashpot.model.network import NetworkSpec, Slot, Value
+from dashpot.report.parts import Column, Grid
+from dashpot.report.readable import rig_unit
+
+ROLES = {"fixed": "fixed", "free": "free", "identified": "identified"}
+COLUMNS = (
+    Column("number", "parameter"),
+    Column("about", "meaning"),
+    Column("value", "value", "", 4),
+    Column("low", "95 % from", "", 4),
+    Column("high", "to", "", 4),
+    Column("unit", "unit"),
+    Column("lower", "lower bound", "", 3),
+    Column("upper", "upper bound", "", 3),
+    Column("role", "role"),
+)
+
+
+def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None) -> Grid:
+    """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role."""
+    meanings = _meanings(spec)
+    rows = [
+        _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
+    ]
+    used = [column for column in COLUMNS if any(row[column.key] is not None for row in rows)]
+    waiting = [path for path, curve in spec.data_curves().items() if curve.form == "data"]
+    below = [f"A fit takes {', '.join(waiting)} from the data."] if waiting else []
+    if any(slot.value.searched and slot.value.bounds is None for slot in spec.slots()):
+        below.append("A parameter without bounds has the sensible range of its element; a fit narrows it by the data.")
+    caption = " ".join(below)
+    return Grid("Parameters", used, rows, caption, "numbers.csv")
+
+
+def _meanings(spec: NetworkSpec) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for branch in spec.leaves():
+        curves = {key: characteristic.curve for key, characteristic in branch.characteristics().items()}
+        for key, declared in {**branch.element.declares.parameters, **curves}.items():
+            found[f"{branch.numbers}.{key}"] = declared.about
+    return found
+
+
+def _range(value: Value) -> tuple[float, float]:
+    if value.bounds is not None:
+        return value.bounds
+    return value.sensible if value.searched else (-math.inf, math.inf)
+
+
+def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
+    value = slot.value
+    factor, unit = rig_unit(value.unit, abs(value.number))
+    low, high = (None, None) if value.interval is None else (side * factor for side in value.interval)
+    lower, upper = (side * factor if math.isfinite(side) else None for side in _range(value))
+    return {
+        "number": slot.path,
+        "about": meaning,
+        "value": value.number * factor,
+        "low": low,
+        "high": high,
+        "unit": unit or None,
+        "lower": lower,
+        "upper": upper,
+        "role": remark or ROLES[value.role],
+    }
