@@ -60,7 +60,7 @@ def problems_of(kind: str, content: Any) -> tuple[Problem, ...]:
 def shipped() -> Iterator[Any]:
     folders = {"network": "networks", "rig": "rigs", "study": "studies"}
     for kind, folder in folders.items():
-        for path in sorted((spec_folder() / folder).glob("*.yaml")):
+        for path in sorted((spec_folder() / folder).rglob("*.yaml")):
             yield pytest.param(kind, Document.read(path).root.plain(), id=f"{kind}-{path.stem}")
 
 
