@@ -57,7 +57,7 @@ def test_a_preload_told_as_a_force_is_not_used_and_told(call, tmp_path):
     rows = "1,0.1,220,4,500\n5,0.1,230,5,500\n"
     (tmp_path / "table.csv").write_text(f"f,amplitude,Kdyn,delta,preload\nHz,mm,N/mm,deg,N\n{rows}")
     _, out, _ = call("import", tmp_path / "table.csv")
-    assert "'preload' may be a preload: a table takes it as the deflection at that force" in out
+    assert "'preload' may be a preload told as a force: say its column, and the static curve under 'static'" in out
     assert "preload: {" not in (tmp_path / "dataset.yaml").read_text()
 
 
