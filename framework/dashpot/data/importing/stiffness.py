@@ -111,5 +111,6 @@ def _doubts(columns: Mapping[str, ColumnFound], unused: Sequence[str]) -> list[s
                for key in NEEDED if key not in columns]  # fmt: skip
     loads = [name for name in unused if re.search("load|last", name, re.I)]
     if loads and "preload" not in columns:
-        doubts.append(f"'{loads[0]}' may be a preload told as a force: say its column, and the static curve under 'static'")
+        told = f"'{loads[0]}' may be a preload told as a force"
+        doubts.append(f"{told}: say its column, and the static curve under 'static'")
     return [*doubts, "that the amplitude is half of peak to peak"]
