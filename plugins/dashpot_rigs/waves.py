@@ -27,7 +27,7 @@ def sine_blocks(blocks: Sequence[Block], sample_time: float) -> PrescribedPath:
     """One block of a sine after the other around zero, in m; between two blocks the motion rests for an instant."""
     lengths = [(cycles + 2.0 * FADING) / frequency for _, frequency, cycles in blocks]
     begins = np.concatenate([[0.0], np.cumsum(lengths)])
-    time = sample_time * np.arange(round(begins[-1] / sample_time) + 1)
+    time = sample_time * np.arange(round(begins[-1] / sample_time) + 1, dtype=float)
     path = np.zeros((3, time.size))
     for (amplitude, frequency, _), begin, length in zip(blocks, begins, lengths, strict=False):
         inside = (time >= begin) & (time <= begin + length)
@@ -41,7 +41,8 @@ def sine_blocks(blocks: Sequence[Block], sample_time: float) -> PrescribedPath:
 
 def stations(places: Sequence[float], ramp: float, dwell: float, sample_time: float) -> PrescribedPath:
     """From place to place (m), each way in ``ramp`` s, with ``dwell`` s at each."""
-    time = sample_time * np.arange(round((len(places) * dwell + (len(places) - 1) * ramp) / sample_time) + 1)
+    duration = len(places) * dwell + (len(places) - 1) * ramp
+    time = sample_time * np.arange(round(duration / sample_time) + 1, dtype=float)
     path = np.zeros((3, time.size))
     path[0] = places[0]
     for number, (old, new) in enumerate(zip(places[:-1], places[1:], strict=True), 1):
@@ -91,7 +92,7 @@ def around(path: PrescribedPath, middle: float | PrescribedPath, factor: float =
 
 def faded(path: PrescribedPath, fade: float, sample_time: float) -> PrescribedPath:
     """A path whose beginning and end fade to rest at zero."""
-    time = sample_time * np.arange(path.displacement.size)
+    time = sample_time * np.arange(path.displacement.size, dtype=float)
     wave = np.stack([path.displacement, path.velocity, path.acceleration])
     return PrescribedPath(*product(plateau(time, float(time[-1]), fade), wave))
 

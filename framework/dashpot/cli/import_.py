@@ -57,7 +57,7 @@ def verb(
     session = Session(switches)
     with session.watch("reading the files"):
         imported = import_files(files, session.readers(), reader, read_rate(sampling))
-    target = place_of(output, common_folder([each.file for each in (*imported.runs, *imported.tables)]))
+    target = place_of(output, common_folder(imported.files))
     folder = session.claim_beside(target)
     written = folder.write(
         target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")

@@ -54,8 +54,13 @@ def _find_shipped(name: str) -> Path:
 
 def _told_of(word: str, shipped: dict[str, Path]) -> str:
     """A question after the networks with a word in their name or in what they say about themselves; empty for none."""
-    about = {name: re.search(r"^about: .*", path.read_text(encoding="utf-8"), re.M) for name, path in shipped.items()}
     named = [name for name in shipped if word.lower() in name]
-    told = [name for name in shipped if name not in named and about[name] and word.lower() in about[name][0].lower()]
+    told = [name for name, path in shipped.items() if name not in named and word.lower() in _about(path).lower()]
     *first, last = [f"'{name}'" for name in (*named, *told)] or [""]
     return f"did you mean {', '.join(first)}{' or ' if first else ''}{last}?" if last else ""
+
+
+def _about(path: Path) -> str:
+    """What a network file says about itself, read without its other lines."""
+    found = re.search(r"^about: (.*)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return found[1] if found else ""

@@ -84,6 +84,11 @@ class Imported:
     confirm: Mapping[str, tuple[str, ...]]
     problems: tuple[Problem, ...]
 
+    @property
+    def files(self) -> list[Path]:
+        """The measured files of all runs and tables."""
+        return [run.file for run in self.runs] + [table.file for table in self.tables]
+
 
 def import_files(
     given: Iterable[Path], readers: Mapping[str, FileReader], word: str | None = None, sampling: float | None = None
@@ -108,8 +113,8 @@ def import_files(
         ImportedRun(name, part.file, word, findings[name], part.rows(findings[name]), repeats.get(name))
         for name, part in parts.items()
     )
-    found = tuple(ImportedTable(names[file], file, word, finding) for file, finding in stiffness.items())
-    return Imported(runs, found, _confirm(runs, copies, found), tuple(problems))
+    rows = tuple(ImportedTable(names[file], file, word, finding) for file, finding in stiffness.items())
+    return Imported(runs, rows, _confirm(runs, copies, rows), tuple(problems))
 
 
 def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:

@@ -37,7 +37,7 @@ def dataset_text(imported: Imported, folder: Path, name: str) -> str:
 
 def leads_outside(imported: Imported, folder: Path) -> bool:
     """Whether a measured file does not lie in or below the folder."""
-    return any(_relative(each.file, folder).startswith("..") for each in (*imported.runs, *imported.tables))
+    return any(_relative(file, folder).startswith("..") for file in imported.files)
 
 
 def _common(runs: Sequence[ImportedRun]) -> list[str]:
