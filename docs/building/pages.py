@@ -67,7 +67,7 @@ def networks() -> Iterator[str]:
     for name, path in shipped_networks().items():
         model = dashpot.load(name)
         yield f"## `{name}`"
-        yield model.about
+        yield f"{model.about} Family: {path.parent.name}."
         yield raw(f'<p class="schematic">{inline_picture(name, svg(model))}</p>')
         if model.source:
             yield f"Source: {model.source}"

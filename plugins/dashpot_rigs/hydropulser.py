@@ -8,6 +8,7 @@ from typing import Annotated
 
 from dashpot.contract.rig import PORT, PlannedRun, Rig
 from dashpot_rigs.sweep_path import Sweep, require_sweep
+from dashpot_rigs.waves import millimetres
 
 DIRECTIONS = ("up", "down", "both")
 
@@ -53,8 +54,3 @@ class Hydropulser(Rig):
         path = sweep.path(amplitude, preload, self.fade)
         name = f"a{millimetres(amplitude)}_p{millimetres(preload)}_{direction}"
         return PlannedRun(name, "sweep", sweep.sample_time, {PORT: path}, settings)
-
-
-def millimetres(length: float) -> str:
-    """A length in a name: 0.5 mm is `0p5`, -2 mm is `m2`."""
-    return f"{1e3 * length:.6g}".replace(".", "p").replace("-", "m")

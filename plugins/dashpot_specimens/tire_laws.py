@@ -51,7 +51,7 @@ class Tire:
         edges = np.geomspace(self.shortest_travel, self.longest_travel, 61)
         travels = np.sqrt(edges[1:] * edges[:-1])
         stiffness = self.sliding_stiffness * (travels / 3e-3) ** self.travel_power * np.log(edges[1:] / edges[:-1])
-        return x / (x + self.patch_length) * _slide(x, stiffness, travels)
+        return x / (x + self.patch_length) * slide(x, stiffness, travels)
 
     def relaxing(self, path: DrivenPath) -> np.ndarray:
         """Hereditary force, the modulus averaged over each step, and viscous force."""
@@ -64,7 +64,7 @@ class Tire:
 
 
 @njit(cache=True)
-def _slide(path, stiffness, travels):  # type: ignore[no-untyped-def]
+def slide(path, stiffness, travels):  # type: ignore[no-untyped-def]
     """Summed force of elastic sliders, exact between the points of the path."""
     stretch = np.zeros(travels.size)
     force = np.zeros(path.size)

@@ -160,7 +160,7 @@ def plugins(registry: Registry) -> Iterator[Finding]:
 def specs(folder: Path) -> Iterator[Finding]:
     """The shipped networks, rigs and studies."""
     for name in NETWORK_FOLDERS:
-        count = len(list((folder / name).glob("*.yaml")))
+        count = len(list((folder / name).rglob("*.yaml")))
         if count:
             yield Finding("good", f"shipped {name}", str(count))
         else:

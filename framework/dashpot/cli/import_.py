@@ -14,7 +14,7 @@ from dashpot.cli.switches import Switches, switches
 from dashpot.text.problem import InputError, Place
 
 if TYPE_CHECKING:
-    from dashpot.data.importing.imported import Imported, ImportedRun
+    from dashpot.data.importing.imported import Imported, ImportedRun, ImportedTable
 
 FORMAT = "dashpot-import/1"
 
@@ -41,8 +41,9 @@ def verb(
 ) -> None:
     """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
 
-    FILE is a measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses
-    are marked for confirmation, here and in the file. No measured file is changed.
+    A file with columns of frequency, dynamic stiffness and loss angle (or storage and loss) becomes a table. FILE is a
+    measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses are marked for
+    confirmation, here and in the file. No measured file is changed.
 
     \b
     Example:
@@ -56,7 +57,7 @@ def verb(
     session = Session(switches)
     with session.watch("reading the files"):
         imported = import_files(files, session.readers(), reader, read_rate(sampling))
-    target = place_of(output, common_folder([run.file for run in imported.runs]))
+    target = place_of(output, common_folder(imported.files))
     folder = session.claim_beside(target)
     written = folder.write(
         target.name, dataset_text(imported, target.parent, target.resolve().parent.name or "dataset")
@@ -95,7 +96,7 @@ def place_of(output: Path | None, folder: Path) -> Path:
 
 
 def as_text(imported: Imported) -> str:
-    """The channels, the runs, and what has to be confirmed."""
+    """The channels, the tables, the runs, and what has to be confirmed."""
     from dashpot.data.importing.text import about_runs
 
     alike: dict[str, list[str]] = {}
@@ -107,8 +108,11 @@ def as_text(imported: Imported) -> str:
         parts.append(
             f"{title}{f' and {len(names) - 1} more' if len(alike) > 1 and names[1:] else ''}\n{indented(rows)}"
         )
-    parts.append("runs\n" + indented(in_columns([run_row(run) for run in imported.runs])))
-    remarks = [f"- {text}{about_runs(names, len(imported.runs))}" for text, names in imported.confirm.items()]
+    parts += [f"table {table.name}\n{indented(in_columns(column_rows(table)))}" for table in imported.tables]
+    if imported.runs:
+        parts.append("runs\n" + indented(in_columns([run_row(run) for run in imported.runs])))
+    count = len(imported.runs) + len(imported.tables)
+    remarks = [f"- {text}{about_runs(names, count)}" for text, names in imported.confirm.items()]
     return "\n\n".join([*parts, "Confirm before you trust a result:\n" + indented("\n".join(remarks))])
 
 
@@ -123,6 +127,12 @@ def channel_rows(run: ImportedRun) -> list[list[str]]:
             [name, f"'{found.role.column}'", found.unit.unit, sign, f"by {found.role.by}; unit {found.unit.by}"]
         )
     return rows
+
+
+def column_rows(table: ImportedTable) -> list[list[str]]:
+    """A line for each column of a table of dynamic stiffness: what it is, its name, unit, and what told it."""
+    return [[key, f"'{found.column}'", found.unit.unit, f"unit {found.unit.by}"]
+            for key, found in table.finding.columns.items()]  # fmt: skip
 
 
 def run_row(run: ImportedRun) -> list[str]:
@@ -145,9 +155,16 @@ def as_dict(imported: Imported, written: Path) -> dict[str, Any]:
         "format": FORMAT,
         "dataset": str(written),
         "runs": [run_entry(run) for run in imported.runs],
+        "tables": [table_entry(table) for table in imported.tables],
         "confirm": [{"what": text, "runs": list(names)} for text, names in imported.confirm.items()],
         "problems": list(imported.problems),
     }
+
+
+def table_entry(table: ImportedTable) -> dict[str, Any]:
+    """What was found about one table of dynamic stiffness."""
+    columns = {key: {"column": found.column, "unit": found.unit.unit} for key, found in table.finding.columns.items()}
+    return {"name": table.name, "file": str(table.file), "columns": columns, "unused": list(table.finding.unused)}
 
 
 def run_entry(run: ImportedRun) -> dict[str, Any]:

@@ -46,9 +46,21 @@ class Entry:
     origin: Origin
     about: str
 
-    def cells(self) -> tuple[str, str, str]:
+    def cells(self) -> tuple[str, ...]:
         """The line in columns."""
         return self.word, f"{self.origin.distribution} {self.origin.version}, {self.origin.plugin}", self.about
+
+
+@dataclass(frozen=True)
+class NetworkEntry(Entry):
+    """A network, with the family that it belongs to."""
+
+    family: str
+
+    def cells(self) -> tuple[str, ...]:
+        """The line in columns."""
+        word, *rest = super().cells()
+        return word, self.family, *rest
 
 
 @click.command("list")
@@ -92,11 +104,12 @@ def things(kind: str, registry: Registry) -> list[Entry]:
 
 
 def networks(session: Session) -> list[Entry]:
-    """The shipped networks."""
+    """The shipped networks, family by family."""
     from dashpot.model.shipped import shipped_networks
 
     origin = Origin("specs", "dashpot", __version__)
-    return [Entry(name, origin, about_network(name, session)) for name in shipped_networks()]
+    return [NetworkEntry(name, origin, about_network(name, session), path.parent.name)
+            for name, path in shipped_networks().items()]  # fmt: skip
 
 
 def benches(registry: Registry) -> list[Entry]:

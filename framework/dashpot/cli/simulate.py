@@ -163,18 +163,23 @@ def measure_on(
     from dashpot.data.dataset import Dataset
     from dashpot.data.ends import one_force_each
     from dashpot.data.writing import dataset_files
-    from dashpot.fit.virtual_test import virtual_test
+    from dashpot.fit.driven import NOTE
+    from dashpot.fit.virtual_test import bench_as_driven, virtual_test
 
     try:
         bench = find_bench(rig, session.registry.rigs, dict(map(split_setting, settings)))
     except ValueError as error:
         raise click.UsageError(str(error)) from error
     with session.watch("compiling") as progress:
+        bench = bench_as_driven(network, bench, refine)
         runs = virtual_test(network, bench, session.switches.seed, refine, progress)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     beyond = {planned.name: beyond_range(network, planned.excitation()) for planned in bench.runs()}
     warn_of_range(beyond, session)
+    limited = {planned.name: planned.notes[NOTE] for planned in bench.runs() if NOTE in planned.notes}
+    for name, words in limited.items():
+        session.talk.warn(f"run '{name}' is not as planned: {words}")
     with folder.together() as results:
         for name, text in files.items():
             results.write(name, text)
@@ -183,8 +188,8 @@ def measure_on(
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
     told = metric_rows(session.registry.metrics.values(), one_force_each(Dataset(bench.name, tuple(runs))).runs)
-    session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]),
-                        {**content_of(network, names, dataset, None, beyond), "metrics": told})  # fmt: skip
+    content = {**content_of(network, names, dataset, None, beyond), "metrics": told, NOTE: limited}
+    session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]), content)
 
 
 def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:

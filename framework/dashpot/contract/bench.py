@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
+from dashpot.contract.limits import Limits
 from dashpot.contract.measuring import Measuring
 from dashpot.contract.options import read_options
 from dashpot.contract.rig import PlannedRun, Rig
@@ -22,15 +23,16 @@ Made = TypeVar("Made")
 
 @dataclass(frozen=True)
 class Bench:
-    """Procedures with their options, and the measuring chain."""
+    """Procedures with their options, the measuring chain, and what the rig can do at most."""
 
     name: str
     rigs: tuple[Rig, ...]
     measuring: Measuring = Measuring()
     about: str = ""
+    limits: Limits = Limits()
 
     def runs(self) -> list[PlannedRun]:
-        """The runs of all procedures. InputError when two have the same name."""
+        """The runs of all procedures, as they are planned. InputError when two have the same name."""
         planned = [run for rig in self.rigs for run in rig.runs()]
         twice = sorted({run.name for run in planned if sum(run.name == other.name for other in planned) > 1})
         if twice:
@@ -74,12 +76,13 @@ def read_bench(document: Document, rigs: Mapping[str, type[Rig]]) -> Bench:
     if tests == []:
         form.complain("tests", "expected at least one test, got an empty list", "add one, e.g. '- {rig: WORD}'")
     procedures = [_procedure(below, rigs) for below in tests or ()]
-    chain = form.form("measuring", default=None)
+    chain, ends = form.form("measuring", default=None), form.form("limits", default=None)
     measuring = made_from(chain, Measuring) if chain else Measuring()
+    limits = made_from(ends, Limits) if ends else Limits()
     form.close()
     if problems:
         raise InputError(problems)
-    return Bench(name, tuple(rig for rig in procedures if rig), measuring or Measuring(), about)
+    return Bench(name, tuple(rig for rig in procedures if rig), measuring or Measuring(), about, limits or Limits())
 
 
 def _procedure(form: Form, rigs: Mapping[str, type[Rig]]) -> Rig | None:

@@ -55,6 +55,9 @@ def _table(readers: Collection[str]) -> Schema:
         "columns": {"type": "object", "properties": dict.fromkeys(UNITS, one), "additionalProperties": one,
                     "description": "which column is what; other names are settings of the rows"},
         "settings": _settings(),
+        "static": s.mapping({key: s.items(s.quantity(unit), s.in_unit("growing", unit), minItems=2)
+                             for key, unit in (("deflection", "m"), ("force", "N"))}, ("deflection", "force"),
+                            "the static curve, by which preloads told as forces become deflections"),
         "scatter": s.text("standard deviation of the stiffness, as 3 N/mm or 2 %: rows count by it"),
         "held_out": s.flag("keep it out of every fit"),
         "reader": s.choice(readers, "the format of the file, where its ending does not say it"),

@@ -16,7 +16,7 @@ from dashpot.data.run import Run
 from dashpot.data.steady import SAMPLES, STEADY, cosine, sine, steady_samples
 from dashpot.data.table import Table
 from dashpot.data.trouble import Trouble, Unusable, refuse
-from dashpot.text.form import Form, read_text
+from dashpot.text.form import Form, read_items, read_text
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place
@@ -33,7 +33,8 @@ UNITS = {**ANSWERS, **{key: SETTING_UNITS[key] for key in CONDITIONS}, SCATTER: 
 
 @dataclass(frozen=True)
 class TableDeclaration:
-    """Everything said about a table. ``scatter`` is the standard deviation of its stiffness, and whether as a share.
+    """Everything said about a table. ``scatter`` is the standard deviation of its stiffness, and whether as a share;
+    ``static`` are deflections (m) and forces (N) of the static curve, by which preloads in N are deflections.
 
     A condition that is the same in all rows stands under ``settings``; columns of other names are settings of the rows.
     """
@@ -44,6 +45,7 @@ class TableDeclaration:
     settings: Mapping[str, float]
     notes: Mapping[str, str]
     scatter: tuple[float, bool] | None
+    static: tuple[Array, Array] | None
     held_out: bool | None
     reader: str | None
     file_options: Mapping[str, object]
@@ -67,6 +69,7 @@ def read_table_declaration(form: Form) -> TableDeclaration | None:
         settings=settings,
         notes=notes,
         scatter=form.take(SCATTER, _read_scatter, None),
+        static=_read_static(form.form("static", default=None)),
         held_out=form.flag("held_out", None),
         reader=form.text("reader", None),
         file_options=form.take("file_options", read_file_options, {}),
@@ -86,6 +89,7 @@ def read_table(declaration: TableDeclaration, table: Table, order: int) -> tuple
     columns = find_columns(table, declaration.columns)
     count = common_length(table, columns)
     values = {each.name: _in_si(table, each, columns[each.name], count) for each in declaration.columns}
+    values |= _deflected(declaration, table, columns, values)
     shares = {each.name: _is_share(table, each, columns[each.name]) for each in declaration.columns}
     whole = np.isfinite(list(values.values())).all(axis=0)
     conditions = {**dict.fromkeys(CONDITIONS, np.zeros(count)),
@@ -141,11 +145,45 @@ def _read_unit(node: Node, name: str) -> str:
 def _factor(unit: str, name: str) -> tuple[float, float]:
     """Factor and zero that bring a column to SI; ValueError for a unit of another kind."""
     if name == "preload" and base_unit(unit) == base_unit("N"):
-        raise ValueError("expected the preload as a deflection, got a force: give the deflection at that force, "
-                         "which the static curve tells")  # fmt: skip
+        return factor(unit, "N")
     if name == SCATTER and base_unit(unit) == base_unit("%"):
         return factor(unit, "1")
     return factor(unit, UNITS.get(name, base_unit(unit)))
+
+
+def _read_static(form: Form | None) -> tuple[Array, Array] | None:
+    if form is None:
+        return None
+    axes = [form.take(key, partial(_read_axis, unit=unit)) for key, unit in (("deflection", "m"), ("force", "N"))]
+    form.close()
+    if any(axis is None for axis in axes):
+        return None
+    deflection, force = (np.array(axis) for axis in axes)
+    if deflection.size != force.size or force.size < 2 or min(np.diff(deflection).min(), np.diff(force).min()) <= 0.0:
+        form.complain(None, f"{form.what}: expected two numbers or more in each list, as many and both growing")
+    return deflection, force
+
+
+def _read_axis(node: Node, unit: str) -> list[float]:
+    return [si(read_text(item), unit) for item in read_items(node)]
+
+
+def _deflected(
+    declaration: TableDeclaration, table: Table, columns: Mapping[str, str], values: Mapping[str, Array]
+) -> dict[str, Array]:
+    """The preloads in m where they are told in N. Raises Unusable without a static curve, and for one beyond it."""
+    told = next((each for each in declaration.columns if each.name == "preload"), None)
+    unit = (told.unit or table.units.get(columns["preload"])) if told else None
+    if told is None or unit is None or base_unit(unit) != base_unit("N"):
+        return {}
+    if declaration.static is None:
+        hint = "give the deflections at these forces, or the curve: 'static: {deflection: [...], force: [...]}'"
+        raise Unusable([Trouble("expected the preload as a deflection, got a force", hint, told.place)])
+    loads, (deflection, force) = values["preload"], declaration.static
+    refuse(Trouble(f"the preload of {loads[row]:g} N in {table.where(row)} lies beyond the static curve, which goes "
+                   f"from {force[0]:g} to {force[-1]:g} N", "give a longer curve", told.place)
+           for row in np.flatnonzero((loads < force[0]) | (loads > force[-1]))[:1])  # fmt: skip
+    return {"preload": np.interp(loads, force, deflection)}
 
 
 def _read_scatter(node: Node) -> tuple[float, bool]:

@@ -41,8 +41,8 @@ class VelocityCurve:
 
 
 def velocity_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> list[VelocityCurve]:
-    """The searched tables over velocity of an identified network, with what its simulation reaches in ``runs``."""
-    curves = {path: curve for path, curve in spec.curves().items() if _is_searched(curve)}
+    """The tables over velocity of a network, identified or known, with what its simulation reaches in ``runs``."""
+    curves = {path: curve for path, curve in spec.curves().items() if _is_over_velocity(curve)}
     if not curves:
         return []
     speeds: dict[str, list[Array]] = {path: [] for path in curves}
@@ -52,8 +52,8 @@ def velocity_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> list[Veloci
     return [_told(path, curve, np.concatenate(speeds[path])) for path, curve in curves.items()]
 
 
-def _is_searched(curve: Characteristic) -> bool:
-    return curve.form == "table" and curve.curve.over[1] == VELOCITY and any(value.searched for value in curve.values)
+def _is_over_velocity(curve: Characteristic) -> bool:
+    return curve.form == "table" and curve.curve.over[1] == VELOCITY
 
 
 def _speeds(spec: NetworkSpec, excitation: Excitation, curves: Mapping[str, Characteristic]) -> dict[str, list[Array]]:

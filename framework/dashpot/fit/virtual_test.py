@@ -13,6 +13,7 @@ from dashpot.contract.measuring import Measuring
 from dashpot.contract.rig import PORT, PlannedRun
 from dashpot.data.excitation import channel_at
 from dashpot.data.run import Run
+from dashpot.fit.driven import as_driven
 from dashpot.kernel.api import RunSolution, solve
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.observe import Observation
@@ -24,6 +25,19 @@ DYNAMIC = ("sweep", "harmonic", "random", "transient")
 LETTERS = "bcdefghijklmnopqrstuvwxyz"
 
 
+def bench_as_driven(spec: NetworkSpec, bench: Bench, refine: int = 1) -> Bench:
+    """The bench with its runs as the rig can drive them on the network: a run that is not as planned has a note of it.
+
+    InputError for a network that cannot be simulated, or that presses with more than the rig bears.
+    """
+    network = compile_network(spec)
+
+    def largest_force(planned: PlannedRun) -> float:
+        return max(float(np.max(np.abs(force))) for force in answer_of(network, planned, refine).force.values())
+
+    return as_driven(bench, largest_force)
+
+
 def virtual_test(
     spec: NetworkSpec,
     bench: Bench,
@@ -31,7 +45,7 @@ def virtual_test(
     refine: int = 1,
     progress: Callable[[str, float], None] | None = None,
 ) -> list[Run]:
-    """Every run of the bench, measured on the network; the same seed gives the same noise.
+    """Every run of the bench as the rig can drive it, measured on the network; the same seed gives the same noise.
 
     ``refine`` is how many times as many steps as usual lie between two samples, where the motion of a node is unknown;
     ``progress`` hears of each planned run, by name and with the share of those before it.
@@ -40,7 +54,7 @@ def virtual_test(
     """
     network = compile_network(spec)
     measured: list[Run] = []
-    planned_runs = bench.runs()
+    planned_runs = bench_as_driven(spec, bench, refine).runs()
     for number, planned in enumerate(planned_runs):
         if progress:
             progress(planned.name, number / len(planned_runs))

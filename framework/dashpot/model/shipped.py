@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from dashpot.text.problem import InputError, Place, of_family
@@ -17,8 +18,8 @@ def spec_folder() -> Path:
 
 
 def shipped_networks() -> dict[str, Path]:
-    """The shipped networks by name."""
-    return {path.stem: path for path in sorted((spec_folder() / "networks").glob("*.yaml"))}
+    """The shipped networks by name, family by family: a family is a folder."""
+    return {path.stem: path for path in sorted((spec_folder() / "networks").glob("*/*.yaml"))}
 
 
 def find_network(path_or_name: str | Path) -> Path:
@@ -47,5 +48,19 @@ def _find_shipped(name: str) -> Path:
     shipped = shipped_networks()
     if name in shipped:
         return shipped[name]
-    hint = of_family(name, shipped) or f"shipped networks: {', '.join(shipped)}"
+    hint = _told_of(name, shipped) or of_family(name, shipped) or f"shipped networks: {', '.join(shipped)}"
     raise InputError.at(Place(name), "there is no such file and no shipped network of that name", hint)
+
+
+def _told_of(word: str, shipped: dict[str, Path]) -> str:
+    """A question after the networks with a word in their name or in what they say about themselves; empty for none."""
+    named = [name for name in shipped if word.lower() in name]
+    told = [name for name, path in shipped.items() if name not in named and word.lower() in _about(path).lower()]
+    *first, last = [f"'{name}'" for name in (*named, *told)] or [""]
+    return f"did you mean {', '.join(first)}{' or ' if first else ''}{last}?" if last else ""
+
+
+def _about(path: Path) -> str:
+    """What a network file says about itself, read without its other lines."""
+    found = re.search(r"^about: (.*)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    return found[1] if found else ""

@@ -15,7 +15,7 @@ MEASURED = "measured"
 
 
 def model_content(model: ModelResult) -> dict[str, Any]:
-    """For one model: its searched tables over velocity with what was excited, its masses found without the tire."""
+    """For one model: its tables over velocity with what was excited, its masses found without the tire."""
     train = set(model.setting.split.train)
     runs = [run for run in model.setting.dataset.runs if run.name in train]
     return {

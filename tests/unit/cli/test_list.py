@@ -49,6 +49,14 @@ def test_a_network_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reas
     assert "cannot be used: " in line and "there is no element 'spring'" in line
 
 
+def test_networks_are_listed_family_by_family(call):
+    _, out, _ = call("list", "networks")
+    families = [line.split()[1] for line in out.splitlines()]
+    assert families == sorted(families) and set(families) == {"axles", "mounts", "suspension", "tires"}
+    listed = json.loads(call("list", "networks", "--json")[1])["networks"]
+    assert set(listed[0]) == {"word", "family", "origin", "about"}
+
+
 def test_a_bench_that_the_plugins_at_hand_cannot_build_is_listed_with_the_reason(call):
     _, out, _ = call("list", "rigs")
     line = next(line for line in out.splitlines() if line.startswith("tire_bench"))

@@ -58,9 +58,9 @@ def problems_of(kind: str, content: Any) -> tuple[Problem, ...]:
 
 
 def shipped() -> Iterator[Any]:
-    folders = {"network": "networks", "rig": "rigs", "study": "studies"}
-    for kind, folder in folders.items():
-        for path in sorted((spec_folder() / folder).glob("*.yaml")):
+    files = {"network": ["networks/*/*.yaml", "studies/*/*.yaml"], "rig": ["rigs/*.yaml"], "study": ["studies/*.yaml"]}
+    for kind, patterns in files.items():
+        for path in sorted(path for pattern in patterns for path in spec_folder().glob(pattern)):
             yield pytest.param(kind, Document.read(path).root.plain(), id=f"{kind}-{path.stem}")
 
 

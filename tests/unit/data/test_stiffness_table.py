@@ -36,6 +36,7 @@ def read(folder: Path, table: str, *rows: str, head: str = "f,A,p,K,d,T\nHz,mm,m
 
 
 COLUMNS = "columns: {frequency: f, amplitude: A, preload: p, stiffness: K, loss_angle: d, temperature: T}"
+FORCED = COLUMNS.replace("preload: p", "preload: {column: p, unit: kN}")
 ROWS = ("10,0.5,2,200,8,20", "20,0.5,2,210,9,-10")
 
 
@@ -48,6 +49,12 @@ def test_a_row_is_a_steady_sine_with_its_fundamental(tmp_path):
     assert first.displacement == pytest.approx(2e-3 + 5e-4 * np.sin(rate), abs=1e-12)
     assert first.force == pytest.approx(200e3 * 5e-4 * np.sin(rate + np.radians(8.0)), abs=1e-8)
     assert second.time[1] == pytest.approx(1.0 / (20.0 * SAMPLES)) and second.order == 1
+
+
+def test_a_preload_told_as_a_force_is_the_deflection_of_the_static_curve_at_it(tmp_path):
+    static = "static: {deflection: [0 mm, 4 mm, 6 mm], force: [0 N, 1 kN, 3 kN]}"
+    runs = read(tmp_path, f"{FORCED}, {static}", "10,0.5,0.5,200,8,20", "10,0.5,2,200,8,20").runs
+    assert [run.settings["preload"] for run in runs] == pytest.approx([2e-3, 5e-3])
 
 
 @pytest.mark.parametrize(
@@ -93,7 +100,9 @@ def test_a_row_that_lacks_a_number_is_left_out_with_a_word(tmp_path):
         ("columns: {frequency: f, amplitude: A, stiffness: K}", ROWS, "does not say the dynamic stiffness"),
         ("columns: {amplitude: A, stiffness: K, loss_angle: d}", ROWS, "lacks 'frequency'"),
         (f"{COLUMNS}, settings: {{preload: 1 mm}}", ROWS, "has 'preload' as a column and as a setting"),
-        (COLUMNS.replace("preload: p", "preload: {column: p, unit: kN}"), ROWS, "expected the preload as a deflection"),
+        (FORCED, ROWS, "expected the preload as a deflection"),
+        (f"{FORCED}, static: {{deflection: [0 mm, 1 mm], force: [0 N, 1 kN]}}", ROWS, "lies beyond the static curve"),
+        (f"{FORCED}, static: {{deflection: [0 mm, 1 mm], force: [5 N, 1 N]}}", ROWS, "as many and both growing"),
         (COLUMNS.replace("stiffness: K", "stiffness: {column: K, unit: mm}"), ROWS, "a unit of the same kind"),
         (COLUMNS.replace("stiffness: K", "stiffness: {column: K, nuit: mm}"), ROWS, "did you mean 'unit'"),
         (COLUMNS.replace("stiffness: K", "stiffness: Q"), ROWS, "it has no column 'Q'"),

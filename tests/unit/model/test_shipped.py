@@ -33,6 +33,13 @@ def test_an_unknown_name_is_told_with_the_nearest_one():
         find_network("qqqqqq")
 
 
+def test_a_word_finds_the_networks_that_are_called_or_told_so():
+    with pytest.raises(InputError, match="did you mean 'rubber_bushing', 'eub' or 'ubs'?"):
+        find_network("bushing")
+    with pytest.raises(InputError, match="did you mean 'shock_absorber'"):
+        find_network("Shock")
+
+
 def test_a_used_name_is_a_shipped_one_whatever_lies_in_the_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "gehmann").write_text("")

@@ -17,6 +17,7 @@ from dashpot.data.importing.names import stated_by_all
 from dashpot.data.importing.pairs import explained
 from dashpot.data.importing.roles import Role, named_roles
 from dashpot.data.importing.rows import numeric
+from dashpot.data.importing.stiffness import StiffnessFound, find_stiffness
 from dashpot.data.importing.timing import pieces
 from dashpot.data.importing.units import GUESSED
 from dashpot.data.source import choose_reader
@@ -45,6 +46,16 @@ class ImportedRun:
 
 
 @dataclass(frozen=True, eq=False)
+class ImportedTable:
+    """A table of dynamic stiffness: its name, file, and what was found."""
+
+    name: str
+    file: Path
+    reader: str | None
+    finding: StiffnessFound
+
+
+@dataclass(frozen=True, eq=False)
 class _Part:
     """A file, or a piece of one between two gaps: its rows (from 0), and which of how many pieces it is."""
 
@@ -66,11 +77,17 @@ class _Part:
 
 @dataclass(frozen=True, eq=False)
 class Imported:
-    """Runs, what has to be confirmed with the runs that it is about, and files that could not be read."""
+    """Runs and tables, what has to be confirmed with those that it is about, and files that could not be read."""
 
     runs: tuple[ImportedRun, ...]
+    tables: tuple[ImportedTable, ...]
     confirm: Mapping[str, tuple[str, ...]]
     problems: tuple[Problem, ...]
+
+    @property
+    def files(self) -> list[Path]:
+        """The measured files of all runs and tables."""
+        return [run.file for run in self.runs] + [table.file for table in self.tables]
 
 
 def import_files(
@@ -83,8 +100,11 @@ def import_files(
     files = find_files(list(given), readers)
     tables, problems = _read(files, readers, word)
     names = run_names(list(tables))
+    stiffness = {file: found for file, table in tables.items() if (found := find_stiffness(table))}
     parts: dict[str, _Part] = {}
     for file, table in tables.items():
+        if file in stiffness:
+            continue
         for part in _parts(file, table, sampling):
             parts[f"{names[file]}_{part.number}" if part.count > 1 else names[file]] = part
     findings = _slow_ones(_with_conditions(_agree(_of_one_mind(parts, sampling), sampling), parts))
@@ -93,7 +113,8 @@ def import_files(
         ImportedRun(name, part.file, word, findings[name], part.rows(findings[name]), repeats.get(name))
         for name, part in parts.items()
     )
-    return Imported(runs, _confirm(runs, copies), tuple(problems))
+    rows = tuple(ImportedTable(names[file], file, word, finding) for file, finding in stiffness.items())
+    return Imported(runs, rows, _confirm(runs, copies, rows), tuple(problems))
 
 
 def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:
@@ -137,6 +158,8 @@ def _read(
 
 
 def _with_numbers(table: Table) -> Table:
+    if find_stiffness(table):
+        return table
     counts = [int(np.isfinite(numeric(values)).sum()) for values in table.columns.values()]
     if max(counts, default=0) < FEWEST_SAMPLES:
         message = f"it holds no column of numbers of at least {FEWEST_SAMPLES} samples"
@@ -251,9 +274,14 @@ def _most_common(findings: Sequence[Finding]) -> Agreed:
     return {name: (units[name], sign) for name, sign in zip(names, signs, strict=True)}
 
 
-def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str, tuple[str, ...]]:
-    """What a person has to look at, each with the runs that it is about; the most general first."""
-    about: dict[str, list[str]] = {DIRECTION: [run.name for run in runs]}
+def _confirm(
+    runs: Sequence[ImportedRun], copies: Mapping[str, str], tables: Sequence[ImportedTable]
+) -> dict[str, tuple[str, ...]]:
+    """What a person has to look at, each with the runs and tables that it is about; the most general first."""
+    about: dict[str, list[str]] = {DIRECTION: [run.name for run in runs]} if runs else {}
+    for table in tables:
+        for remark in table.finding.confirm:
+            about.setdefault(remark, []).append(table.name)
     for run in runs:
         for remark in run.finding.confirm:
             about.setdefault(remark, []).append(run.name)
@@ -266,5 +294,6 @@ def _confirm(runs: Sequence[ImportedRun], copies: Mapping[str, str]) -> dict[str
             about.setdefault("a run is a copy of another one to the last digit: remove one of them", []).append(
                 run.name
             )
-    about["the kinds and settings of the runs: they were derived from the motion"] = [run.name for run in runs]
+    if runs:
+        about["the kinds and settings of the runs: they were derived from the motion"] = [run.name for run in runs]
     return {remark: tuple(names) for remark, names in about.items()}

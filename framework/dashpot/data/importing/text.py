@@ -12,9 +12,10 @@ from pathlib import Path
 from dashpot.data.declaration import SETTING_UNITS
 from dashpot.data.description import FORMAT
 from dashpot.data.importing.finding import ChannelFound, Finding
-from dashpot.data.importing.imported import Imported, ImportedRun
+from dashpot.data.importing.imported import Imported, ImportedRun, ImportedTable
 from dashpot.data.importing.roles import GUESSED as GUESSED_ROLE
 from dashpot.data.importing.units import GUESSED
+from dashpot.data.stiffness_table import NEEDED
 from dashpot.text.quantity import pretty
 
 _PLAIN = re.compile(r"[A-Za-zÀ-ÿ_][\wÀ-ÿ./-]*( [A-Za-zÀ-ÿ(][\wÀ-ÿ.()/-]*)*|[1-9]\d{0,5}")
@@ -24,16 +25,19 @@ _NEGLIGIBLE = 0.05
 
 def dataset_text(imported: Imported, folder: Path, name: str) -> str:
     """The dataset file over these runs, to be written into `folder`."""
-    common = _common(imported.runs)
+    common = _common(imported.runs) if imported.runs else []
     lines = [*_head(imported), f"format: {FORMAT}", f"name: {quoted(name)}"]
     lines += ["defaults:", *(f"  {line}" for line in common)] if common else []
-    lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, common))]
+    if imported.tables:
+        lines += ["tables:", *(line for table in imported.tables for line in _table_lines(table, folder))]
+    if imported.runs:
+        lines += ["runs:", *(line for run in imported.runs for line in _run_lines(run, folder, common))]
     return "\n".join(lines) + "\n"
 
 
 def leads_outside(imported: Imported, folder: Path) -> bool:
     """Whether a measured file does not lie in or below the folder."""
-    return any(_relative(run.file, folder).startswith("..") for run in imported.runs)
+    return any(_relative(file, folder).startswith("..") for file in imported.files)
 
 
 def _common(runs: Sequence[ImportedRun]) -> list[str]:
@@ -54,7 +58,7 @@ def quoted(text: str) -> str:
 
 def _head(imported: Imported) -> Iterable[str]:
     yield "# A first dataset, written by `dashpot import`. Confirm before you trust a result:"
-    count = len(imported.runs)
+    count = len(imported.runs) + len(imported.tables)
     for remark, names in imported.confirm.items():
         yield f"# - CONFIRM {_one_line(remark)}{about_runs(names, count)}"
 
@@ -77,6 +81,21 @@ def _run_lines(run: ImportedRun, folder: Path, common: list[str]) -> list[str]:
     lines += [f"rows: [{run.rows[0]}, {run.rows[1]}]"] if run.rows else []
     channels = _channel_lines(finding)
     lines += channels if channels != common else []
+    return ["  - " + lines[0], *("    " + line for line in lines[1:])]
+
+
+def _table_lines(table: ImportedTable, folder: Path) -> list[str]:
+    lines = [f"name: {quoted(table.name)}", f"file: {quoted(_relative(table.file, folder))}"]
+    lines += [f"reader: {table.reader}"] if table.reader else []
+    lines.append("columns:")
+    for key, found in table.finding.columns.items():
+        doubted = found.unit.by == GUESSED and found.unit.unit != "1"
+        remark = "   # CONFIRM: the unit, which is not stated" if doubted else ""
+        lines.append(f"  {key}: {_flow({'column': quoted(found.column), 'unit': quoted(found.unit.unit)})}{remark}")
+    if table.finding.unused:
+        lines.append(f"  # not used: {_one_line(', '.join(table.finding.unused[:12]))}")
+    lines += [f"# CONFIRM: settings: {{{key}: ...}}   (no column was found)" for key in NEEDED
+              if key not in table.finding.columns]  # fmt: skip
     return ["  - " + lines[0], *("    " + line for line in lines[1:])]
 
 

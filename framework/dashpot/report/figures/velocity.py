@@ -32,9 +32,9 @@ def velocity_curves(curves: Mapping[str, Mapping[str, Any]]) -> Figure:
         traces += [_band(label, block, labels), _line(label, drawn, labels)]
     groups = [toggles.series_group(labels, measured="")]
     caption = (
-        "Compression is positive. Lines: identified, with markers at the knots and at the ends of what was reached; "
-        "bands: 95 % intervals of each knot, the structure of the model taken as right. Velocities that the runs did "
-        "not reach are not drawn."
+        "Compression is positive. Lines: identified or, without a band, known, with markers at the knots and at the "
+        "ends of what was reached; bands: 95 % intervals of each knot, the structure of the model taken as right. "
+        "Velocities that the runs did not reach are not drawn."
     )
     axes = {"xaxis": axis(VELOCITY, zeroline=True), "yaxis": axis(FORCE, zeroline=True)}
     plot = {"data": toggles.apply(traces, groups), "layout": layout(420, **axes, meta={"toggles": groups})}
