@@ -19,6 +19,8 @@ from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
 from dashpot.text.quantity import pretty
 
+INTERVAL_DIGITS = (3, 5, 8, 17)  # as many as tell its two ends apart
+
 
 @dataclass(frozen=True, eq=False)
 class Errors:
@@ -137,9 +139,11 @@ class FitResult:
         lines = [f"{self.declared.name}: RMSE {self.errors.train:.4g} N on training runs" + _held_out(self.errors)]
         if self.noise_floor.value:
             lines.append(f"noise floor {self.noise_floor.value:.4g} N, from {self.noise_floor.source}")
+        unknown = {*self.idle, *(self.known.undetermined if self.known else ())}
         for slot in self.fitted.slots():
             if slot.value.searched and "[" not in slot.path:
-                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{_interval(slot.value)}")
+                interval = "" if slot.path in unknown else _interval(slot.value)
+                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
         told = identifiability_of(self.fitted, self.known) if self.known else {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
@@ -195,5 +199,8 @@ def _held_out(errors: Errors) -> str:
 def _interval(value: Value) -> str:
     if not value.interval:
         return ""
-    low, high = (pretty(side, value.unit, 3) for side in value.interval)
+    for digits in INTERVAL_DIGITS:
+        low, high = (pretty(side, value.unit, digits) for side in value.interval)
+        if low != high:
+            break
     return f"  [{low}, {high}]"

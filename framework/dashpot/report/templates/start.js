@@ -3,6 +3,9 @@
 const figures = [...document.querySelectorAll("figure[data-plot]")].map((figure) => new ReportFigure(figure));
 const redraw = (width) => figures.forEach((figure) => figure.draw(width));
 
+// a plot that was drawn while its part was folded away knows no width
+document.querySelectorAll("details.folded").forEach((part) => part.addEventListener("toggle", () => redraw()));
+
 document.getElementById("theme").addEventListener("click", () => { colors.switchTheme(); redraw(); });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw());
 
