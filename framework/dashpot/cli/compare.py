@@ -18,7 +18,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
               shell_complete=complete.datasets)  # fmt: skip
 @output_option("Folder for compare.json, compare.csv and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     specs: tuple[str, ...],
     dataset: str,
@@ -46,4 +46,4 @@ def verb(
     with session.watch("writing the report"):
         report = write_comparison(comparison, folder)
     session.talk.result(comparison_text(comparison), comparison.as_dict())
-    session.talk.say(f"report: {report}")
+    session.tell_report(report)

@@ -42,6 +42,7 @@ def comparison_page(comparison: Json, evidence: Evidence) -> Page:
         lead=_lead(comparison),
         sections=sections,
         colophon=colophon(comparison, evidence),
+        summary=("Models against the measurement", "Dynamic stiffness and loss angle"),
     )
 
 

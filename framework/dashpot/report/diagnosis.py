@@ -39,6 +39,7 @@ def diagnosis_page(diagnosis: Json, evidence: Evidence) -> Page:
         lead=_lead(diagnosis),
         sections=sections,
         colophon=colophon(diagnosis, evidence),
+        summary=("Causes", "Dynamic stiffness and loss angle"),
     )
 
 

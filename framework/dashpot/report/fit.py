@@ -43,6 +43,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
         lead=_lead(fit),
         sections=[section for section in sections if section.parts],
         colophon=colophon({**fit, "model": {"name": fit["model"]}}, evidence),
+        summary=("Numbers found", "Dynamic stiffness and loss angle"),
     )
 
 

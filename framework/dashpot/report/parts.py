@@ -129,10 +129,14 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """A whole report: the answer first (`headline`, `lead`), then the evidence, at the end where it came from."""
+    """A whole report: the answer first (`headline`, `lead`), then the evidence, at the end where it came from.
+
+    Key figures, notices and the parts whose titles are in the `summary` are what the one page of it shows.
+    """
 
     title: str
     headline: str
     lead: str
     sections: Sequence[Section]
     colophon: Sequence[tuple[str, str]] = field(default=())
+    summary: Sequence[str] = field(default=())

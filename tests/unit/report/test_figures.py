@@ -137,12 +137,14 @@ def test_loops_over_velocity_show_a_damper_as_a_line():
 
 def test_branches_are_drawn_beside_the_measured_force():
     time = np.linspace(0.0, 1.0, 50)
-    measured = {"a": {"time": time, "displacement": time, "force": time}, "b": {"time": time, "displacement": time,
-                                                                                "force": 3.0 * time}}  # fmt: skip
-    figure = figures.branch_loops(measured, {"rubber": {"a": time, "b": 2.0 * time}, "oil": {"a": time, "b": time}})
+    measured = {"a": {"time": time, "displacement": time, "force": time},
+                "b": {"time": time, "displacement": np.sin(9.0 * time), "force": 3.0 * time}}  # fmt: skip
+    forces = {"rubber": 90.0 * time, "oil": time, "friction": 0.5 * time}
+    figure = figures.branch_loops(measured, {name: {"a": force, "b": force} for name, force in forces.items()})
     shown = [trace for trace in figure.plot["data"] if trace["visible"] is True]
     assert {trace["meta"]["run"] for trace in shown} == {"b"}
-    assert [trace["meta"]["series"] for trace in shown] == ["measured"] * 2 + ["rubber"] * 2 + ["oil"] * 2
+    assert [trace["meta"]["series"] for trace in shown] == ["oil"] * 2 + ["friction"] * 2
+    assert {trace["meta"]["series"] for trace in figure.plot["data"]} == {"measured", *forces}
 
 
 def test_identified_curves_are_drawn_in_rig_units_with_their_bands():

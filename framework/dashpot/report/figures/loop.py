@@ -20,6 +20,8 @@ WIDTHS = {"measured": 2.4, "before": 1.8}
 X, V, TIME, MEASURED = "displacement (mm)", "velocity (m/s)", "time (s)", "measured (N)"
 PANELS = ((X, "x", "y", [0.0, 0.47]), (V, "x2", "y2", [0.53, 1.0]))  # over what, on which axes, where
 
+STRONG = 5.0  # times the median stroke of the force: a branch beside which others cannot be seen
+
 CYCLES = "Cycles spread over each run. Press a run to add it or take it away; press it twice to see it alone."
 
 
@@ -42,10 +44,16 @@ def loops(
 def branch_loops(
     measured: Mapping[str, Mapping[str, np.ndarray]], branches: Mapping[str, Mapping[str, np.ndarray]]
 ) -> Figure:
-    """The measured force and that of each branch, `branches[name][run]` (n,) N, over displacement and velocity."""
-    caption = f"What each branch of the model adds to the force. {CYCLES}"
-    liveliest = max(measured, key=lambda run: float(np.ptp(measured[run]["force"])), default="")
-    return _figure("Force of each branch", caption, measured, branches, (liveliest,), ())
+    """The measured force and that of each branch, `branches[name][run]` (n,) N, over displacement and velocity.
+
+    The fastest run is drawn at first, and of the branches those that are not far stronger than the others.
+    """
+    fastest = max(measured, key=lambda run: float(np.ptp(_velocity(measured[run]))), default="")
+    strokes = {name: float(np.ptp(runs[fastest])) for name, runs in branches.items() if fastest in runs}
+    usual = float(np.median(list(strokes.values()))) if strokes else 0.0
+    series = [name for name, stroke in strokes.items() if stroke <= STRONG * usual]
+    caption = f"What each branch of the model adds to the force; much stronger ones are a press away. {CYCLES}"
+    return _figure("Force of each branch", caption, measured, branches, (fastest,), series, measured_shown=False)
 
 
 def _figure(
@@ -55,6 +63,7 @@ def _figure(
     simulated: Mapping[str, Mapping[str, np.ndarray]],
     shown: Sequence[str],
     series: Sequence[str],
+    measured_shown: bool = True,
 ) -> Figure:
     table = TidyTable("run", TIME, X, V, MEASURED, *map(_heading, simulated))
     points = excerpt.affordable(len(measured), 4 + len(simulated), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
@@ -63,7 +72,7 @@ def _figure(
         block = table.add(_block(run, signals, simulated, points))
         traces += _traces(run, block, simulated)
     drawn = {label: runs for label, runs in simulated.items() if toggles.is_shown(label, series)}
-    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, drawn)}, series)
+    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, drawn)}, series, measured_shown)
     return Figure(title, caption, {"data": toggles.apply(traces, groups), "layout": _layout(groups)}, table.columns)
 
 
@@ -137,10 +146,16 @@ def _line(label: str, labels: Sequence[str]) -> dict[str, Any]:
 
 
 def _groups(
-    measured: Mapping[str, Any], simulated: Mapping[str, Any], shown: set[str], series: Sequence[str]
+    measured: Mapping[str, Any],
+    simulated: Mapping[str, Any],
+    shown: set[str],
+    series: Sequence[str],
+    measured_shown: bool,
 ) -> list[dict[str, Any]]:
     runs = [toggles.choice(run, shown=run in shown) for run in measured]
-    return [toggles.series_group(simulated, series=series), toggles.group("run", "Runs", runs)]
+    drawn = toggles.series_group(simulated, series=series)
+    drawn["choices"][0]["shown"] = measured_shown
+    return [drawn, toggles.group("run", "Runs", runs)]
 
 
 def _layout(groups: list[dict[str, Any]]) -> dict[str, Any]:
