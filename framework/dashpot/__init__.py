@@ -1,9 +1,9 @@
 """dashpot: rheological models as networks of small laws, fitted to measurements, with what is missing named.
 
-In a notebook: ``load`` or ``declare`` a model, ``load_dataset``, ``look`` at it, then ``fit``, ``compare`` or
-``diagnose``; all answers show themselves, and have ``plot``, ``table`` and ``to_pandas``. ``simulate`` and ``measure``
-run a model, ``campaign`` fits or diagnoses many specimens. Studies are ``read_study`` and ``run_study``;
-``energy_balance`` follows the work that is put in.
+In a notebook: ``load`` or ``declare`` a model, or build a ``Network``; ``load_dataset``, or make ``Data`` out of
+arrays; ``look`` at it, then ``fit``, ``compare`` or ``diagnose``; all answers show themselves, and have ``plot``,
+``table`` and ``to_pandas``. ``simulate`` and ``measure`` run a model, ``campaign`` fits or diagnoses many specimens.
+Studies are ``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
 
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig``, ``Export`` or ``Metric``
 and mark its hook with ``hookimpl``.
@@ -56,10 +56,14 @@ if TYPE_CHECKING:
     from dashpot.notebook.comparison import Comparison as Comparison
     from dashpot.notebook.data import Data as Data
     from dashpot.notebook.diagnosis import Diagnosis as Diagnosis
+    from dashpot.notebook.estimator import Estimator as Estimator
     from dashpot.notebook.fit import Fit as Fit
     from dashpot.notebook.listing import Listing as Listing
     from dashpot.notebook.look import Look as Look
     from dashpot.notebook.model import Model as Model
+    from dashpot.notebook.part import Part as Part
+    from dashpot.notebook.progress import Cancelled as Cancelled
+    from dashpot.notebook.verbs import Network as Network
     from dashpot.notebook.verbs import campaign as campaign
     from dashpot.notebook.verbs import compare as compare
     from dashpot.notebook.verbs import declare as declare
@@ -74,10 +78,11 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "dashpot.notebook.verbs": (
-        *("load", "declare", "load_dataset", "simulate", "measure", "write_dataset"),
+        *("load", "declare", "Network", "load_dataset", "simulate", "measure", "write_dataset"),
         *("look", "fit", "compare", "diagnose", "campaign"),
     ),
     "dashpot.notebook.model": ("Model",),
+    "dashpot.notebook.part": ("Part",),
     "dashpot.notebook.data": ("Data",),
     "dashpot.notebook.fit": ("Fit",),
     "dashpot.notebook.campaign": ("Campaign",),
@@ -85,6 +90,8 @@ _HOMES = {
     "dashpot.notebook.diagnosis": ("Diagnosis",),
     "dashpot.notebook.listing": ("Listing",),
     "dashpot.notebook.look": ("Look",),
+    "dashpot.notebook.estimator": ("Estimator",),
+    "dashpot.notebook.progress": ("Cancelled",),
     "dashpot.kernel.energy": ("energy_balance",),
     "dashpot.campaign.reading": ("read_campaign",),
     "dashpot.fit.study.reading": ("read_study",),

@@ -117,7 +117,7 @@ def test_a_report_opens_silently_and_asks_for_nothing(visit, reports, name, them
     assert opened.requests == [reports[name]]
 
 
-@pytest.mark.parametrize("width", [1366, 420])
+@pytest.mark.parametrize("width", [2560, 1366, 800, 390])
 @pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit", "look"])
 def test_every_figure_is_drawn_and_nothing_is_wider_than_the_screen(visit, name, width):
     opened = visit(name, viewport={"width": width, "height": 768})
@@ -128,9 +128,29 @@ def test_every_figure_is_drawn_and_nothing_is_wider_than_the_screen(visit, name,
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+def test_the_one_page_shows_the_answer_and_its_figures_alone(reports, browser):
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(reports["diagnosis"] + "#summary")
+    shown = page.eval_on_selector_all("h3", "all => all.filter((e) => e.offsetParent).map((e) => e.textContent)")
+    assert shown == ["Causes", "Dynamic stiffness and loss angle"]
+    assert page.locator(".key-figures > div").count() == 3 and page.locator("h1").is_visible()
+    page.get_by_role("link", name="Whole report").click()
+    assert page.locator("h3", has_text="Residual over time").is_visible()
+    page.close()
+
+
+def test_what_is_folded_is_drawn_in_full_width_when_it_is_opened(visit):
+    page = visit("comparison").page
+    folded = page.locator("details.folded", has_text="Convergence of the fits")
+    assert not folded.locator(".main-svg").first.is_visible()
+    folded.locator("summary").first.click()
+    page.wait_for_timeout(300)
+    assert folded.locator(".main-svg").first.bounding_box()["width"] > 900
+
+
 def test_pressing_a_run_adds_it_and_pressing_twice_shows_it_alone(visit):
     opened = visit("diagnosis")
-    title = "Force over displacement"
+    title = "Force over displacement and velocity"
     assert opened.lines(title) == 3
     opened.button(title, "a1_p20").click()
     assert opened.lines(title) == 6
@@ -145,8 +165,8 @@ def test_pressing_a_run_adds_it_and_pressing_twice_shows_it_alone(visit):
 
 def test_a_simulation_can_be_taken_out_of_all_runs(visit):
     opened = visit("diagnosis")
-    opened.button("Force over displacement", "simulated before").click()
-    assert opened.lines("Force over displacement") == 2
+    opened.button("Force over displacement and velocity", "simulated before").click()
+    assert opened.lines("Force over displacement and velocity") == 2
 
 
 def test_the_pointer_shows_values_with_units(visit):
@@ -216,7 +236,7 @@ def saved(opened: Visit, press) -> tuple[str, str]:
 
 def test_the_data_of_a_figure_are_beside_it_and_can_be_saved(visit):
     opened = visit("diagnosis")
-    figure = opened.figure("Force over displacement")
+    figure = opened.figure("Force over displacement and velocity")
     figure.locator("summary").click()
     assert figure.locator("details tr").count() == 201
     name, text = saved(opened, figure.get_by_role("button", name="CSV").click)

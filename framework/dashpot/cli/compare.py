@@ -16,7 +16,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @models_and_dataset()
 @output_option("Folder for compare.json, compare.csv and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     models: tuple[str, ...],
     dataset: str,
@@ -44,4 +44,4 @@ def verb(
     with session.watch("writing the report"):
         report = write_comparison(comparison, folder)
     session.talk.result(comparison_text(comparison), comparison.as_dict())
-    session.talk.say(f"report: {report}")
+    session.tell_report(report)

@@ -19,7 +19,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @optimizer_options
 @click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
               help="Causes whose removal increases the error by less are not named.")  # fmt: skip
-@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     model: str,
     dataset: str,
@@ -49,4 +49,4 @@ def verb(
         check = checked(diagnosis, folder, session.registry)
     session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
     session.talk.say(check)
-    session.talk.say(f"report: {report}")
+    session.tell_report(report)

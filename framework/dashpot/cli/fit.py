@@ -16,7 +16,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @model_and_dataset()
 @output_option("Folder for the identified network NAME.yaml, fit.json, tables and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     model: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
 ) -> None:
@@ -38,4 +38,5 @@ def verb(
     with session.watch("writing the report"):
         report = write_fit(found, folder)
     session.talk.result(found.summary(), found.as_dict())
-    session.talk.say(f"identified network: {folder.path / network.name}.yaml\nreport: {report}")
+    session.talk.say(f"identified network: {folder.path / network.name}.yaml")
+    session.tell_report(report)

@@ -15,7 +15,7 @@ from dashpot.cli.switches import Switches, output_option, switches
 @click.command("look")
 @click.argument("dataset", metavar="DATASET", shell_complete=complete.datasets)
 @output_option("Folder for look.json and report.html.")
-@switches("seed", "json", "quiet", "force", "allow_outside")
+@switches("seed", "json", "quiet", "force", "allow_outside", "pdf")
 def verb(dataset: str, output: Path, switches: Switches) -> None:
     """Look at measured runs before any model.
 
@@ -35,4 +35,4 @@ def verb(dataset: str, output: Path, switches: Switches) -> None:
         seen = look(measured, switches.seed, session.registry.metrics.values())
         report = write_look(seen, folder)
     session.talk.result(look_text(seen), seen.as_dict())
-    session.talk.say(f"report: {report}")
+    session.tell_report(report)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from glob import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 from dashpot.cli.output import OutputFolder
 
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
     from dashpot.contract.registry import Registry
     from dashpot.diagnose.diagnosis import Diagnosis
     from dashpot.fit.result import FitResult
-    from dashpot.model.network import NetworkSpec
     from dashpot.report.evidence import Evidence
 
 SAME_ERROR = 1e-6  # of an RMSE: what is told and what the files say
@@ -39,13 +37,14 @@ def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
     from dashpot.compare.comparison import comparison_of
     from dashpot.report.fit import fit_page, knots_grid, numbers_grid
     from dashpot.report.json_text import json_text
+    from dashpot.report.networks import with_network
     from dashpot.report.page import render
     from dashpot.report.tables import to_csv
 
     content, name = fit.as_dict(), f"{fit.declared.name}.yaml"
     comparison = comparison_of(fit)
     patch = {"before": fit.declared.text, "after": fit.identified_text, "before_name": "declared", "after_name": name}
-    evidence = with_schematics({**comparison.evidence(), "patch": patch}, {fit.fitted.name: fit.fitted})
+    evidence = with_network({**comparison.evidence(), "patch": patch}, fit.fitted.name, fit.fitted, fit.dataset)
     with folder.together() as results:
         results.write("fit.json", json_text(content))
         for grid in (numbers_grid(content), knots_grid(content)):
@@ -59,6 +58,7 @@ def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
     from dashpot.report.comparison import comparison_page
     from dashpot.report.grids import comparison_grid
     from dashpot.report.json_text import json_text
+    from dashpot.report.networks import with_schematics
     from dashpot.report.page import render
     from dashpot.report.tables import to_csv
 
@@ -97,11 +97,12 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
     """Write the diagnosis as JSON and report, and the extended network if there is one; the path of the report."""
     from dashpot.report.diagnosis import diagnosis_page
     from dashpot.report.json_text import json_text
+    from dashpot.report.networks import with_network
     from dashpot.report.page import render
 
     content = diagnosis.as_dict()
     title = (diagnosis.extended_name or diagnosis.model.name).removesuffix(".yaml")
-    evidence = with_schematics(diagnosis.evidence(), {title: diagnosis.final})
+    evidence = with_network(diagnosis.evidence(), title, diagnosis.final, diagnosis.setting.dataset)
     with folder.together() as results:
         results.write("diagnosis.json", json_text(content))
         results.write(diagnosis.fitted_name, diagnosis.fitted_text)
@@ -134,20 +135,6 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
                                 "the result does not hold: please report it with the dataset")  # fmt: skip
     unseen = "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
     return f"check: {name} read again and simulated has the reported RMSE: {found.train:.4g} N on training runs{unseen}"
-
-
-def with_schematics(evidence: Mapping[str, Any], networks: Mapping[str, NetworkSpec]) -> Evidence:
-    """The evidence with the schematics of networks, each under its title."""
-    from dashpot.report.schematic.svg import svg
-
-    drawn = {title: svg(as_found(network)) for title, network in networks.items()}
-    return cast("Evidence", {**evidence, "schematic": drawn})
-
-
-def as_found(network: NetworkSpec) -> NetworkSpec:
-    """A fitted network whose numbers are no longer starts."""
-    searched = {slot.path: slot.value.as_role("identified") for slot in network.slots() if slot.value.searched}
-    return network.with_values(searched)
 
 
 def comparison_text(comparison: Comparison) -> str:

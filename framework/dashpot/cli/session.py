@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from dashpot.text.problem import Problem
 
 Result = TypeVar("Result")
+PDF_FILES = ("report.pdf", "summary.pdf")
 
 
 class Session:
@@ -101,6 +102,11 @@ class Session:
 
     def claim(self, output: Path, *patterns: str) -> OutputFolder:
         """The folder ``output``, into which files of these names may be written, by this call alone until it ends."""
+        if self.switches.pdf:
+            from dashpot.report.pdf import find_browser
+
+            find_browser()
+            patterns = (*patterns, *PDF_FILES)
         folder = OutputFolder(output, self.switches.force)
         click.get_current_context().with_resource(folder.locked())
         folder.claim(*patterns)
@@ -115,6 +121,17 @@ class Session:
     def watch(self, what: str, parts: int = 1) -> ProgressBar:
         """The progress of what is done in a ``with`` block; ``what`` says it as long as nobody else does."""
         return ProgressBar(self.switches.quiet, parts, what)
+
+    def tell_report(self, report: Path) -> None:
+        """Tell where a report is and how large, and print it where that was asked for."""
+        self.talk.say(f"report: {report} ({report.stat().st_size / 1e6:.1f} MB)")
+        if self.switches.pdf:
+            from dashpot.report.pdf import SUMMARY, print_report
+
+            for name, part in zip(PDF_FILES, ("", SUMMARY), strict=True):
+                with self.watch(f"printing {name}"):
+                    printed = print_report(report, report.with_name(name), part)
+                self.talk.say(f"printed: {printed}")
 
     def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
         """Do the work of a verb on a network (or several) and a dataset, showing its progress."""

@@ -26,7 +26,7 @@ RECORDS = "checkpoint"
 @study_and_dataset()
 @click.option("--dry-run", is_flag=True, help="Only predict what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
-@switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
     """Identify models in stages, as a study file says.
 
@@ -113,4 +113,4 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
         report = results.write("report.html", page)
     answers = [mass_sentence(mass) for mass in content["masses"]]
     session.talk.result("\n".join([plain_table(grid), *answers]), content)
-    session.talk.say(f"report: {report}")
+    session.tell_report(report)

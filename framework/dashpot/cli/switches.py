@@ -26,6 +26,7 @@ class Switches:
     force: bool = False
     backend: str | None = None
     allow_outside: bool = False
+    pdf: bool = False
 
 
 BACKEND = "DASHPOT_BACKEND"
@@ -85,6 +86,7 @@ SWITCHES = {
         is_flag=True,
         help="Also read measured files outside of the folder of their dataset; for datasets that you trust.",
     ),
+    "pdf": click.option("--pdf", is_flag=True, help="Also report.pdf and summary.pdf, of one page, by a browser."),
     "force": click.option("--force", is_flag=True, help="Overwrite existing result files."),
 }
 

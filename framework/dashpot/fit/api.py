@@ -199,6 +199,8 @@ def fit_prepared(
         history=best.history,
         seen=seen_range(spec, setting.train),
         correlation=known.correlation,
+        errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
+        samples=sum(run.samples for run in setting.train),
         known=identifiability(objective, coordinates, coordinates.start, noise),
     )
 

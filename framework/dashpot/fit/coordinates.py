@@ -80,6 +80,10 @@ class Coordinates:
         """The parameters in SI of a point (p,)."""
         return [self.number(which, at) for which, at in enumerate(point)]
 
+    def slopes(self, point: Array) -> Array:
+        """By how much the numbers in SI of a point (p,) change with its coordinates."""
+        return np.where(self.log, np.exp(np.where(self.log, point, 0.0)), 1.0)
+
     def held(self, number: int, at: float) -> Coordinates:
         """The coordinates of all other slots, with slot ``number`` held at the coordinate ``at``."""
         rest = np.arange(len(self.paths)) != number

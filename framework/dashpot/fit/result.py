@@ -19,6 +19,8 @@ from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
 from dashpot.text.quantity import pretty
 
+INTERVAL_DIGITS = (3, 5, 8, 17)  # as many as tell its two ends apart
+
 
 @dataclass(frozen=True, eq=False)
 class Errors:
@@ -38,7 +40,7 @@ class FitResult:
     losses that different starts ended at, best first: near one another they are evidence of convergence. ``known`` says
     the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
     is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
-    so.
+    so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted.
     """
 
     declared: NetworkSpec
@@ -58,6 +60,46 @@ class FitResult:
     seen: Range = field(default_factory=dict, repr=False)
     correlation: NDArray[np.float64] | None = field(default=None, repr=False)
     known: Identifiability | None = field(default=None, repr=False)
+    errors_of_numbers: NDArray[np.float64] | None = field(default=None, repr=False)
+    samples: int = 0
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The paths of the p numbers that were searched."""
+        return tuple(slot.path for slot in self.fitted.slots() if slot.value.searched)
+
+    @property
+    def covariance(self) -> NDArray[np.float64]:
+        """The covariance (p, p) of the numbers ``free``, in products of their SI units.
+
+        Standard errors as in the intervals, without Student's factor for few blocks, times ``correlation``; to first
+        order where a number is searched by logarithm. Infinite on the diagonal, and 0 beside it, for a number that the
+        data do not determine. ValueError for a fit without intervals.
+        """
+        if self.errors_of_numbers is None or self.correlation is None:
+            raise ValueError("expected a fit with intervals, got one without")
+        known = np.where(np.isfinite(self.errors_of_numbers), self.errors_of_numbers, 0.0)
+        found = np.outer(known, known) * self.correlation
+        np.fill_diagonal(found, self.errors_of_numbers**2)
+        return found
+
+    @property
+    def aic(self) -> float:
+        """Akaike's criterion n ln(RMSE^2) + 2 p, of the n samples and the RMSE in N of the training runs.
+
+        Smaller is better, between models of the same training runs. Samples count as independent: where residuals are
+        coloured, more numbers look better than they are, and the error of held-out runs decides.
+        """
+        return self._likelihood + 2.0 * len(self.free)
+
+    @property
+    def bic(self) -> float:
+        """Schwarz's criterion n ln(RMSE^2) + p ln(n); see ``aic``."""
+        return self._likelihood + float(np.log(self.samples)) * len(self.free)
+
+    @property
+    def _likelihood(self) -> float:
+        return 2.0 * self.samples * float(np.log(self.errors.train))
 
     @property
     def identified_text(self) -> str:
@@ -97,9 +139,11 @@ class FitResult:
         lines = [f"{self.declared.name}: RMSE {self.errors.train:.4g} N on training runs" + _held_out(self.errors)]
         if self.noise_floor.value:
             lines.append(f"noise floor {self.noise_floor.value:.4g} N, from {self.noise_floor.source}")
+        unknown = {*self.idle, *(self.known.undetermined if self.known else ())}
         for slot in self.fitted.slots():
             if slot.value.searched and "[" not in slot.path:
-                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{_interval(slot.value)}")
+                interval = "" if slot.path in unknown else _interval(slot.value)
+                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
         told = identifiability_of(self.fitted, self.known) if self.known else {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
@@ -155,5 +199,8 @@ def _held_out(errors: Errors) -> str:
 def _interval(value: Value) -> str:
     if not value.interval:
         return ""
-    low, high = (pretty(side, value.unit, 3) for side in value.interval)
+    for digits in INTERVAL_DIGITS:
+        low, high = (pretty(side, value.unit, digits) for side in value.interval)
+        if low != high:
+            break
     return f"  [{low}, {high}]"

@@ -32,7 +32,8 @@ NOISE_KNOWN = 1.05  # noise floors may be this much too low
 class Uncertainty:
     """``covariance`` (p, p) and half ``widths`` (p,) of the intervals, both in natural steps of the coordinates.
 
-    ``moved`` (k, p), in the same steps, is what each of k systematic deviations does to the parameters.
+    ``moved`` (k, p), in the same steps, is what each of k systematic deviations does to the parameters. ``errors`` (p,)
+    are the standard errors from all that, infinite where the data do not determine a parameter.
     ``idle`` names parameters the data do not feel. The interval of an idle parameter, of one that others can make up
     for entirely, and of one around which the network cannot be solved, is its whole range.
     """
@@ -43,6 +44,7 @@ class Uncertainty:
     at_bound: tuple[str, ...]
     idle: tuple[str, ...]
     moved: Array
+    errors: Array
 
     @property
     def correlation(self) -> Array:
@@ -85,9 +87,14 @@ def assess_uncertainty(
     covariance /= np.outer(safe, safe)
     moved = np.array([-(root @ (root.T @ (jacobian @ shift / safe))) / safe for shift in systematic])
     moved = moved.reshape(len(systematic), point.size)
-    scatter = _quantiles(freedom) * widening(float(loss), noise)
-    squares = scatter**2 * np.diag(covariance) + np.sum((NORMAL * moved) ** 2, axis=0)
-    widths = np.where(idle | lost | unsolved | ~np.isfinite(squares), np.inf, np.sqrt(squares))
+    wider = widening(float(loss), noise)
+    unknown = idle | lost | unsolved
+
+    def root_of_sum(random: Array | float, systematic: float) -> Array:
+        squares = (random * wider) ** 2 * np.diag(covariance) + np.sum((systematic * moved) ** 2, axis=0)
+        return np.where(unknown | ~np.isfinite(squares), np.inf, np.sqrt(squares))
+
+    widths = root_of_sum(_quantiles(freedom), NORMAL)
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
@@ -97,6 +104,7 @@ def assess_uncertainty(
         tuple(np.array(coordinates.paths)[bound].tolist()),
         tuple(np.array(coordinates.paths)[idle].tolist()),
         moved,
+        root_of_sum(1.0, 1.0),
     )
 
 

@@ -8,7 +8,17 @@ from dashpot.model.identified import Range, range_text
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.written_out import write_out_uses
 from dashpot.text.document import Document
-from dashpot.text.inserting import Edit, add_entry, apply_edits, end_of_line, is_flow, plain_or_quoted, replace_entry
+from dashpot.text.inserting import (
+    Edit,
+    add_entry,
+    apply_edits,
+    end_of_line,
+    indented,
+    is_flow,
+    plain_or_quoted,
+    remove_entry,
+    replace_entry,
+)
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import InputError, Place, nearest
@@ -41,7 +51,33 @@ def add_branch(text: str, lines: str) -> str:
     ValueError when there is a branch of that name.
     """
     document = Document.parse(text)
+    home = _mapping(document.root).entries.get("branches")
+    if isinstance(home, Scalar) and home.value is None:
+        return apply_edits(text, [Edit(home.end, home.end, "\n" + indented(lines, 3))])
     return add_entry(document, _mapping(document.root, "branches"), lines)
+
+
+def remove_branch(text: str, branch: str) -> str:
+    """The text without a branch; ``group.branch`` is one inside a group. Raises InputError when there is none."""
+    document = Document.parse(text)
+    home, _, name = branch.rpartition(".")
+    _branch_node(document, branch)
+    members = _members(_branch_node(document, home) if home else document.root)
+    assert members is not None
+    return remove_entry(document, members, name)
+
+
+def set_entry(text: str, part: str, key: str, entry: str) -> str:
+    """The text with ``key: entry`` at a branch, ``group.branch`` inside a group, or at a node; it may be there already.
+
+    Raises InputError when there is no such branch or node, or where it is written as one word.
+    """
+    document = Document.parse(text)
+    nodes = _mapping(document.root, "nodes").entries if _has(document.root, "nodes") else {}
+    home = nodes.get(part) or _branch_node(document, part)
+    if _has(home, key):
+        return apply_edits(text, [replace_entry(_mapping(home), key, entry)])
+    return add_entry(document, home, f"{key}: {entry}")
 
 
 def branch_names(text: str) -> tuple[str, ...]:
@@ -90,12 +126,16 @@ def replace_branch(text: str, branch: str, entry: str) -> str:
 def _branch_node(document: Document, branch: str) -> Node:
     node: Node = document.root
     for name in branch.split("."):
-        members = next((_mapping(node, key) for key in ("branches", "series", "parallel") if _has(node, key)), None)
+        members = _members(node)
         if members is None or name not in members.entries:
             hint = nearest(name, members.entries) if members else ""
             raise InputError.at(Place(document.file), f"the network has no branch '{branch}'", hint)
         node = members.entries[name]
     return node
+
+
+def _members(node: Node) -> MappingNode | None:
+    return next((_mapping(node, key) for key in ("branches", "series", "parallel") if _has(node, key)), None)
 
 
 def use_in_branch(text: str, branch: str, word: str) -> str:

@@ -19,10 +19,10 @@ from dashpot.report.diagnosis import VERDICTS, diagnosis_page
 from dashpot.report.figures import gain_intervals
 from dashpot.report.grids import cause_grid, misfit_grid
 from dashpot.report.headline import headline
+from dashpot.report.networks import with_network
 from dashpot.report.page import write_page
 from dashpot.report.parts import Code, Notice, Part
 from dashpot.report.patch import diff
-from dashpot.report.schematic.svg import svg
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -73,8 +73,9 @@ class Diagnosis(PlainDiagnosis):
 
     def report(self, path: str | Path) -> Path:
         """Write the report, one HTML file that needs nothing else; the path."""
-        schematic = {(self.extended_name or self.model.name).removesuffix(".yaml"): svg(self.final)}
-        return write_page(path, diagnosis_page(self.as_dict(), {**self._evidence, "schematic": schematic}))  # type: ignore[typeddict-item]
+        title = (self.extended_name or self.model.name).removesuffix(".yaml")
+        evidence = with_network(self._evidence, title, self.final, self.setting.dataset)
+        return write_page(path, diagnosis_page(self.as_dict(), evidence))
 
     @cached_property
     def _evidence(self) -> dict[str, Any]:

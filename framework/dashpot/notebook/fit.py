@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from dashpot.compare.comparison import Comparison as PlainComparison
 from dashpot.contract.registry import load_registry
+from dashpot.data.dataset import Dataset
 from dashpot.fit.api import prepare
 from dashpot.fit.result import FitResult
+from dashpot.kernel.api import forces_by_name, solve_runs
 from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
@@ -21,6 +23,8 @@ from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Grid, Notice
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from pandas import DataFrame
     from plotly.graph_objects import Figure as PlotlyFigure
 
@@ -36,6 +40,12 @@ class Fit(FitResult):
         ()
         >>> fit.model.name
         'mount'
+        >>> fit.free, fit.covariance.shape
+        (('rubber.stiffness', 'damping.damping'), (2, 2))
+        >>> fit.residuals["a1_p2_up"].shape == data.run("a1_p2_up").force.shape
+        True
+        >>> fit.aic < fit.bic
+        True
     """
 
     def table(self) -> Listing:
@@ -57,6 +67,16 @@ class Fit(FitResult):
         """
         return plot(what, self._evidence)
 
+    @property
+    def residuals(self) -> dict[str, NDArray[np.float64]]:
+        """Measured less simulated force (n,) in N of every run, the warm-up included, which the errors leave out."""
+        simulated = self._comparison.simulated[self.declared.name]
+        return {run.name: run.force - simulated[run.name] for run in self.dataset.runs}
+
+    def predict(self, data: Dataset) -> dict[str, NDArray[np.float64]]:
+        """The force (n,) in N of every run of a dataset, by name, with the numbers that were found."""
+        return forces_by_name(solve_runs(self.fitted, data))
+
     @cached_property
     def model(self) -> Model:
         """The identified network: it has the parameters, and can be simulated, fitted again and saved."""
@@ -66,7 +86,9 @@ class Fit(FitResult):
 
     def save(self, path: str | Path) -> Path:
         """Write the identified network as YAML; the path."""
-        return self.model.save(path)
+        target = Path(path)
+        target.write_text(self.identified_text, encoding="utf-8")
+        return target
 
     @cached_property
     def _comparison(self) -> PlainComparison:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,12 +16,12 @@ from dashpot.contract.registry import Registry, load_registry
 from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.writing import dataset_files
 from dashpot.diagnose.diagnose import diagnose as diagnose_network
-from dashpot.fit.api import fit_network
+from dashpot.fit.api import Progress, fit_network
 from dashpot.fit.result import FitResult
 from dashpot.fit.virtual_test import virtual_test
 from dashpot.kernel.api import TOLERANCE, forces_by_name, solve_runs
-from dashpot.model.network import NetworkSpec
-from dashpot.model.reading import parse_network, read_network
+from dashpot.model.network import Group, NetworkSpec
+from dashpot.model.reading import FORMAT, parse_network, read_network
 from dashpot.notebook.campaign import Campaign
 from dashpot.notebook.comparison import Comparison
 from dashpot.notebook.data import Data
@@ -28,7 +29,11 @@ from dashpot.notebook.diagnosis import Diagnosis
 from dashpot.notebook.fit import Fit
 from dashpot.notebook.look import Look
 from dashpot.notebook.model import Model
+from dashpot.notebook.progress import hearing
 from dashpot.notebook.promoted import promoted
+from dashpot.text.document import Document
+from dashpot.text.problem import InputError, Place
+from dashpot.text.written import flow
 from dashpot.triage.examine import examined
 
 if TYPE_CHECKING:
@@ -66,6 +71,34 @@ def declare(text: str, *, registry: Registry | None = None) -> Model:
         ['damping.damping']
     """
     return promoted(Model, parse_network(text, (registry or load_registry()).elements))
+
+
+def Network(  # noqa: N802
+    name: str,
+    branches: Mapping[str, Mapping[str, Any]] | None = None,
+    *,
+    registry: Registry | None = None,
+    **keys: Any,
+) -> Model:
+    """A network out of Python values: ``branches`` and ``keys`` (``about``, ``nodes``, ...) are those of a file.
+
+    Branches can be added later, with ``add``. InputError with every mistake.
+
+    Examples:
+        >>> mount = dp.Network("mount", {"rubber": {"element": "spring", "stiffness": "220 N/mm"}})
+        >>> mount.add("damping", "damper", damping={"start": "0.5 N*s/mm"})
+        >>> mount["rubber"].stiffness *= 1.1
+        >>> mount.save("built.yaml").name
+        'built.yaml'
+        >>> bool(np.isclose(dp.load("built.yaml")["rubber"].stiffness, 242e3))
+        True
+    """
+    head = {"format": FORMAT, "name": name, **keys}
+    lines = [*(f"{key}: {flow(value)}" for key, value in head.items()), "branches:"]
+    text = "\n".join([*lines, *(f"  {flow(word)}: {flow(entry)}" for word, entry in (branches or {}).items())]) + "\n"
+    if branches:
+        return declare(text, registry=registry)
+    return Model(name, Group("", "parallel", ()), document=Document.parse(text))
 
 
 def load_dataset(path: str | Path, *, allow_outside: bool = False, registry: Registry | None = None) -> Data:
@@ -153,6 +186,8 @@ def fit(
     seed: int = 0,
     jobs: Jobs = 1,
     registry: Registry | None = None,
+    progress: Progress | bool = False,
+    cancel: Callable[[], bool] | None = None,
 ) -> Fit:
     """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
 
@@ -162,6 +197,10 @@ def fit(
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
     starts. InputError for a model that does not compile.
 
+    ``progress=True`` shows a line that tells how far it is; a function is called with the stage, the share of it that
+    is done, the best error so far and the noise floor in N, the last three None where there is nothing to tell.
+    ``cancel`` is a function that is asked in between: where it answers True the work ends with ``Cancelled``.
+
     Examples:
         >>> fit = dp.fit("mount.yaml", data, seed=1)
         >>> print(fit.summary())
@@ -170,8 +209,9 @@ def fit(
     """
     found = registry or load_registry()
     sound = examined(_data(data, found))
-    return _shown_fit(fit_network(_model(model, found), sound, optimizer=optimizer, options=options, seed=seed,
-                                  jobs=jobs, registry=found))  # fmt: skip
+    with hearing(progress, cancel) as hear:
+        return _shown_fit(fit_network(_model(model, found), sound, optimizer=optimizer, options=options, seed=seed,
+                                      jobs=jobs, registry=found, progress=hear))  # fmt: skip
 
 
 def compare(
@@ -183,8 +223,12 @@ def compare(
     seed: int = 0,
     jobs: Jobs = 1,
     registry: Registry | None = None,
+    progress: Progress | bool = False,
+    cancel: Callable[[], bool] | None = None,
 ) -> Comparison:
     """Fit every model on the same training runs and judge it on all runs, next to the noise floor.
+
+    ``progress`` and ``cancel`` as in ``fit``.
 
     Examples:
         >>> comparison = dp.compare(["spring", "mount.yaml"], data)
@@ -194,8 +238,9 @@ def compare(
     """
     found = registry or load_registry()
     sound = examined(_data(data, found))
-    compared = compare_networks([_model(model, found) for model in models], sound, optimizer=optimizer,
-                                options=options, seed=seed, jobs=jobs, registry=found)  # fmt: skip
+    with hearing(progress, cancel) as hear:
+        compared = compare_networks([_model(model, found) for model in models], sound, optimizer=optimizer,
+                                    options=options, seed=seed, jobs=jobs, registry=found, progress=hear)  # fmt: skip
     return promoted(Comparison, compared, fits=tuple(map(_shown_fit, compared.fits)))
 
 
@@ -209,11 +254,13 @@ def diagnose(
     jobs: Jobs = 1,
     relevance: float = 1.5e-3,
     registry: Registry | None = None,
+    progress: Progress | bool = False,
+    cancel: Callable[[], bool] | None = None,
 ) -> Diagnosis:
     """What a model gets wrong, the cause by name, the extended model, and what it gains on held-out runs.
 
-    Causes without which the training error grows by less than the share ``relevance`` are not named. InputError for a
-    model that does not compile on these data.
+    Causes without which the training error grows by less than the share ``relevance`` are not named. ``progress`` and
+    ``cancel`` as in ``fit``. InputError for a model that does not compile on these data.
 
     Examples:
         >>> diagnosis = dp.diagnose("mount.yaml", data)
@@ -221,8 +268,9 @@ def diagnose(
         ['N', 'of', 'error']
     """
     found = registry or load_registry()
-    made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options, seed=seed,
-                            jobs=jobs, registry=found, relevance=relevance)  # fmt: skip
+    with hearing(progress, cancel) as hear:
+        made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options,
+                                seed=seed, jobs=jobs, registry=found, relevance=relevance, progress=hear)  # fmt: skip
     return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
 
 
@@ -248,7 +296,11 @@ def campaign(
 
 
 def _model(model: AnyModel, registry: Registry | None) -> NetworkSpec:
-    return model if isinstance(model, NetworkSpec) else load(model, registry=registry)
+    # a result keeps the model as it is now, whatever becomes of it
+    found = replace(model) if isinstance(model, NetworkSpec) else load(model, registry=registry)
+    if not found.leaves():
+        raise InputError.at(Place(found.file), f"the network '{found.name}' has no branch", "add one")
+    return found
 
 
 def _data(data: AnyData, registry: Registry | None) -> Dataset:

@@ -42,6 +42,7 @@ def comparison_page(comparison: Json, evidence: Evidence) -> Page:
         lead=_lead(comparison),
         sections=sections,
         colophon=colophon(comparison, evidence),
+        summary=("Models against the measurement", "Dynamic stiffness and loss angle"),
     )
 
 
@@ -106,6 +107,8 @@ def signal_parts(evidence: Evidence, series: Sequence[str] = ()) -> Iterator[Par
     """Loops and residuals, as far as there are any."""
     if "loops" in evidence:
         yield figures.loops(**evidence["loops"], series=series)
+    if "loops" in evidence and evidence.get("branches"):
+        yield figures.branch_loops(evidence["loops"]["measured"], evidence["branches"])
     if "residuals" in evidence:
         yield figures.residual_traces(**evidence["residuals"], series=series)
 
@@ -130,10 +133,10 @@ def _filled(grid: Grid) -> Iterator[Grid]:
 
 def _key_figures(comparison: Json) -> KeyFigures:
     best, floor = best_model(comparison), floor_value(comparison)
-    shown = [("models compared", str(len(comparison["models"])), "", "")]
+    shown = []
     if best is not None:
-        shown.append(("best model", best["name"], "", ""))
-        shown.append(("its error", *shown_with_unit(_error(best), "N"), f"RMSE on {RUNS[_judged_on(best)]}"))
+        error = shown_with_unit(_error(best), "N")
+        shown.append((f"error of {best['name']}", *error, f"least RMSE on {RUNS[_judged_on(best)]}"))
     explainable = explainable_value(comparison)
     if explainable is not None:
         shown.append(("explainable", *shown_with_unit(explainable, "N"), "a general model of the past motion leaves"))

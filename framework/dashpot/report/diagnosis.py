@@ -8,7 +8,7 @@ from typing import Any
 from dashpot.report import figures, grids
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
-from dashpot.report.headline import Errors, accepted_causes, headline, read_errors
+from dashpot.report.headline import Errors, accepted_causes, headline, read_errors, short_headline
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
 from dashpot.report.patch import diff
 from dashpot.report.readable import percent, shown_with_unit
@@ -35,10 +35,11 @@ def diagnosis_page(diagnosis: Json, evidence: Evidence) -> Page:
     sections = [section for section in _sections(diagnosis, evidence) if section.parts]
     return Page(
         title=f"Diagnosis of {_name(diagnosis, 'model')} on {_name(diagnosis, 'dataset')}",
-        headline=headline(diagnosis),
+        headline=short_headline(diagnosis),
         lead=_lead(diagnosis),
         sections=sections,
         colophon=colophon(diagnosis, evidence),
+        summary=("Causes", "Dynamic stiffness and loss angle"),
     )
 
 
@@ -74,13 +75,15 @@ def _misfit(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
 def _causes(diagnosis: Json) -> Iterator[Part]:
     if not diagnosis["causes"]:
         return
-    yield grids.cause_grid(diagnosis)
+    yield from (grid for grid in (grids.named_grid(diagnosis), grids.unnamed_grid(diagnosis)) if grid.rows)
     if any(cause.get("gain") is not None for cause in diagnosis["causes"]):
         yield figures.gain_intervals(diagnosis["causes"])
 
 
 def _extension(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
     yield from (Picture(title, svg) for title, svg in evidence.get("schematic", {}).items())
+    if evidence.get("curves"):
+        yield figures.identified_curves(evidence["curves"])
     patch = evidence.get("patch")
     if patch:
         name = patch.get("after_name") or diagnosis.get("extended_model") or "extended.yaml"
@@ -97,6 +100,8 @@ def _before_and_after(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
         yield from figures.stiffness_figures(evidence["dynamic_stiffness"])
     if "loops" in evidence:
         yield figures.loops(**evidence["loops"])
+    if "loops" in evidence and evidence.get("branches"):
+        yield figures.branch_loops(evidence["loops"]["measured"], evidence["branches"])
     if "residuals" in evidence:
         yield figures.residual_traces(**evidence["residuals"])
     if evidence.get("history"):
@@ -122,25 +127,20 @@ def _tried(evidence: Evidence) -> str:
 
 def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
     runs = f"RMSE on {errors.runs}"
+    less = "" if errors.gain is None else f"{percent(errors.gain)} less, "
     shown = [
         ("error before", errors.before, "N", runs),
-        ("error after", errors.after, "N", runs),
+        ("error after", errors.after, "N", f"{less}{runs}"),
         ("noise floor", errors.floor, "N", "no model gets below"),
     ]
-    figures_shown = [
-        (label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None
-    ]
-    if errors.gain is not None:
-        figures_shown.append(("gain", percent(errors.gain).removesuffix(" %"), "%", f"on {errors.runs}"))
-    return figures_shown
+    return [(label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None]
 
 
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
     accepted = accepted_causes(diagnosis)
-    if extended and accepted:
-        return f"{model} was extended to {extended}. {grids.floor_origin(diagnosis)}".strip()
-    return f"{model} was left as it is. {grids.floor_origin(diagnosis)}".strip()
+    done = f"was extended to {extended}" if extended and accepted else "was left as it is"
+    return f"{headline(diagnosis)} {model} {done}. {grids.floor_origin(diagnosis)}".strip()
 
 
 def _name(diagnosis: Json, key: str) -> str:

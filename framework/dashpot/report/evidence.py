@@ -100,10 +100,25 @@ class Limit(TypedDict, total=False):
     left: float | None  # what a refit leaves of it, RMS, N
 
 
+class IdentifiedCurve(TypedDict):
+    """A table of a network in SI: knots `at` (k,) of the quantity `over`, `value` (k,), and its 95 % intervals from
+    `low` to `high` (k,), NaN where unknown."""
+
+    over: str
+    over_unit: str
+    unit: str
+    at: np.ndarray
+    value: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
 class Evidence(TypedDict, total=False):
     """The evidence of a diagnosis or comparison."""
 
     loops: Loops
+    branches: Mapping[str, ByRun]  # branch of the final model -> run -> force (n,) N
+    curves: Mapping[str, IdentifiedCurve]  # path in the final model -> curve
     residuals: Residuals
     dynamic_stiffness: Sequence[Curve]
     shapes: Mapping[str, Any]  # curves without a model; see `compare.shapes.shapes_of`

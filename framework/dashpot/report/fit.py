@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from dashpot.report import figures
@@ -25,10 +26,11 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
 
     Used keys of the evidence: those of a comparison, and `patch`, the text before and after.
     """
-    tables = [grid for grid in (numbers_grid(fit), knots_grid(fit)) if grid.rows]
+    numbers: list[Part] = [grid for grid in (numbers_grid(fit), replace(knots_grid(fit), folded=True)) if grid.rows]
+    numbers += [figures.identified_curves(evidence["curves"])] if evidence.get("curves") else []
     sections = [
         Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
-        Section("The numbers", _ending(fit), parts=tables),
+        Section("The numbers", _ending(fit), parts=numbers),
         Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
         Section("The shape of the force", parts=list(shape_parts(evidence))),
         Section("Over displacement and time", parts=list(signal_parts(evidence))),
@@ -41,6 +43,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
         lead=_lead(fit),
         sections=[section for section in sections if section.parts],
         colophon=colophon({**fit, "model": {"name": fit["model"]}}, evidence),
+        summary=("Numbers found", "Dynamic stiffness and loss angle"),
     )
 
 
@@ -74,14 +77,17 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
     found = {
         path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
     }
-    rows = [{"number": path, **_in_rig_units(entry), "remark": remarks.get(path)} for path, entry in found.items()]
+    unknown = {*fit["without_influence"], *(fit.get("identifiability") or {}).get("undetermined", ())}
+    rows = [{"number": path, **_in_rig_units(entry, path not in unknown), "remark": remarks.get(path)}
+            for path, entry in found.items()]  # fmt: skip
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid(title, used or columns[:2], rows, csv_name=file)
 
 
-def _in_rig_units(entry: Json) -> dict[str, Any]:
+def _in_rig_units(entry: Json, known: bool) -> dict[str, Any]:
     factor, unit = rig_unit(entry["unit"], abs(entry["value"]))
-    low, high = entry["interval"] or (None, None)
+    # the interval of a number that the data do not determine is all that was searched
+    low, high = (entry["interval"] if known else None) or (None, None)
     shown = {"value": entry["value"], "low": low, "high": high}
     return {key: None if value is None else value * factor for key, value in shown.items()} | {"unit": unit or None}
 
@@ -92,8 +98,7 @@ def _result(fit: Json, status: str, evidence: Evidence) -> Iterator[Part]:
     floor = floor_value(fit)
     if floor is not None:
         shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {fit['noise_floor']['from']}"))
-    searched = sum(entry["role"] != "fixed" for entry in fit["parameters"].values())
-    yield KeyFigures([*shown, ("numbers found", str(searched), "", f"by {fit['optimizer']}")])
+    yield KeyFigures(shown)
     if status != "ok":
         yield Notice("warning", f"The fit did not come to rest: {status}.")
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
@@ -122,7 +127,9 @@ def _lead(fit: Json) -> str:
     held_out = len(fit["held_out"])
     trained = len(fit["per_run"]) - held_out
     judged = f", judged on {held_out} others" if held_out else ""
-    return f"Identified on {trained} runs{judged}. {floor_origin(fit)}".strip()
+    searched = sum(entry["role"] != "fixed" for entry in fit["parameters"].values())
+    found = f"{searched} numbers identified on {trained} runs by {fit['optimizer']}{judged}."
+    return f"{found} {floor_origin(fit)}".strip()
 
 
 def _judged_on(fit: Json) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from dashpot.report.parts import Column, Grid
@@ -81,6 +82,27 @@ def _is_knot(path: str) -> bool:
 
 def cause_grid(diagnosis: Json) -> Grid:
     """The suspected causes of a `dashpot-diagnosis/1`, ranked, with evidence, expected and realised gain."""
+    return _causes(diagnosis, "Suspected causes", diagnosis["causes"])
+
+
+def named_grid(diagnosis: Json) -> Grid:
+    """The causes that a diagnosis names: those it accepted, and those that cannot be told apart."""
+    return _causes(diagnosis, "Causes", [cause for cause in diagnosis["causes"] if is_named(cause)])
+
+
+def unnamed_grid(diagnosis: Json) -> Grid:
+    """The causes that were suspected and explain less."""
+    causes = [cause for cause in diagnosis["causes"] if not is_named(cause)]
+    return replace(_causes(diagnosis, "Suspected, and less likely than not", causes), folded=True,
+                   csv_name="suspected.csv")  # fmt: skip
+
+
+def is_named(cause: Json) -> bool:
+    """Whether a cause is part of the answer."""
+    return bool(cause.get("accepted") or cause.get("indistinguishable_from"))
+
+
+def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
     columns = [
         Column("rank", "rank", "", 1),
         Column("cause", "cause"),
@@ -92,9 +114,9 @@ def cause_grid(diagnosis: Json) -> Grid:
         Column("parameters", "parameters"),
         Column("confused", "not to be told from"),
     ]
-    rows = [_cause_row(cause, diagnosis) for cause in diagnosis["causes"]]
+    rows = [_cause_row(cause, diagnosis) for cause in causes]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
-    return Grid("Suspected causes", used, rows, csv_name="causes.csv")
+    return Grid(title, used, rows, csv_name="causes.csv")
 
 
 def misfit_grid(diagnosis: Json) -> Grid:
@@ -127,7 +149,7 @@ def limits_grid(limits: Sequence[Json]) -> Grid:
         }
         for limit in limits
     ]
-    return Grid("What would have been found", columns, rows, csv_name="limits.csv")
+    return Grid("What would have been found", columns, rows, csv_name="limits.csv", folded=True)
 
 
 def rejected_grid(rejected: Sequence[Json]) -> Grid:
@@ -147,7 +169,7 @@ def rejected_grid(rejected: Sequence[Json]) -> Grid:
         }
         for item in rejected
     ]
-    return Grid("Tried and rejected", columns, rows, csv_name="rejected.csv")
+    return Grid("Tried and rejected", columns, rows, csv_name="rejected.csv", folded=True)
 
 
 def cause_name(cause: Json) -> str:
@@ -161,11 +183,14 @@ def cause_title(cause: Json) -> str:
 
 
 def parameter_texts(cause: Json) -> list[str]:
-    """Every parameter of the cause with its interval, in rig units where the file says the unit."""
+    """Every parameter of the cause with its interval, in rig units where the file says the unit; curves by name."""
+    found = cause.get("parameters") or {}
+    curves = dict.fromkeys(path.partition("[")[0] for path in found if _is_knot(path))
     return [
         f"{name.replace('_', ' ')} {with_interval(entry['value'], entry.get('interval'), entry.get('unit') or '')}"
-        for name, entry in (cause.get("parameters") or {}).items()
-    ]
+        for name, entry in found.items()
+        if not _is_knot(name)
+    ] + [f"the curve {path.replace('_', ' ')}" for path in curves]
 
 
 def floor_value(result: Json) -> float | None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value
+from dashpot.report.grids import cause_name, cause_title, floor_value, is_named
 from dashpot.report.readable import join, number, percent, quantity, with_interval
 
 Json = Mapping[str, Any]
@@ -17,6 +17,7 @@ RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"
 
 MOST = 0.9  # of an error: no longer only a part of it
 MOST_HIDDEN = 3  # causes told by name
+MOST_WORDS = 25  # of a short headline
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
@@ -50,6 +51,49 @@ def headline(diagnosis: Json) -> str:
     if verdict not in SENTENCES:
         raise ValueError(f"verdict: expected one of {', '.join(SENTENCES)}, got {verdict!r}")
     return SENTENCES[verdict](diagnosis, read_errors(diagnosis))
+
+
+def short_headline(diagnosis: Json) -> str:
+    """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
+    errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
+    named = [cause_title(cause) for cause in diagnosis["causes"] if is_named(cause)]
+    if verdict == "nothing_missing" and errors.before is not None and errors.floor:
+        error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
+        return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
+    start, end = _short_frame(verdict, errors)
+    for count in range(len(named), 0, -1):
+        more = [f"{len(named) - count} more"] if count < len(named) else []
+        told = f"{start}{join([*named[:count], *more])}{end}."
+        if len(told.split()) <= MOST_WORDS:
+            return told
+    return _without_names(verdict, errors, len(named))
+
+
+def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
+    """What stands before and behind the names of causes."""
+    error = _short_error(errors)
+    if verdict == "bad_data":
+        return "The measurement is at fault first; named are ", ""
+    if verdict == "ambiguous":
+        return f"{error}: these data cannot tell apart ", ""
+    share = f"; {percent(errors.gain)} of it is " if errors.gain is not None else ": "
+    left = f"; {quantity(errors.after, 'N')} remain" if verdict == "partly_explained" and errors.after else ""
+    return f"{error}{share}", left
+
+
+def _without_names(verdict: str, errors: Errors, count: int) -> str:
+    if verdict == "bad_data":
+        return "The measurement is at fault first."
+    if verdict == "nothing_missing":
+        return "Nothing is missing: no suspected cause is supported by the data."
+    return f"{_short_error(errors)}: {f'{count} causes are named' if count else 'no known cause fits'}."
+
+
+def _short_error(errors: Errors) -> str:
+    if errors.before is None:
+        return "The error is unknown"
+    floor = f", {number(errors.before / errors.floor, 2)} × the noise floor" if errors.floor else ""
+    return f"{quantity(errors.before, 'N')} of error{floor}"
 
 
 def cause_phrase(cause: Json) -> str:

@@ -32,7 +32,10 @@ class Column:
 
 @dataclass(frozen=True)
 class Grid:
-    """A table; `rows` map column keys to cells (a missing cell or None is shown as a dash)."""
+    """A table; `rows` map column keys to cells (a missing cell or None is shown as a dash).
+
+    What is `folded` is opened by a press on its title; so it is with a figure.
+    """
 
     template: ClassVar[str] = "grid"
 
@@ -41,6 +44,7 @@ class Grid:
     rows: Sequence[Mapping[str, Any]]
     caption: str = ""
     csv_name: str = "table.csv"
+    folded: bool = False
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,7 @@ class Figure:
     caption: str
     plot: Mapping[str, Any]
     columns: Mapping[str, Sequence[Any] | np.ndarray]
+    folded: bool = False
 
 
 @dataclass(frozen=True)
@@ -124,10 +129,14 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """A whole report: the answer first (`headline`, `lead`), then the evidence, at the end where it came from."""
+    """A whole report: the answer first (`headline`, `lead`), then the evidence, at the end where it came from.
+
+    Key figures, notices and the parts whose titles are in the `summary` are what the one page of it shows.
+    """
 
     title: str
     headline: str
     lead: str
     sections: Sequence[Section]
     colophon: Sequence[tuple[str, str]] = field(default=())
+    summary: Sequence[str] = field(default=())

@@ -54,6 +54,20 @@ def add_entry(document: Document, mapping: Node, lines: str) -> str:
     return apply_edits(document.text, [edit(document.text, mapping, lines)])
 
 
+def remove_entry(document: Document, mapping: Mapping, key: str) -> str:
+    """The text of a document without an entry of one of its mappings, and without the comments inside it."""
+    text, start, end = document.text, mapping.keys[key].start, mapping.entries[key].end
+    if is_flow(document, mapping):
+        names = list(mapping.entries)
+        place = names.index(key)
+        if place + 1 < len(names):
+            return apply_edits(text, [Edit(start, mapping.keys[names[place + 1]].start, "")])
+        return apply_edits(text, [Edit(mapping.entries[names[place - 1]].end if place else start, end, "")])
+    column = mapping.keys[key].place.column or 1
+    end = _end_of_entry(text, end, column)
+    return apply_edits(text, [Edit(start - column + 1, min(end + 1, len(text)), "")])
+
+
 def is_flow(document: Document, mapping: Mapping) -> bool:
     """Whether a mapping is written in braces."""
     first = next(iter(mapping.keys.values()), None)
@@ -98,11 +112,16 @@ def _flow_edit(text: str, mapping: Mapping, lines: str) -> Edit:
 
 def _block_edit(text: str, mapping: Mapping, lines: str) -> Edit:
     column = next(iter(mapping.keys.values())).place.column or 1
-    end = end_of_line(text, list(mapping.entries.values())[-1].end)
-    # comments that stand deeper than the keys belong to the last entry
+    end = _end_of_entry(text, list(mapping.entries.values())[-1].end, column)
+    return Edit(end, end, "\n" + indented(lines, column))
+
+
+def _end_of_entry(text: str, end: int, column: int) -> int:
+    # comments that stand deeper than the keys belong to the entry above them
+    end = end_of_line(text, end)
     while text[end + 1 :].startswith(" " * column) and text[end + 1 : end_of_line(text, end + 1)].lstrip()[:1] == "#":
         end = end_of_line(text, end + 1)
-    return Edit(end, end, "\n" + indented(lines, column))
+    return end
 
 
 def end_of_line(text: str, start: int) -> int:

@@ -196,7 +196,11 @@ def pretty(value: float, unit: str, digits: int = 4) -> str:
     if not math.isfinite(value):
         raise ValueError(f"expected a finite number in {unit}, got {value}")
     number, shown = Decimal(repr(float(value))), unit
-    for rig_unit, smallest in _rig_units(unit) if number else ():
+    known = _rig_units(unit)
+    if not number:
+        # nothing has no size: the unit of what is usual
+        return _format(number, digits) + (f" {known[1][0]}" if known else "" if unit == "1" else f" {unit}")
+    for rig_unit, smallest in known:
         candidate = number / _exact_factor(rig_unit, unit)[0]
         if abs(candidate) >= smallest:
             number, shown = candidate, rig_unit

@@ -55,7 +55,7 @@ def test_inside_is_told_nothing_and_outside_each_quantity():
     assert outside(SEEN, SEEN) == []
     faster = {**SEEN, "speed": (0.0, 0.5), "frequency": (0.1, 60.0)}
     assert outside(faster, SEEN) == [
-        "speed 0 m/s to 500 mm/s, identified in 0 m/s to 250 mm/s",
+        "speed 0 mm/s to 500 mm/s, identified in 0 mm/s to 250 mm/s",
         "frequency 0.1 Hz to 60 Hz, identified in 0.1 Hz to 25 Hz",
     ]
     assert [words.split()[0] for words in outside({"amplitude": (1e-4, 1e-4)}, SEEN)] == ["amplitude"]

@@ -18,8 +18,10 @@ from dashpot.model.patch import (
     add_to_branch,
     fill_numbers,
     make_dependent,
+    remove_branch,
     rename,
     replace_branch,
+    set_entry,
 )
 from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import shipped_networks
@@ -284,6 +286,42 @@ def test_a_text_may_end_without_a_line_feed():
 def test_a_second_branch_of_a_name_is_refused():
     with pytest.raises(ValueError, match="'oil' stands there already, in line 4 and below"):
         add_branch(BLOCK, "oil: {element: viscous, damping: 3}")
+
+
+def test_the_first_branch_may_be_added_to_none():
+    text = add_branch(HEAD.rstrip() + "\nmeasurement: {force: {gain: 1.1}}\n", NEW)
+    assert numbers(read(text)) == {"friction.stiffness": 6e4, "friction.limit": 15.0, "measurement.force.gain": 1.1}
+
+
+@pytest.mark.parametrize("text", [BLOCK, FLOW, JSON], ids=["block", "flow", "json"])
+def test_a_branch_that_was_added_can_be_removed(text):
+    between = add_branch(add_branch(text, NEW), NEW.replace("friction", "last", 1))
+    assert comments(remove_branch(remove_branch(between, "friction"), "last")) == comments(text)
+    assert read(remove_branch(between, "friction")) == read(add_branch(text, NEW.replace("friction", "last", 1)))
+    without_first = read(remove_branch(between, "rubber"))
+    assert numbers(without_first) == {path: number for path, number in numbers(read(between)).items()
+                                      if not path.startswith("rubber")}  # fmt: skip
+
+
+def test_comments_of_a_removed_branch_go_and_others_stay():
+    assert comments(remove_branch(BLOCK, "rubber")) == [" from the data sheet"]
+    assert remove_branch(BLOCK, "oil") == BLOCK.partition("  oil:")[0]
+
+
+def test_a_branch_inside_groups_is_removed():
+    text = written("leg: {parallel: {a: {series: {oil: {element: viscous, damping: 3}, k: {element: elastic, "
+                   "stiffness: 5}}}}}")  # fmt: skip
+    assert numbers(read(remove_branch(text, "leg.a.oil"))) == {"leg.a.k.stiffness": 5.0}
+    with pytest.raises(InputError, match="the network has no branch 'leg.b'"):
+        remove_branch(text, "leg.b")
+
+
+@pytest.mark.parametrize("text", [BLOCK, FLOW, JSON], ids=["block", "flow", "json"])
+def test_an_entry_is_set_whether_it_was_there_or_not(text):
+    set_once = set_entry(text, "rubber", "stiffness", "{start: 7 N/mm}")
+    assert numbers(read(set_once)) == numbers(read(text)) | {"rubber.stiffness": 7e3}
+    twice = set_entry(set_once, "rubber", "about", "of the leg")
+    assert numbers(read(twice)) == numbers(read(set_once)) and "of the leg" in twice
 
 
 @pytest.mark.parametrize("lines", ["scale: {deflection: [0 mm, 5 mm], factor: [1.2, 1]}",

@@ -126,6 +126,40 @@ def test_loops_are_drawn_in_millimetres_and_newtons():
     assert np.allclose(measured.y, [5.0, 6.0, 7.0])
 
 
+def test_loops_over_velocity_show_a_damper_as_a_line():
+    time = np.linspace(0.0, 1.0, 501)
+    x, v = 1e-3 * np.sin(20.0 * time), 2e-2 * np.cos(20.0 * time)
+    figure = figures.loops({"a": {"time": time, "displacement": x, "force": 500.0 * v}}, {})
+    over_displacement, over_velocity = plotly_figure(figure).data
+    assert (over_displacement.xaxis, over_velocity.xaxis) == ("x", "x2")
+    assert np.asarray(over_velocity.y) == pytest.approx(500.0 * np.asarray(over_velocity.x), abs=1e-3)
+
+
+def test_branches_are_drawn_beside_the_measured_force():
+    time = np.linspace(0.0, 1.0, 50)
+    measured = {"a": {"time": time, "displacement": time, "force": time},
+                "b": {"time": time, "displacement": np.sin(9.0 * time), "force": 3.0 * time}}  # fmt: skip
+    forces = {"rubber": 90.0 * time, "oil": time, "friction": 0.5 * time}
+    figure = figures.branch_loops(measured, {name: {"a": force, "b": force} for name, force in forces.items()})
+    shown = [trace for trace in figure.plot["data"] if trace["visible"] is True]
+    assert {trace["meta"]["run"] for trace in shown} == {"b"}
+    assert [trace["meta"]["series"] for trace in shown] == ["oil"] * 2 + ["friction"] * 2
+    assert {trace["meta"]["series"] for trace in figure.plot["data"]} == {"measured", *forces}
+
+
+def test_identified_curves_are_drawn_in_rig_units_with_their_bands():
+    curve = {"over": "deflection", "over_unit": "m", "unit": "N/m", "at": np.array([0.0, 2e-3, 4e-3]),
+             "value": np.array([1e5, 2e5, 3e5]), "low": np.array([0.9e5, np.nan, 2.9e5]),
+             "high": np.array([1.1e5, np.nan, 3.1e5])}  # fmt: skip
+    figure = figures.identified_curves({"rubber.stiffness": curve, "oil.scale": {**curve, "unit": "1"}})
+    band, line, _, factor = plotly_figure(figure).data
+    assert list(line.x) == [0.0, 2.0, 4.0] and list(line.y) == [100.0, 200.0, 300.0]
+    assert list(band.x) == [0.0, 4.0, 4.0, 0.0] and list(band.y) == [110.0, 310.0, 290.0, 90.0]
+    assert list(factor.y) == [1e5, 2e5, 3e5]
+    titles = [figure.plot["layout"][key]["title"]["text"] for key in ("xaxis", "yaxis", "yaxis2")]
+    assert titles == ["deflection (mm)", "(N/mm)", "factor"]
+
+
 def test_dynamic_stiffness_is_drawn_in_newtons_a_millimetre_and_degrees():
     figure = every_figure()[1]
     stiffness, angle = plotly_figure(figure).data[:2]
@@ -145,7 +179,10 @@ def test_a_long_run_is_thinned_and_every_point_is_a_sample():
         signals = measured[trace.meta["run"]]
         drawn = np.array(trace.x, dtype=float)
         assert drawn.size <= 2000
-        assert np.isin(np.round(drawn[~np.isnan(drawn)], 9), np.round(1e3 * signals["displacement"], 9)).all()
+        if trace.xaxis == "x":
+            assert np.isin(np.round(drawn[~np.isnan(drawn)], 9), np.round(1e3 * signals["displacement"], 9)).all()
+        if trace.meta["series"] == "measured":
+            assert np.isin(np.array(trace.y)[~np.isnan(drawn)], signals["force"]).all()
 
 
 def test_the_drawn_cycles_reach_from_the_slowest_to_the_fastest():

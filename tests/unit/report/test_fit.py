@@ -35,7 +35,7 @@ def test_every_number_that_was_searched_is_told_in_rig_units():
 
 
 def test_the_lead_counts_the_runs():
-    assert page_of(fit()).lead.startswith("Identified on 2 runs, judged on 1 others.")
+    assert page_of(fit()).lead.startswith("3 numbers identified on 2 runs by swarm, judged on 1 others.")
     assert "judged on" not in page_of(fit(held_out=[])).lead
 
 

@@ -6,7 +6,7 @@ import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
 from dashpot.report.comparison import comparison_headline
-from dashpot.report.headline import headline
+from dashpot.report.headline import SENTENCES, headline, short_headline
 
 
 def test_an_explained_error_is_named_with_its_size():
@@ -14,6 +14,22 @@ def test_an_explained_error_is_named_with_its_size():
         "61.0 N of error is 4.2 × the noise floor (14.5 N); "
         "76 % of it is dry friction of 41 N [38, 44], missing in the model."
     )
+
+
+@pytest.mark.parametrize("verdict", SENTENCES)
+@pytest.mark.parametrize("count", [0, 1, 9])
+def test_a_page_begins_with_25_words_at_most(verdict, count):
+    causes = [friction(title=f"dry friction that depends on the setting number {k}") for k in range(count)]
+    said = short_headline(diagnosis(verdict=verdict, causes=causes))
+    assert 3 < len(said.split()) <= 25 and said.endswith(".")
+
+
+def test_the_short_headline_names_as_many_causes_as_there_is_room_for():
+    assert short_headline(diagnosis()) == "61.0 N of error, 4.2 × the noise floor; 76 % of it is dry friction."
+    many = short_headline(diagnosis(causes=[friction(title=f"cause {k}") for k in range(9)]))
+    assert "cause 0, cause 1" in many and many.endswith("more.") and "cause 8" not in many
+    left = short_headline(diagnosis(verdict="partly_explained"))
+    assert left.endswith("N remain.")
 
 
 def test_several_causes_share_the_gain():

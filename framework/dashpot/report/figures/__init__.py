@@ -10,9 +10,10 @@ from dashpot.report.figures.conditions import over_conditions
 from dashpot.report.figures.contact import contact_response
 from dashpot.report.figures.control import control_chart
 from dashpot.report.figures.convergence import convergence_history
+from dashpot.report.figures.curves import identified_curves
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
-from dashpot.report.figures.loop import loops
+from dashpot.report.figures.loop import branch_loops, loops
 from dashpot.report.figures.misfit import misfit_map
 from dashpot.report.figures.residual_map import residual_map
 from dashpot.report.figures.residuals import residual_traces
@@ -25,6 +26,7 @@ from dashpot.report.figures.stiffness import dynamic_stiffness
 from dashpot.report.figures.velocity import velocity_curves
 
 __all__ = [
+    "branch_loops",
     "cause_map",
     "contact_response",
     "control_chart",
@@ -32,6 +34,7 @@ __all__ = [
     "dynamic_stiffness",
     "gain_intervals",
     "harmonic_bars",
+    "identified_curves",
     "loops",
     "misfit_map",
     "number_over",

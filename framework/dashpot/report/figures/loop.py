@@ -1,4 +1,4 @@
-"""Force over displacement, run by run."""
+"""Force over displacement and velocity, run by run."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from dashpot.data.drive import drive_from_samples
 from dashpot.report.figures import excerpt, toggles
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
@@ -16,7 +17,12 @@ POINTS_PER_TRACE = 2000
 NUMBERS_PER_FIGURE = 100000
 WIDTHS = {"measured": 2.4, "before": 1.8}
 
-X, TIME, MEASURED = "displacement (mm)", "time (s)", "measured (N)"
+X, V, TIME, MEASURED = "displacement (mm)", "velocity (m/s)", "time (s)", "measured (N)"
+PANELS = ((X, "x", "y", [0.0, 0.47]), (V, "x2", "y2", [0.53, 1.0]))  # over what, on which axes, where
+
+STRONG = 5.0  # times the median stroke of the force: a branch beside which others cannot be seen
+
+CYCLES = "Cycles spread over each run. Press a run to add it or take it away; press it twice to see it alone."
 
 
 def loops(
@@ -25,27 +31,49 @@ def loops(
     shown: Sequence[str] = (),
     series: Sequence[str] = (),
 ) -> Figure:
-    """Measured and simulated force over displacement.
+    """Measured and simulated force over displacement, and beside it over velocity.
 
     `measured[run]` holds `time` (n,) s, `displacement` (n,) m and `force` (n,) N; `simulated[label][run]` is a force
     (n,) N, the labels being "before", "after" or names of models. The runs in `shown` are drawn at first; without
     them it is the run with the largest error of the first label drawn. So are the labels in `series`, without them all.
     Long runs are drawn as cycles spread over the run.
     """
-    table = TidyTable("run", TIME, X, MEASURED, *map(_heading, simulated))
-    points = excerpt.affordable(len(measured), 3 + len(simulated), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
+    return _figure("Force over displacement and velocity", CYCLES, measured, simulated, shown, series)
+
+
+def branch_loops(
+    measured: Mapping[str, Mapping[str, np.ndarray]], branches: Mapping[str, Mapping[str, np.ndarray]]
+) -> Figure:
+    """The measured force and that of each branch, `branches[name][run]` (n,) N, over displacement and velocity.
+
+    The fastest run is drawn at first, and of the branches those that are not far stronger than the others.
+    """
+    fastest = max(measured, key=lambda run: float(np.ptp(_velocity(measured[run]))), default="")
+    strokes = {name: float(np.ptp(runs[fastest])) for name, runs in branches.items() if fastest in runs}
+    usual = float(np.median(list(strokes.values()))) if strokes else 0.0
+    series = [name for name, stroke in strokes.items() if stroke <= STRONG * usual]
+    caption = f"What each branch of the model adds to the force; much stronger ones are a press away. {CYCLES}"
+    return _figure("Force of each branch", caption, measured, branches, (fastest,), series, measured_shown=False)
+
+
+def _figure(
+    title: str,
+    caption: str,
+    measured: Mapping[str, Mapping[str, np.ndarray]],
+    simulated: Mapping[str, Mapping[str, np.ndarray]],
+    shown: Sequence[str],
+    series: Sequence[str],
+    measured_shown: bool = True,
+) -> Figure:
+    table = TidyTable("run", TIME, X, V, MEASURED, *map(_heading, simulated))
+    points = excerpt.affordable(len(measured), 4 + len(simulated), POINTS_PER_TRACE, NUMBERS_PER_FIGURE)
     traces = []
     for run, signals in measured.items():
         block = table.add(_block(run, signals, simulated, points))
         traces += _traces(run, block, simulated)
     drawn = {label: runs for label, runs in simulated.items() if toggles.is_shown(label, series)}
-    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, drawn)}, series)
-    return Figure(
-        "Force over displacement",
-        "Cycles spread over each run. Press a run to add it or take it away; press it twice to see it alone.",
-        {"data": toggles.apply(traces, groups), "layout": _layout(groups)},
-        table.columns,
-    )
+    groups = _groups(measured, simulated, set(shown) or {worst_run(measured, drawn)}, series, measured_shown)
+    return Figure(title, caption, {"data": toggles.apply(traces, groups), "layout": _layout(groups)}, table.columns)
 
 
 def worst_run(
@@ -69,9 +97,15 @@ def _block(
         "run": run,
         TIME: _drawn(signals["time"], pieces),
         X: 1e3 * _drawn(signals["displacement"], pieces),
+        V: _drawn(_velocity(signals), pieces),
         MEASURED: _drawn(signals["force"], pieces),
     }
     return block | {_heading(label): _drawn(runs[run], pieces) for label, runs in simulated.items() if run in runs}
+
+
+def _velocity(signals: Mapping[str, np.ndarray]) -> np.ndarray:
+    time = np.asarray(signals["time"], dtype=float)
+    return drive_from_samples(float(time[1] - time[0]), np.asarray(signals["displacement"], dtype=float)).velocity
 
 
 def _drawn(values: np.ndarray, pieces: Sequence[np.ndarray]) -> np.ndarray:
@@ -84,22 +118,26 @@ def _drawn(values: np.ndarray, pieces: Sequence[np.ndarray]) -> np.ndarray:
 def _traces(run: str, block: Mapping[str, Any], simulated: Mapping[str, Any]) -> list[dict[str, Any]]:
     labels = list(simulated)
     drawn = [("measured", MEASURED)] + [(label, _heading(label)) for label in labels if _heading(label) in block]
-    return [_trace(run, label, block, heading, labels) for label, heading in drawn]
+    return [_trace(run, label, block, heading, labels, panel) for label, heading in drawn for panel in PANELS]
 
 
-def _trace(run: str, label: str, block: Mapping[str, Any], heading: str, labels: Sequence[str]) -> dict[str, Any]:
-    name = plain(toggles.series_name(label))
+def _trace(run: str, label: str, block: Mapping[str, Any], heading: str, labels: Sequence[str],
+           panel: tuple[str, str, str, list[float]]) -> dict[str, Any]:  # fmt: skip
+    name, (over, x, y, _) = plain(toggles.series_name(label)), panel
+    unit = over.partition("(")[2].rstrip(")")
     return {
         "type": "scatter",
         "mode": "lines",
         "name": f"{plain(run)}, {name}",
         "text": f"{plain(run)}, {name}",
         "meta": {"run": run, "series": label},
-        "x": block[X],
+        "x": block[over],
         "y": block[heading],
+        "xaxis": x,
+        "yaxis": y,
         "customdata": block[TIME],
         "line": _line(label, labels),
-        "hovertemplate": "%{text}<br>%{x:.3f} mm, %{y:.1f} N<br>at %{customdata:.3f} s<extra></extra>",
+        "hovertemplate": f"%{{text}}<br>%{{x:.3f}} {unit}, %{{y:.1f}} N<br>at %{{customdata:.3f}} s<extra></extra>",
     }
 
 
@@ -108,14 +146,28 @@ def _line(label: str, labels: Sequence[str]) -> dict[str, Any]:
 
 
 def _groups(
-    measured: Mapping[str, Any], simulated: Mapping[str, Any], shown: set[str], series: Sequence[str]
+    measured: Mapping[str, Any],
+    simulated: Mapping[str, Any],
+    shown: set[str],
+    series: Sequence[str],
+    measured_shown: bool,
 ) -> list[dict[str, Any]]:
     runs = [toggles.choice(run, shown=run in shown) for run in measured]
-    return [toggles.series_group(simulated, series=series), toggles.group("run", "Runs", runs)]
+    drawn = toggles.series_group(simulated, series=series)
+    drawn["choices"][0]["shown"] = measured_shown
+    return [drawn, toggles.group("run", "Runs", runs)]
 
 
 def _layout(groups: list[dict[str, Any]]) -> dict[str, Any]:
-    return layout(520, xaxis=axis("displacement (mm)"), yaxis=axis("force (N)"), meta={"toggles": groups})
+    (left, right) = (panel[3] for panel in PANELS)
+    return layout(
+        460,
+        xaxis=axis(X, domain=left),
+        yaxis=axis("force (N)"),
+        xaxis2=axis(V, domain=right, anchor="y2"),
+        yaxis2=axis(anchor="x2", matches="y"),
+        meta={"toggles": groups},
+    )
 
 
 def _heading(label: str) -> str:

@@ -95,8 +95,8 @@ def _layout(runs: int, names: Sequence[str], title: str) -> dict[str, Any]:
     titles = []
     for index, name in enumerate(names):
         row, column = divmod(index, across)
-        left, right = _share(column, across, GAP)
-        top, bottom = (1.0 - edge for edge in _share(row, down, between))
+        left, right = share(column, across, GAP)
+        top, bottom = (1.0 - edge for edge in share(row, down, between))
         axes |= _panel_axes(index, title, (left, right), (bottom, top), first=column == 0)
         titles.append(_title(name, (left + right) / 2.0, top))
     return layout(height * down, **axes, annotations=titles)
@@ -112,7 +112,8 @@ def _panel_axes(
     return {axis_number("x", index, "axis"): horizontal, axis_number("y", index, "axis"): vertical}
 
 
-def _share(index: int, count: int, gap: float) -> tuple[float, float]:
+def share(index: int, count: int, gap: float) -> tuple[float, float]:
+    """Where the panel number `index` of `count` begins and ends, with a `gap` between two of them, from 0 to 1."""
     width = (1.0 - gap * (count - 1)) / count
     return index * (width + gap), index * (width + gap) + width
 

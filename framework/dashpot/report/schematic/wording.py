@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from dashpot.model.element import Curve
@@ -90,7 +91,13 @@ def _table_lines(sign: str, argument: str, curve: Characteristic, declared: Curv
         yield f"{sign}({argument}) from {curve.data}"
     elif len(curve.values) <= SHORT:
         for at, value in zip(curve.at, curve.values, strict=True):
-            yield equation(f"{sign}({quantity(at, declared.over[1])})", value)
+            yield equation(f"{sign}({_place(at, curve, declared)})", value)
     else:
         yield f"{sign}({argument}): {len(curve.values)} knots"
-        yield f"{argument}: {quantity(curve.at[0], declared.over[1])} … {quantity(curve.at[-1], declared.over[1])}"
+        yield f"{argument}: {_place(curve.at[0], curve, declared)} … {_place(curve.at[-1], curve, declared)}"
+
+
+def _place(at: float, curve: Characteristic, declared: Curve) -> str:
+    """A knot to a thousandth of all of them: one that was measured beside zero stands at zero."""
+    step = 10.0 ** math.floor(math.log10(1e-3 * max(map(abs, curve.at)))) if any(curve.at) else 1.0
+    return quantity(step * round(at / step) + 0.0, declared.over[1])

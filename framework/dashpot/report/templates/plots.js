@@ -2,6 +2,7 @@
 
 // One figure of the report: its plot, the buttons above it, the data below it.
 class ReportFigure {
+  static low = 380; // pixels of a plot on the one page
   static config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "sendDataToCloud"] };
 
   constructor(figure) {
@@ -19,6 +20,7 @@ class ReportFigure {
 
   draw(width = undefined) {
     const layout = { ...colors.resolve(this.layout), autosize: width === undefined, width, uirevision: "kept" };
+    if (document.documentElement.dataset.view === "summary") layout.height = Math.min(layout.height, ReportFigure.low);
     if (this.groups.length) layout.showlegend = false;
     const traces = colors.resolve(this.traces).map((trace) => ({ ...trace, visible: this.isShown(trace) }));
     return Plotly.react(this.plot, traces, layout, ReportFigure.config);
