@@ -39,8 +39,8 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each parameter of each branch along a straight line over each setting, or with a factor at each of its values;
-        a stiffness over it, where the spring has a curve; and a force.
+        """Each parameter of each branch along a straight line over each setting, or with a factor at each of its
+        values; a stiffness over it, where the spring has a curve; and a force.
         """
         for setting in _settings(view):
             numbers = list(numbers_of(network))

@@ -42,8 +42,8 @@ def verb(
     """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
 
     A file with columns of frequency, dynamic stiffness and loss angle (or storage and loss) becomes a table. FILE is a
-    measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses are marked for
-    confirmation, here and in the file. No measured file is changed.
+    measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses are marked
+    for confirmation, here and in the file. No measured file is changed.
 
     \b
     Example:
