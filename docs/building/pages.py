@@ -136,8 +136,8 @@ def documented(name: str, thing: Any) -> Iterator[str]:
     if not inspect.isclass(thing) or (is_dataclass(thing) and not of_notebook):
         yield f"```python\n{called(name, inspect.signature(thing))}\n```"
     yield from docstring(thing.__doc__ or "")
-    if of_notebook:
-        yield written.table(("has", "which is"), list(_members(thing)))
+    if of_notebook and (members := list(_members(thing))):
+        yield written.table(("has", "which is"), members)
 
 
 def _members(thing: type[Any]) -> Iterator[tuple[str, str]]:
