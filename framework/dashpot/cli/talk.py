@@ -28,9 +28,9 @@ class Talk:
 
     def result(self, text: str, content: Mapping[str, Any]) -> None:
         """What the user asked for: text to read or, with ``--json``, the content."""
-        from dashpot.report.json_text import json_text
-
         if self.switches.json:
+            from dashpot.report.json_text import json_text
+
             click.echo(json_text(content), nl=False)
         elif text:
             self.say(text)

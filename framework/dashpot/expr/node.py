@@ -145,7 +145,7 @@ def where(condition: Node, yes: Node | float, no: Node | float) -> Node:
 def compute(operation: str) -> Callable[..., Any]:
     """The numpy function that computes an operation."""
     if operation == "wrightomega":
-        from scipy.special import wrightomega
+        from dashpot.expr.omega import wrightomega
 
         return wrightomega
     return np.where if operation == "where" else getattr(np, operation)

@@ -106,13 +106,16 @@ def _is_felt(change: Array) -> bool:
 
 def _dependencies(table: Array) -> list[frozenset[int]]:
     """Each column that is a sum of multiples of others, with these others."""
-    from scipy.linalg import lstsq, qr
-
     lengths = np.linalg.norm(table, axis=0)
     felt = np.flatnonzero(np.max(np.abs(table), axis=0) > NONE)
     if not felt.size:
         return []
     unit = table[:, felt] / lengths[felt]
+    # no entry of the diagonal below is smaller than the least singular value
+    if np.linalg.svd(unit, compute_uv=False)[-1] > DEPENDENT and felt.size <= table.shape[0]:
+        return []
+    from scipy.linalg import lstsq, qr
+
     triangle, order = qr(unit, mode="r", pivoting=True)
     rank = int(np.sum(np.abs(np.diag(triangle)) > DEPENDENT))
     kept, spare = order[:rank], order[rank:]
