@@ -25,8 +25,11 @@ COLUMNS = (
 
 
 def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None) -> Grid:
-    """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role."""
-    meanings = _meanings(spec)
+    """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role.
+
+    Without remarks a column tells what each parameter means.
+    """
+    meanings = _meanings(spec) if remarks is None else {}
     rows = [
         _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
     ]
