@@ -45,9 +45,10 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
 def _meanings(spec: NetworkSpec) -> dict[str, str]:
     found: dict[str, str] = {}
     for branch in spec.leaves():
-        curves = {key: characteristic.curve for key, characteristic in branch.characteristics().items()}
-        for key, declared in {**branch.element.declares.parameters, **curves}.items():
-            found[f"{branch.numbers}.{key}"] = declared.about
+        parameters = branch.element.declares.parameters
+        found |= {f"{branch.numbers}.{key}": parameter.about for key, parameter in parameters.items()}
+        curves = branch.characteristics()
+        found |= {f"{branch.numbers}.{key}": written.curve.about for key, written in curves.items()}
     return found
 
 
