@@ -49,7 +49,7 @@ class Fit(FitResult):
     """
 
     def table(self) -> Listing:
-        """Every number with its 95 % interval, the bounds of the search, and what is to be said of it."""
+        """Every parameter with its 95 % interval, the bounds of the search, and remarks."""
         remarks = {slot.path: "identified" for slot in self.fitted.slots() if slot.value.searched}
         remarks |= dict.fromkeys(self.at_bound, "identified at the end of its range")
         remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not determined by these data")

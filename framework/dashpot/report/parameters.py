@@ -25,8 +25,11 @@ COLUMNS = (
 
 
 def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None) -> Grid:
-    """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role."""
-    meanings = _meanings(spec)
+    """Every parameter with its interval and its bounds in rig units; ``remarks`` by path take the place of the role.
+
+    Without remarks a column tells what each parameter means.
+    """
+    meanings = _meanings(spec) if remarks is None else {}
     rows = [
         _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
     ]
@@ -42,9 +45,10 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
 def _meanings(spec: NetworkSpec) -> dict[str, str]:
     found: dict[str, str] = {}
     for branch in spec.leaves():
-        curves = {key: characteristic.curve for key, characteristic in branch.characteristics().items()}
-        for key, declared in {**branch.element.declares.parameters, **curves}.items():
-            found[f"{branch.numbers}.{key}"] = declared.about
+        parameters = branch.element.declares.parameters
+        found |= {f"{branch.numbers}.{key}": parameter.about for key, parameter in parameters.items()}
+        curves = branch.characteristics()
+        found |= {f"{branch.numbers}.{key}": written.curve.about for key, written in curves.items()}
     return found
 
 

@@ -99,7 +99,7 @@ def test_a_fit_shows_found_numbers_with_intervals(fit):
     rows = {row["number"]: row for row in fit.table().rows}
     assert rows["rubber.stiffness"]["value"] == pytest.approx(200.0, rel=1e-3)
     assert rows["rubber.stiffness"]["low"] <= rows["rubber.stiffness"]["value"] <= rows["rubber.stiffness"]["high"]
-    assert rows["damping.damping"]["role"] == "found"
+    assert rows["damping.damping"]["role"] == "identified"
     assert "Ended because: converged" in fit._repr_html_()
 
 
@@ -107,7 +107,7 @@ def test_numbers_to_mind_are_remarked(fit):
     from dataclasses import replace
 
     rows = replace(fit, at_bound=("rubber.stiffness",), idle=("damping.damping",)).table().rows
-    assert [row["role"] for row in rows] == ["found at the end of its range", "without influence on these data"]
+    assert [row["role"] for row in rows] == ["identified at the end of its range", "without influence on these data"]
 
 
 def test_a_fitted_model_goes_on(fit, data, tmp_path):
