@@ -9,6 +9,7 @@ from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import find_network, find_used_network, shipped_networks, spec_folder
 from dashpot.model.topology import topology_of
 from dashpot.text.problem import InputError
+from dashpot_specimens.car_laws import Car
 
 
 def test_the_shipped_networks_lie_beside_the_other_specifications():
@@ -99,3 +100,20 @@ def test_the_shipped_car_tires_have_numbers_and_the_structure_of_their_models():
         tire, found = read_network(name, elements), read_network(model, elements)
         assert not tire.data_curves() and not any(slot.value.searched for slot in tire.slots())
         assert [(b.name, b.element.word) for b in tire.leaves()] == [(b.name, b.element.word) for b in found.leaves()]
+
+
+def test_the_axle_with_the_known_shock_absorber_is_axle_model_3_but_for_its_curve():
+    elements = load_registry().elements
+    file = spec_folder() / "studies" / "paper_axle" / "axle_model_3_known_damper.yaml"
+    known, searched = read_network(file, elements), read_network("axle_model_3", elements)
+    assert [(b.name, b.element.word) for b in known.leaves()] == [(b.name, b.element.word) for b in searched.leaves()]
+    free = [{slot.path for slot in spec.slots() if slot.value.searched} for spec in (known, searched)]
+    assert {path.partition("[")[0] for path in free[1] - free[0]} == {"shock_absorber.damping"} and free[0] < free[1]
+
+
+def test_the_known_curve_is_that_of_the_virtual_shock_absorber():
+    file = spec_folder() / "studies" / "paper_axle" / "axle_model_3_known_damper.yaml"
+    curve = read_network(file, load_registry().elements).curves()["shock_absorber.damping"]
+    for velocity, value in zip(curve.at, curve.values, strict=True):
+        slope, knee = Car().rebound if velocity < 0.0 else Car().compression
+        assert value.number == pytest.approx(slope * velocity / (1.0 + abs(velocity) / knee), abs=0.6)

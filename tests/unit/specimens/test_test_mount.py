@@ -7,6 +7,8 @@ import pytest
 from scipy.integrate import solve_ivp
 from seeds import seed_of
 
+import dashpot as dp
+from dashpot.data.dataset import Dataset
 from dashpot_specimens.mount_laws import Mount
 from dashpot_specimens.test_mount import MountOnRig
 from dashpot_specimens.tire_path import STEP, DrivenPath, loops, sweep
@@ -112,3 +114,18 @@ def test_the_dataset_names_every_file_once_and_the_same_seed_gives_the_same_byte
     assert {file.name: file.read_bytes() for file in again.iterdir()} == files
     with pytest.raises(FileExistsError, match=f"seed {seed + 1}, got another dataset"):
         MountOnRig().measure(folder, seed + 1)
+
+
+@pytest.mark.slow
+def test_a_fit_finds_the_fluid_of_the_mount_where_the_network_has_its_laws(folder):
+    measured = dp.load_dataset(folder / "dataset.yaml")
+    names = ("qs", "a03_p3", "a1_p3", "a2_p3")
+    data = Dataset("mount", tuple(run for run in measured.runs if run.name in names))
+    fits = {name: dp.fit(name, data) for name in ("engine_mount", "ubs")}
+    found = {slot.path: slot.value.number for slot in fits["engine_mount"].fitted.slots()}
+    mount = Mount()
+    truth = {"fluid_mass": mount.piston**2 * mount.inertance, "quadratic_damping": mount.piston**3 * mount.turbulence}
+    for key, number in truth.items():
+        assert found[f"fluid.track.{key}"] == pytest.approx(number, rel=0.1)
+    assert found["fluid.decoupler.gap"] == pytest.approx(mount.travel * mount.plate / mount.piston, rel=0.3)
+    assert fits["engine_mount"].errors.all < 0.5 * fits["ubs"].errors.all
