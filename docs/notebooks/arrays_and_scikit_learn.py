@@ -59,7 +59,7 @@ print(zener.text)
 # %%
 fit = dp.fit(zener, data)
 print(fit.summary())
-print("standard errors", dict(zip(fit.free, np.sqrt(np.diag(fit.covariance)).round(6).tolist())))
+print("standard errors", dict(zip(fit.free, np.sqrt(np.diag(fit.covariance)).round(6).tolist(), strict=True)))
 print("rms residual of f9 after its first cycle:", fit.residuals["f9"][111:].std().round(2), "N")
 print("AIC", round(fit.aic), "BIC", round(fit.bic))
 
@@ -83,7 +83,7 @@ from sklearn.model_selection import GridSearchCV, GroupKFold
 
 search = GridSearchCV(dp.Estimator(voigt), {"model": [voigt, zener]}, cv=GroupKFold(4))
 search.fit(data.runs, groups=data.groups)
-for model, score in zip(search.cv_results_["param_model"], search.cv_results_["mean_test_score"]):
+for model, score in zip(search.cv_results_["param_model"], search.cv_results_["mean_test_score"], strict=True):
     print(f"{model.name}: 1 - R^2 = {1.0 - score:.6f}")
 
 # %% [markdown]

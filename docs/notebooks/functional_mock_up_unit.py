@@ -21,7 +21,8 @@ ready = shutil.which("cc") is not None
 files = dp.load_registry().exports["fmu"]().files(mount) if ready else {}
 for name, content in files.items():
     Path(name).write_bytes(content)
-print({name: f"{len(content) / 1e3:.0f} kB" for name, content in files.items()} or "no C compiler here: nothing was built")
+sizes = {name: f"{len(content) / 1e3:.0f} kB" for name, content in files.items()}
+print(sizes or "no C compiler here: nothing was built")
 
 # %% [markdown]
 # ## Run by a simulator
@@ -35,7 +36,7 @@ x, v = 1e-3 * np.sin(turning * time), 1e-3 * turning * np.cos(turning * time)
 if ready:
     import fmpy
 
-    motion = np.array(list(zip(time, x, v)), dtype=[("time", float), ("displacement", float), ("velocity", float)])
+    motion = np.rec.fromarrays([time, x, v], names="time, displacement, velocity")
     run = fmpy.simulate_fmu("mount.fmu", stop_time=time[-1], step_size=1e-3, output_interval=1e-3, input=motion,
                             output=["force"])
     own = dp.simulate(mount, dp.Data.from_arrays(time, x, x, name="sine"))["sine"]
