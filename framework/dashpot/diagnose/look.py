@@ -165,6 +165,7 @@ def look_at(
     if noise is None:
         noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
     grams, samples, squares = _grams(rows, noise, folds)
+    del rows
     exact = beside_base(grams[:, : first + 1 + own.size, : first + 1 + own.size], precision, free)[0]
     grams, errors = with_form_errors(grams, first, layout, model, candidates)
     projected, moves, prior, occam = beside_base(grams, np.concatenate([precision, errors]), free)

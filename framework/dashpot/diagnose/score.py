@@ -76,7 +76,7 @@ class Scores:
         total = self.look.total
         self.scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
         unit = np.outer(self.scale, self.scale)
-        self.grams, self.prior = self.look.grams / unit, self.look.prior / unit
+        self.prior = self.look.prior / unit
         self.gram = total / unit + self.prior
         self.kinds = [term.cause.kind for term in self.look.model.terms]
 
@@ -141,7 +141,7 @@ class Scores:
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
         at, target = self.columns(structure), self.target(structure)
-        left = _left_out(self.grams, self.gram, at, target)
+        left = _left_out(self.look.grams, self.scale, self.gram, at, target)
         rest = target.copy()
         rest[at] -= np.linalg.solve(_steadied(self.gram, at), self.gram[at] @ target)
         unlikely = 0.5 * float(rest @ self.prior @ rest) * self.scale[0] ** 2
@@ -154,7 +154,7 @@ class Scores:
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
         unit = np.outer(scale, scale)
         known = np.diag(np.append(0.0, np.full(scale.size - 1, REACH**-2)))
-        left = _left_out(self.look.exact / unit, (total + known) / unit, alive, np.eye(scale.size)[0])
+        left = _left_out(self.look.exact, scale, (total + known) / unit, alive, np.eye(scale.size)[0])
         squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
         return 0.5 * self.look.samples * np.log(squares)
 
@@ -181,13 +181,13 @@ class Scores:
         return np.inf if found is None or nats is None else float(nats.sum()) + found[1] + self.price(structure)
 
 
-def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
+def _left_out(grams: Array, scale: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
     """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
 
     ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand.
     """
-    inner = grams[:, at[:, None], at]
-    bent = grams @ target
+    inner = grams[:, at[:, None], at] / np.outer(scale[at], scale[at])
+    bent = grams @ (target / scale) / scale
     cross, square = bent[:, at], bent @ target
     whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
