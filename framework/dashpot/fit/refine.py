@@ -156,14 +156,17 @@ def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
 
 
 def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
-    """The least of s.matrix.s/2 - right.s within its limits, directions without influence left as they are."""
+    """The least of s.matrix.s/2 - right.s within its limits, and of several such steps nearly the shortest."""
     from scipy.optimize import lsq_linear
 
     values, vectors = np.linalg.eigh(matrix)
-    felt = values > NOT_FELT * values[-1]
-    roots, across = np.sqrt(values[felt]), vectors.T[felt]
+    least = NOT_FELT * values.max(initial=0.0)
+    if least == 0.0:
+        return np.zeros(right.size)
+    roots = np.sqrt(np.maximum(values, least))
+    aim = np.where(values > least, vectors.T @ right / roots, 0.0)
     wide = np.maximum(high, np.nextafter(low, np.inf))
-    found = lsq_linear(roots[:, None] * across, across @ right / roots, (low, wide), "bvls", max_iter=10 * low.size)
+    found = lsq_linear(roots[:, None] * vectors.T, aim, (low, wide), "bvls", max_iter=10 * low.size)
     return np.clip(found.x, low, high)
 
 
