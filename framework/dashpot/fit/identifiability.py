@@ -22,6 +22,7 @@ NOTHING = 3.0  # standard deviation from which nothing is known but what other n
 FELT = 1e-9
 SMALLEST = 1e-7  # of the longest axis of the Jacobian: what is shorter is not told from nothing
 SHARE = 0.35  # of the largest part of a direction, from which a part is named
+WEAKER = 0.05  # the same for two branches that do the same: in logarithms the stronger one changes less
 NAMED, SHOWN = 4, 6
 
 
@@ -43,7 +44,11 @@ class Direction:
     @property
     def named(self) -> list[str]:
         """The parameters that have a part in it worth naming."""
-        return [path for path, share in self.parts if abs(share) >= SHARE * abs(self.parts[0][1])]
+        return self.above(SHARE)
+
+    def above(self, least: float) -> list[str]:
+        """The parameters whose part is at least this share of the largest one."""
+        return [path for path, share in self.parts if abs(share) >= least * abs(self.parts[0][1])]
 
     @property
     def words(self) -> str:
@@ -139,7 +144,7 @@ def may_go(spec: NetworkSpec, known: Identifiability) -> list[str]:
     laws = {branch.name: branch.element.word for branch in spec.leaves()}
     found = [f"{name} has no influence on these data and may go"
              for name, paths in searched.items() if name in laws and set(paths) <= set(known.idle)]  # fmt: skip
-    lost = dict.fromkeys(tuple(sorted(set(map(_branch_of, each.named)))) for each in known.loose if each.lost)
+    lost = dict.fromkeys(tuple(sorted(set(map(_branch_of, each.above(WEAKER))))) for each in known.loose if each.lost)
     alike = [pair for pair in lost if len({laws.get(name, name) for name in pair}) == 1]
     twins = [" and ".join(pair) for pair in alike if len(pair) == 2]
     return found + [f"{pair} do the same to these data: one of them may go" for pair in twins]

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 STEP = 1e-5
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
+NOT_FELT = 1e-12  # of the largest eigenvalue
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
 
 
@@ -143,7 +144,7 @@ def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, poin
     tries = np.repeat(point[None], len(DAMPINGS), axis=0)
     for each, damping in zip(tries, DAMPINGS * slack, strict=True):
         damped = matrix + damping * np.eye(free.sum())
-        each[free] += _least_within(damped, downhill[free] / scale, low, high) / scale * coordinates.unit[free]
+        each[free] += least_within(damped, downhill[free] / scale, low, high) / scale * coordinates.unit[free]
     return coordinates.allowed(tries, np.where(free, np.diag(normal), 0.0))
 
 
@@ -154,18 +155,19 @@ def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
     return np.maximum(low, -stride), np.minimum(high, stride)
 
 
-def _least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
-    """The solution of the normal equations; what would leave its limits is held there, the rest solved for anew."""
-    step, free = np.zeros(right.size), np.ones(right.size, dtype=bool)
-    while free.any():
-        rest = right[free] - matrix[np.ix_(free, ~free)] @ step[~free]
-        step[free] = np.linalg.lstsq(matrix[np.ix_(free, free)], rest, rcond=1e-12)[0]
-        outside = free & ((step < low) | (step > high))
-        if not outside.any():
-            break
-        step = np.clip(step, low, high)
-        free &= ~outside
-    return step
+def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
+    """The least of s.matrix.s/2 - right.s within its limits, and of several such steps nearly the shortest."""
+    from scipy.optimize import lsq_linear
+
+    values, vectors = np.linalg.eigh(matrix)
+    least = NOT_FELT * values.max(initial=0.0)
+    if least == 0.0:
+        return np.zeros(right.size)
+    roots = np.sqrt(np.maximum(values, least))
+    aim = np.where(values > least, vectors.T @ right / roots, 0.0)
+    wide = np.maximum(high, np.nextafter(low, np.inf))
+    found = lsq_linear(roots[:, None] * vectors.T, aim, (low, wide), "bvls", max_iter=10 * low.size)
+    return np.clip(found.x, low, high)
 
 
 def _strides(move: Array, coordinates: Coordinates) -> bool:
