@@ -39,10 +39,11 @@ FORMAT = "dashpot-import/1"
 def verb(
     files: tuple[Path, ...], output: Path | None, sampling: str | None, reader: str | None, switches: Switches
 ) -> None:
-    """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
+    """Write a first dataset over measured files.
 
-    FILE is a measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses
-    are marked for confirmation, here and in the file. No measured file is changed.
+    It holds channels, units, clock, kinds of runs and repeats. FILE is a measured file or a folder of them. Nothing is
+    asked: names, units and values are evaluated, and guesses are marked for confirmation, here and in the file. No
+    measured file is changed.
 
     \b
     Example:
