@@ -36,11 +36,11 @@ FILES = ("campaign.json", "campaign.html", "specimens.csv", "population.csv", "s
 def verb(
     campaign: str, scheduler: str | None, dry_run: bool, parquet: bool, output: Path | None, switches: Switches
 ) -> None:
-    """Fit, compare or diagnose many specimens, and evaluate them as a population.
+    """Evaluate many specimens as a population.
 
-    CAMPAIGN is a file. Without --scheduler jobs run one after the other in this process. After an interruption the
-    same command goes on where it stopped, and the results are the same to the last byte; a job that failed is set aside
-    with its message and tried again by the same command.
+    Each is fitted, compared or diagnosed by itself. CAMPAIGN is a file. Without --scheduler jobs run one after the
+    other in this process. After an interruption the same command goes on where it stopped, and the results are the same
+    to the last byte; a job that failed is set aside with its message and tried again by the same command.
 
     \b
     Example:

@@ -29,9 +29,10 @@ if TYPE_CHECKING:
 )
 @switches("json", "quiet", "allow_outside")
 def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> int:
-    """Report every mistake and every weakness of network files, each as file:line:column with what to do.
+    """Report mistakes of networks and datasets.
 
-    Of a dataset, all faults of its file and its measurements, such as runs that generate energy.
+    Every mistake and every weakness of a network file stands as file:line:column with what to do. Of a dataset, all
+    faults of its file and its measurements, such as runs that generate energy.
 
     With --against the networks are compared by their structure, whatever names their parts have; where the structure is
     the same, by their parameters.

@@ -25,10 +25,10 @@ def verb(
     settings: tuple[str, ...],
     switches: Switches,
 ) -> None:
-    """Fit several networks to the same measurements and compare their errors.
+    """Compare several networks on one dataset.
 
-    Each MODEL is a network file or a shipped name. Errors are given on the runs that were fitted and on the runs held
-    out, next to the noise floor.
+    All are fitted to the same runs. Each MODEL is a network file or a shipped name. Errors are given on the runs that
+    were fitted and on the runs held out, next to the noise floor.
 
     \b
     Example:

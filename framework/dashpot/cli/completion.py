@@ -12,7 +12,9 @@ VARIABLE = "_DASHPOT_COMPLETE"
 @click.command("completion")
 @click.argument("shell", type=click.Choice(SHELLS))
 def verb(shell: str) -> None:
-    """Print what makes a shell complete verbs, options, networks, optimizers, rigs, their options and files.
+    """Print the completion script of a shell.
+
+    With it the shell completes verbs, options, networks, optimizers, rigs, their options and files.
 
     In bash and zsh put this line into ~/.bashrc or ~/.zshrc, in fish write the text into
     ~/.config/fish/completions/dashpot.fish; then open a new terminal.

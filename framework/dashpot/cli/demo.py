@@ -31,9 +31,10 @@ if TYPE_CHECKING:
 @output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
 @switches("seed", "jobs", "json", "quiet", "force", "backend")
 def verb(specimen: str | None, output: Path, switches: Switches) -> None:
-    """Measure a virtual specimen, compare the shipped networks on it, and diagnose the simplest one.
+    """Measure, compare and diagnose on a virtual rig.
 
-    The specimen is a program of its own with more effects than any network.
+    The shipped networks are compared on a virtual specimen, and the simplest one is diagnosed. The specimen is a
+    program of its own with more effects than any network.
 
     \b
     Example:

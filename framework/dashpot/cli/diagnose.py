@@ -29,10 +29,10 @@ def verb(
     relevance: float,
     switches: Switches,
 ) -> None:
-    """Diagnose the residual of a network: name the causes, extend the network and measure the gain.
+    """Diagnose the residual of a network.
 
-    MODEL is a network file or a shipped name. The gain is measured on held-out runs. That nothing is missing, or that
-    no known cause fits, are ordinary answers.
+    Causes are named, the network is extended, and the gain is measured. MODEL is a network file or a shipped name. The
+    gain is measured on held-out runs. That nothing is missing, or that no known cause fits, are ordinary answers.
 
     \b
     Example:

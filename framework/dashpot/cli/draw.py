@@ -23,9 +23,10 @@ WRITTEN = (".svg", ".txt")
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @switches("json", "quiet", "force")
 def verb(model: str, output: Path | None, plain: bool, switches: Switches) -> None:
-    """Draw the schematic of a network: springs, dashpots, sliders, masses, names and values.
+    """Draw the schematic of a network.
 
-    MODEL is a network file or a shipped name. Where the terminal knows ASCII only, the drawing does without more.
+    It shows springs, dashpots, sliders, masses, names and values. MODEL is a network file or a shipped name. Where the
+    terminal knows ASCII only, the drawing does without more.
 
     \b
     Example:

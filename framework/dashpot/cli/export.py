@@ -22,9 +22,10 @@ from dashpot.text.problem import nearest
 @output_option("A folder.")
 @switches("json", "quiet", "force", "backend")
 def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
-    """Write a network for another program, with the parameters of its file.
+    """Write a network for another program.
 
-    MODEL is a network file or a shipped name. What a target cannot express is refused before anything is written.
+    Its parameters are those of the file. MODEL is a network file or a shipped name. What a target cannot express is
+    refused before anything is written.
 
     \b
     Example:

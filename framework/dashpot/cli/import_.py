@@ -39,11 +39,12 @@ FORMAT = "dashpot-import/1"
 def verb(
     files: tuple[Path, ...], output: Path | None, sampling: str | None, reader: str | None, switches: Switches
 ) -> None:
-    """Write a first dataset over measured files: channels, units, clock, kinds of runs, repeats.
+    """Write a first dataset over measured files.
 
-    A file with columns of frequency, dynamic stiffness and loss angle (or storage and loss) becomes a table. FILE is a
-    measured file or a folder of them. Nothing is asked: names, units and values are evaluated, and guesses are marked
-    for confirmation, here and in the file. No measured file is changed.
+    It holds channels, units, clock, kinds of runs and repeats; a file with columns of frequency, dynamic stiffness and
+    loss angle (or storage and loss) becomes a table. FILE is a measured file or a folder of them. Nothing is asked:
+    names, units and values are evaluated, and guesses are marked for confirmation, here and in the file. No measured
+    file is changed.
 
     \b
     Example:

@@ -68,10 +68,11 @@ class NetworkEntry(Entry):
                 shell_complete=lambda _, __, typed: beginning((*KINDS, *ALSO), typed))  # fmt: skip
 @switches("json")
 def verb(kind: str | None, switches: Switches) -> None:
-    """List what is installed: each thing with the distribution and the plugin that brought it.
+    """List what is installed.
 
-    KIND is elements, networks (or models), optimizers, causes, formats, specimens, rigs, studies, exports, metrics
-    or plugins; without it, everything is listed. `dashpot show MODEL` tells more of a network.
+    Each thing stands with the distribution and the plugin that brought it. KIND is elements, networks (or models),
+    optimizers, causes, formats, specimens, rigs, studies, exports, metrics or plugins; without it, everything is
+    listed. `dashpot show MODEL` tells more of a network.
 
     \b
     Example:

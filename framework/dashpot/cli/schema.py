@@ -26,10 +26,11 @@ Schemas = dict[str, Callable[["Registry"], dict[str, Any]]]
 @output_option("A folder for KIND.schema.json; without it standard output.", required=False)
 @switches("quiet", "force")
 def verb(kind: str | None, every: bool, output: Path | None, switches: Switches) -> None:
-    """Print the JSON schema of a kind of YAML file, so that an editor completes and checks it.
+    """Print the JSON schema of a kind of file.
 
-    KIND is network, dataset, rig, study or campaign. The schema knows the elements, rigs, optimizers and formats that
-    are installed. Editors with the yaml-language-server use it where the first line of a file says:
+    With it an editor completes and checks YAML files. KIND is network, dataset, rig, study or campaign. The schema
+    knows the elements, rigs, optimizers and formats that are installed. Editors with the yaml-language-server use it
+    where the first line of a file says:
 
     \b
       # yaml-language-server: $schema=schemas/network.schema.json

@@ -17,7 +17,9 @@ from dashpot.model.network import NetworkSpec, Slot
 @click.argument("model", shell_complete=complete.networks)
 @switches("json", "quiet")
 def verb(model: str, switches: Switches) -> None:
-    """Show a network: what it is for, its schematic, its parameters with ranges and units, and its source.
+    """Show a network with its parameters.
+
+    Shown are what it is for, its source, its schematic, and its parameters with meaning, range and unit.
 
     MODEL is a network file or a shipped name. `dashpot draw` writes the schematic as a picture.
 

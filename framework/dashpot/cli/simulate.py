@@ -57,13 +57,14 @@ def verb(
     output: Path,
     switches: Switches,
 ) -> None:
-    """Simulate a network along measured motions, or measure it on a virtual test rig.
+    """Simulate a network along runs or on a rig.
 
-    MODEL is a network file or a shipped name. With DATASET the folder gets a CSV file for every run with time,
-    displacement and the simulated force in SI units; an .npz file holds the force of each run under the run's name.
-    With --rig it becomes a dataset, with the noise of the rig, that every verb reads. With --energy the work of the rig
-    is balanced with the energy stored and dissipated. With --table the folder gets the dynamic stiffness of the network
-    at the rows of the tables of the dataset, beside the measured one.
+    The motions are those of a dataset, or those of a virtual test rig. MODEL is a network file or a shipped name. With
+    DATASET the folder gets a CSV file for every run with time, displacement and the simulated force in SI units; an
+    .npz file holds the force of each run under the run's name. With --rig it becomes a dataset, with the noise of the
+    rig, that every verb reads. With --energy the work of the rig is balanced with the energy stored and dissipated.
+    With --table the folder gets the dynamic stiffness of the network at the rows of the tables of the dataset, beside
+    the measured one.
 
     \b
     Example:

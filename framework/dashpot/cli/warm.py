@@ -13,9 +13,10 @@ from dashpot.cli.switches import Switches, switches
 @click.argument("models", nargs=-1, metavar="[MODEL]...", shell_complete=complete.networks)
 @switches("json", "quiet")
 def verb(models: tuple[str, ...], switches: Switches) -> None:
-    """Compile networks now, so that the first simulation or fit with them starts at once.
+    """Compile networks ahead.
 
-    Without MODEL all shipped ones. What is compiled already is left as it is.
+    The first simulation or fit with them then starts at once. Without MODEL all shipped ones. What is compiled already
+    is left as it is.
 
     \b
     Example:

@@ -16,6 +16,7 @@ def test_help_names_every_verb(call):
     code, out, _ = call("--help")
     assert code == 0
     assert all(f"\n  {verb} " in out for verb in VERBS)
+    assert "..." not in out.partition("Commands:")[2]  # no summary is cut
 
 
 @pytest.mark.parametrize("verb", VERBS)

@@ -338,7 +338,7 @@ def test_the_text_tells_what_to_confirm(tmp_path):
     )
     assert "displacement: {column: x, unit: mm}   # CONFIRM: the unit, which is not stated" in text
     assert "# - CONFIRM the force is taken to be in N: no unit is stated (a)" in text
-    assert "time: {column: t, unit: s}   # CONFIRM: as told above" in text
+    assert "time: {column: t, unit: s}   # CONFIRM: see above" in text
     assert "settings: {amplitude: 1 mm, preload: 10 mm, start: " in text
 
 
