@@ -140,7 +140,7 @@ def test_the_one_page_shows_the_answer_and_its_figures_alone(reports, browser):
 
 
 def test_what_is_folded_is_drawn_in_full_width_when_it_is_opened(visit):
-    page = visit("comparison").page
+    page = visit("diagnosis").page
     folded = page.locator("details.folded", has_text="Convergence of the fits")
     assert not folded.locator(".main-svg").first.is_visible()
     folded.locator("summary").first.click()
@@ -151,22 +151,22 @@ def test_what_is_folded_is_drawn_in_full_width_when_it_is_opened(visit):
 def test_pressing_a_run_adds_it_and_pressing_twice_shows_it_alone(visit):
     opened = visit("diagnosis")
     title = "Force over displacement and velocity"
-    assert opened.lines(title) == 3
+    assert opened.lines(title) == 2 * 3  # over displacement and over velocity
     opened.button(title, "a1_p20").click()
-    assert opened.lines(title) == 6
+    assert opened.lines(title) == 2 * 6
     opened.button(title, "a2_p30").dblclick()
-    assert opened.lines(title) == 3
+    assert opened.lines(title) == 2 * 3  # over displacement and over velocity
     assert opened.button(title, "a2_p30").get_attribute("aria-pressed") == "true"
     assert opened.button(title, "a1_p20").get_attribute("aria-pressed") == "false"
     opened.button(title, "all").click()
-    assert opened.lines(title) == 36
+    assert opened.lines(title) == 2 * 36
     assert opened.complaints == []
 
 
 def test_a_simulation_can_be_taken_out_of_all_runs(visit):
     opened = visit("diagnosis")
     opened.button("Force over displacement and velocity", "simulated before").click()
-    assert opened.lines("Force over displacement and velocity") == 2
+    assert opened.lines("Force over displacement and velocity") == 2 * 2
 
 
 def test_the_pointer_shows_values_with_units(visit):
