@@ -242,10 +242,10 @@ def test_the_data_of_a_figure_are_beside_it_and_can_be_saved(visit):
     name, text = saved(opened, figure.get_by_role("button", name="CSV").click)
     header, *rows = csv.reader(io.StringIO(text, newline=""))
     assert name == "force_over_displacement_and_velocity.csv"
-    assert header[:4] == ["run", "time (s)", "displacement (mm)", "measured (N)"]
+    assert header[:5] == ["run", "time (s)", "displacement (mm)", "velocity (m/s)", "measured (N)"]
     measured = {run: dict(zip(*(signals[k] for k in ("time", "force")), strict=True)) for run, signals in forces()}
     assert len(rows) > 5000 and {row[0] for row in rows} == measured.keys()
-    for run, time, _, force, *_ in rows[::500]:
+    for run, time, _, _, force, *_ in rows[::500]:
         assert float(force) == pytest.approx(measured[run][float(time)], rel=1e-5)
     assert opened.complaints == []
 
