@@ -140,7 +140,7 @@ def test_the_one_page_shows_the_answer_and_its_figures_alone(reports, browser):
 
 
 def test_what_is_folded_is_drawn_in_full_width_when_it_is_opened(visit):
-    page = visit("comparison").page
+    page = visit("diagnosis").page
     folded = page.locator("details.folded", has_text="Convergence of the fits")
     assert not folded.locator(".main-svg").first.is_visible()
     folded.locator("summary").first.click()
@@ -151,22 +151,22 @@ def test_what_is_folded_is_drawn_in_full_width_when_it_is_opened(visit):
 def test_pressing_a_run_adds_it_and_pressing_twice_shows_it_alone(visit):
     opened = visit("diagnosis")
     title = "Force over displacement and velocity"
-    assert opened.lines(title) == 3
+    assert opened.lines(title) == 2 * 3  # over displacement and over velocity
     opened.button(title, "a1_p20").click()
-    assert opened.lines(title) == 6
+    assert opened.lines(title) == 2 * 6
     opened.button(title, "a2_p30").dblclick()
-    assert opened.lines(title) == 3
+    assert opened.lines(title) == 2 * 3  # over displacement and over velocity
     assert opened.button(title, "a2_p30").get_attribute("aria-pressed") == "true"
     assert opened.button(title, "a1_p20").get_attribute("aria-pressed") == "false"
     opened.button(title, "all").click()
-    assert opened.lines(title) == 36
+    assert opened.lines(title) == 2 * 36
     assert opened.complaints == []
 
 
 def test_a_simulation_can_be_taken_out_of_all_runs(visit):
     opened = visit("diagnosis")
     opened.button("Force over displacement and velocity", "simulated before").click()
-    assert opened.lines("Force over displacement and velocity") == 2
+    assert opened.lines("Force over displacement and velocity") == 2 * 2
 
 
 def test_the_pointer_shows_values_with_units(visit):
@@ -241,11 +241,11 @@ def test_the_data_of_a_figure_are_beside_it_and_can_be_saved(visit):
     assert figure.locator("details tr").count() == 201
     name, text = saved(opened, figure.get_by_role("button", name="CSV").click)
     header, *rows = csv.reader(io.StringIO(text, newline=""))
-    assert name == "force_over_displacement.csv"
-    assert header[:4] == ["run", "time (s)", "displacement (mm)", "measured (N)"]
+    assert name == "force_over_displacement_and_velocity.csv"
+    assert header[:5] == ["run", "time (s)", "displacement (mm)", "velocity (m/s)", "measured (N)"]
     measured = {run: dict(zip(*(signals[k] for k in ("time", "force")), strict=True)) for run, signals in forces()}
     assert len(rows) > 5000 and {row[0] for row in rows} == measured.keys()
-    for run, time, _, force, *_ in rows[::500]:
+    for run, time, _, _, force, *_ in rows[::500]:
         assert float(force) == pytest.approx(measured[run][float(time)], rel=1e-5)
     assert opened.complaints == []
 
