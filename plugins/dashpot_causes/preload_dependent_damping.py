@@ -89,7 +89,11 @@ def _suspect(
     def columns(view: View, run: str) -> Array:
         return hats(knots, view.displacement(run)) * force(view, run)
 
-    return Suspect(form, knots, columns, extend, joint=True, sign=sign, unknowns=unknowns,
+    def extended(text: str, atoms: Sequence[Atom]) -> str:
+        strengths = dict.fromkeys(knots, 0.0) | {knot: strength for strength, knot in atoms}
+        return extend(text, [(strength, knot) for knot, strength in strengths.items()])
+
+    return Suspect(form, knots, columns, extended, joint=True, sign=sign, unknowns=unknowns,
                    quantity=strength[0], unit=strength[1], admits=admits, of_motion=of_motion)  # fmt: skip
 
 

@@ -77,3 +77,13 @@ def test_damping_of_one_sign_only_where_no_dashpot_can_give_way():
     spring = NETWORK.replace(f"  damping: {{element: damper, damping: {DAMPING:g} N*s/m}}\n", "")
     assert suspects(NETWORK)["4 knots"].sign == 0
     assert suspects(spring)["4 knots"].sign == 1
+
+
+def test_a_single_knot_is_written_as_a_curve_through_all():
+    """Strengths of one sign may leave one knot only: at the others there is next to nothing."""
+    suspect = suspects(NETWORK)["relaxation with 4 knots"]
+    extended = parse_network(suspect.extend(NETWORK, [(5e4, suspect.grid[2])]), REGISTRY.elements)
+    (scale,) = [branch.scale for branch in extended.leaves() if branch.scale]
+    assert scale.at == pytest.approx(suspect.grid)
+    factors = [value.number for value in scale.values]
+    assert factors[2] == 1.0 and max(np.delete(factors, 2)) < 0.1
