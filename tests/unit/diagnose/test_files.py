@@ -80,8 +80,8 @@ def diagnosed(data, folder):
     return folder / "out"
 
 
-def errors(network, data, folder, aside=()):
-    """RMSE of training runs and of held-out runs by `dashpot simulate` and the forces as they are read.
+def errors(network, data, folder, held_out, aside=()):
+    """RMSE of training runs and of ``held_out`` runs by `dashpot simulate` and the forces as they are read.
 
     Without the runs that were set ``aside``.
     """
@@ -91,7 +91,7 @@ def errors(network, data, folder, aside=()):
     for run in (run for run in runs if run.name not in aside):
         force = np.genfromtxt(folder / f"{run.name}.csv", delimiter=",", skip_header=2)[:, 2]
         first = int(round(WARM_UP * SAMPLES))
-        found[bool(run.held_out)].append(np.mean((run.force - force)[first:] ** 2))
+        found[run.name in held_out].append(np.mean((run.force - force)[first:] ** 2))
     return {"train": np.sqrt(np.mean(found[False])), "held_out": np.sqrt(np.mean(found[True]))}
 
 
@@ -103,8 +103,9 @@ def assert_files_hold(words, tmp_path):
     assert corrected.exists()
     kept = read_dataset(corrected, {word: reader() for word, reader in load_registry().formats.items()}).runs
     aside = {fault["run"] for fault in told["faults"]} - {run.name for run in kept}
-    before = errors(out / told["fitted_model"], plain_data, tmp_path / "before", aside)
-    after = errors(out / (told["extended_model"] or told["fitted_model"]), corrected, tmp_path / "after")
+    before = errors(out / told["fitted_model"], plain_data, tmp_path / "before", told["held_out"], aside)
+    final = out / (told["extended_model"] or told["fitted_model"])
+    after = errors(final, corrected, tmp_path / "after", told["held_out"])
     for found, said in ((before, told["rmse"]["before"]), (after, told["rmse"]["after"])):
         assert found == pytest.approx(said, rel=1e-6)
     return told
