@@ -130,12 +130,11 @@ def look_at(
     else:
         candidates, unavailable = renumbered(known, causes), ()
     bends = bends_of_tables(runs, view, model.fitted)
-    bent = len(next(iter(bends.values())))
     own, base = _own_and_base(model)
     forces = refitter.term_forces(model) if causes else []
     layout = Layout(own.size, len(forces), candidates[-1].columns.stop if candidates else 0)
     inner = inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None
-    faults, free = [doubt.fault for doubt in doubted], base.size + bent
+    faults, free = [doubt.fault for doubt in doubted], base.size + len(next(iter(bends.values())))
     precision = _known_beforehand(free, doubted, len(runs))
     first = precision.size  # columns in front, which are projected out
     each = (first - free) // len(runs)
