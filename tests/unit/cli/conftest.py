@@ -79,6 +79,8 @@ class FakeResult:
         "spring", Group("", "parallel", ()), document=Document.parse("a: 1")
     )
     fits = ()
+    dataset = SimpleNamespace(runs=())
+    setting = SimpleNamespace(dataset=dataset)
 
     def as_dict(self) -> dict:
         """The smallest content that satisfies both pages."""

@@ -64,6 +64,6 @@ def test_a_simulation_beyond_the_range_of_identification_is_warned_of(seen, file
     out, err = capsys.readouterr()
     told = json.loads(out)["outside_of_identification"]
     assert set(told) == ({"quasi_static"} if seen else set())
-    assert ("identified in 0 m/s to 0.1 mm/s" in err) is bool(seen)
+    assert ("identified in 0 mm/s to 0.1 mm/s" in err) is bool(seen)
     assert main(["simulate", "mount.yaml", "--data", "out", "-o", "again"]) == 0
-    assert ("identified in 0 m/s to 0.1 mm/s" in capsys.readouterr().err) is bool(seen)
+    assert ("identified in 0 mm/s to 0.1 mm/s" in capsys.readouterr().err) is bool(seen)

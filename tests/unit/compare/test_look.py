@@ -81,7 +81,7 @@ def test_look_json_is_plain_and_the_same_twice():
 def test_every_picture_is_drawn():
     titles = [figure.title for figure in look_figures(look(with_repeat()).evidence())]
     assert titles == [
-        "Force over displacement",
+        "Force over displacement and velocity",
         "Force over velocity",
         "Force over velocity at mid stroke",
         "Force over deflection at low speed",

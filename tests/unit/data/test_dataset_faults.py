@@ -338,7 +338,7 @@ def test_when_no_run_is_left_everything_is_told(folder):
     [
         ("nothing", "there is no such file or folder. check the name"),
         ("god.npz", "there is no such file or folder. did you mean 'good.npz'?"),
-        ("good.npz", "nothing says what this file holds. write 'good.npz.yaml' beside it"),
+        ("good.npz", "or write 'good.npz.yaml' yourself"),
         ("empty", "the folder holds no dataset.yaml"),
         ("none.yaml", "there is no such file"),
     ],

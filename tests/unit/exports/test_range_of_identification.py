@@ -77,7 +77,7 @@ def test_each_quantity_raises_its_flag(program, motion, flag):
 
 def test_the_head_tells_the_range_and_where_the_numbers_came_from(program):
     head = (program / "mount.h").read_text()
-    assert "data 0123456789abcdef" in head and "speed 0 m/s to 300 mm/s" in head and "frequency 1 Hz to 15 Hz" in head
+    assert "data 0123456789abcdef" in head and "speed 0 mm/s to 300 mm/s" in head and "frequency 1 Hz to 15 Hz" in head
 
 
 def test_without_a_range_there_is_no_flag():

@@ -85,8 +85,8 @@ def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told(
     best = answered(content)["masses"][0]["model"]
     told = [part.text for section in study_page(answered(content), comparison_evidence()).sections
             for part in section.parts if isinstance(part, Notice)]  # fmt: skip
-    assert sum(text.startswith("wheel: ") and f"from {best}, which errs least" in text for text in told) == 1
-    assert sum("other structures say" in text for text in told) == 1
+    assert sum(text.startswith("wheel: ") and f"from {best}, which has the lowest RMSE" in text for text in told) == 1
+    assert sum("other structures give" in text for text in told) == 1
 
 
 def test_the_headline_of_a_study_of_masses_is_the_mass_with_its_interval():
