@@ -66,5 +66,5 @@ def test_a_choice_of_slots():
 
 
 def test_a_number_without_bounds_is_refused():
-    with pytest.raises(ValueError, match="expected bounds for every searched number, got none for it.damping"):
+    with pytest.raises(ValueError, match="expected bounds for every searched parameter, got none for it.damping"):
         search_coordinates(network("it: {element: damper, damping: {start: 5}}"))
