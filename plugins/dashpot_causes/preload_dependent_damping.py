@@ -13,6 +13,7 @@ from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, fre
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch, add_to_branch, branch_names
 from dashpot.text.quantity import pretty
+from dashpot_causes.factors import SMALLEST_FACTOR, at_all_places, factors_of
 from dashpot_causes.stiffness_curve import hats
 
 Array = NDArray[np.float64]
@@ -20,7 +21,6 @@ UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 KNOTS = 4
 TIMES = 5
 SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
-SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 BOUNDS = "bounds: [0.02, 50]"
 CHANGES = 0.9  # least over largest factor of a branch of its own: what changes by less does not depend on preload
 
@@ -90,8 +90,7 @@ def _suspect(
         return hats(knots, view.displacement(run)) * force(view, run)
 
     def extended(text: str, atoms: Sequence[Atom]) -> str:
-        strengths = dict.fromkeys(knots, 0.0) | {knot: strength for strength, knot in atoms}
-        return extend(text, [(strength, knot) for knot, strength in strengths.items()])
+        return extend(text, at_all_places(knots, atoms))
 
     return Suspect(form, knots, columns, extended, joint=True, sign=sign, unknowns=unknowns,
                    quantity=strength[0], unit=strength[1], admits=admits, of_motion=of_motion)  # fmt: skip
@@ -136,10 +135,7 @@ class _OnBranch:
     def __call__(self, text: str, atoms: Sequence[Atom]) -> str:
         if self.branch not in branch_names(text):
             return self.instead(text, atoms)
-        strengths = np.array([strength for strength, _ in atoms])
-        # the knot that changes least keeps the factor one, so that the damping found before is a good start
-        reference = int(np.argmin(np.abs(strengths)))
-        factors = np.clip(1.0 + strengths / self.unit, SMALLEST_FACTOR, LARGEST_FACTOR)
+        factors, reference = factors_of([strength for strength, _ in atoms], self.unit)
         return add_to_branch(text, self.branch, "\n".join(_scale_lines(atoms, factors, reference)))
 
 

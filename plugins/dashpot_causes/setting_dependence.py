@@ -13,6 +13,7 @@ from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
+from dashpot_causes.factors import at_all_places, factors_of
 from dashpot_causes.session import ORDER
 
 Array = NDArray[np.float64]
@@ -22,7 +23,6 @@ MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
 MOST_PLACES = 5  # of a table
-SMALLEST_FACTOR, LARGEST_FACTOR = 0.05, 20.0
 
 
 class SettingDependence(Cause):
@@ -161,7 +161,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
 
 
 def tabulated(setting: Setting, number: Number) -> Suspect:
-    """A number with a factor at each place of a table over the setting."""
+    """A parameter with a factor at each place of a table over the setting."""
     places = setting.places
 
     def columns(view: View, run: str) -> Array:
@@ -169,10 +169,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         return shares[:, None] * number.column(view, run)
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
-        changes = dict.fromkeys(places, 0.0) | {place: strength for strength, place in atoms}
-        # the place that changes least keeps the factor one, so that the number found before is a good start
-        reference = int(np.argmin(np.abs(list(changes.values()))))
-        factors = np.clip(1.0 + np.array(list(changes.values())), SMALLEST_FACTOR, LARGEST_FACTOR)
+        factors, reference = factors_of([strength for strength, _ in at_all_places(places, atoms)])
         return make_dependent(text, number.branch.name, number.key, setting.table(factors.tolist(), reference))
 
     return Suspect(f"{number.branch.name}.{number.key} in a table over {setting.name}", places, columns, extend,

@@ -34,6 +34,25 @@ def coloured_noise(rng: np.random.Generator, size: int, level: float) -> np.ndar
     return level * np.sqrt(0.5) * (white + lfilter([1.0], [1.0, -0.9], driven))
 
 
+def is_measured(folder: Path, head: str, what: str) -> bool:
+    """Whether the dataset of this head is in a folder already. FileExistsError where it holds another dataset."""
+    target = folder / "dataset.yaml"
+    if target.exists() and not target.read_text(encoding="utf-8").startswith(head):
+        raise FileExistsError(f"{target}: expected {what}, got another dataset; use an empty folder")
+    return target.exists()
+
+
+def sweep_name(amplitude: float, preload: float) -> str:
+    """What a sweep of an amplitude and a preload, in m, is called."""
+    return f"a{amplitude * 1e3:g}_p{preload * 1e3:g}".replace(".", "")
+
+
+def sweep_settings(amplitude: float, preload: float, start: float, stop: float) -> str:
+    """The settings of a sweep, lengths in m and frequencies in Hz, as its line in the dataset has them."""
+    lengths = f"amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm"
+    return f"{{{lengths}, start: {start:g} Hz, stop: {stop:g} Hz}}"
+
+
 def write_records(folder: Path, head: str, records: list[Record]) -> Path:
     """Write all files, dataset.yaml last; returns its path."""
     folder.mkdir(parents=True, exist_ok=True)

@@ -57,25 +57,21 @@ class TireOnRig(Specimen):
 
         Raises FileExistsError where the folder holds a dataset of something else.
         """
-        target = folder / "dataset.yaml"
+        from dashpot_specimens.rig_log import is_measured
+
         head = HEAD.format(seed=seed)
-        if not target.exists():
-            return _measure(folder, head, seed)
-        if not target.read_text(encoding="utf-8").startswith(head):
-            raise FileExistsError(
-                f"{target}: expected the test tire of seed {seed}, got another dataset; use an empty folder"
-            )
-        return target
+        known = is_measured(folder, head, f"the test tire of seed {seed}")
+        return folder / "dataset.yaml" if known else _measure(folder, head, seed)
 
 
 def _measure(folder: Path, head: str, seed: int) -> Path:
     import numpy as np
 
-    from dashpot_specimens.rig_log import write_records
+    from dashpot_specimens.rig_log import sweep_name, write_records
 
     rng = np.random.default_rng(seed)
-    plans = [(_name(*at), *at, "") for at in product(AMPLITUDES, PRELOADS)]
-    repeats = [(f"{_name(*at)}_b", *at, f", repeats: {_name(*at)}") for at in REPEATED]
+    plans = [(sweep_name(*at), *at, "") for at in product(AMPLITUDES, PRELOADS)]
+    repeats = [(f"{sweep_name(*at)}_b", *at, f", repeats: {sweep_name(*at)}") for at in REPEATED]
     return write_records(folder, head, [_loops(rng), *(_sweep(rng, *plan) for plan in plans + repeats)])
 
 
@@ -88,10 +84,10 @@ def _loops(rng: Generator) -> Record:
 
 def _sweep(rng: Generator, name: str, amplitude: float, preload: float, repeats: str) -> Record:
     from dashpot_specimens import tire_path
+    from dashpot_specimens.rig_log import sweep_settings
 
     path = tire_path.sweep(amplitude, preload, START, STOP, SWEEP_DURATION)
-    lengths = f"amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm"
-    settings = f"{{{lengths}, start: {START:g} Hz, stop: {STOP:g} Hz}}"
+    settings = sweep_settings(amplitude, preload, START, STOP)
     if name == AS_CSV:
         entry = f"  - name: {name}\n    file: {name}.csv\n    kind: sweep\n    settings: {settings}{CSV_CHANNELS}"
         return _record(rng, path, 8, f"{name}.csv", entry)
@@ -110,7 +106,3 @@ def _record(rng: Generator, path: DrivenPath, every: int, file: str, entry: str)
     force = Tire().force(path)[::every]
     displacement, force = add_noise(rng, path.deflection[::every], force)
     return Record(file, entry, np.arange(force.size) * every * STEP, displacement, force)
-
-
-def _name(amplitude: float, preload: float) -> str:
-    return f"a{amplitude * 1e3:g}_p{preload * 1e3:g}".replace(".", "")
