@@ -146,7 +146,8 @@ class Cause(ABC):
     other words to the measurement that tells the two apart; one that no plugin provides is a rival. ``cure`` says what
     to do about the measurement, where it is to blame; ``evidence_of`` says what has to show that it is: ``phase`` that
     its numbers are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
-    sheet of the channel names it. ``faults`` are the kinds of faults found by triage that the cause stands for.
+    sheet of the channel admits it, under the key that is the ``quantity`` of its suspects and the last word of its
+    path. ``faults`` are the kinds of faults found by triage that the cause stands for.
 
     Examples:
         >>> class MissingBumper(dp.Cause):

@@ -153,9 +153,11 @@ def _numbers(model: Model) -> Mapping[str, float]:
     return {slot.path: slot.value.number for slot in model.fitted.slots()}
 
 
-def stands_in_the_data_sheet(refitter: Refitter, scores: Scores, number: int) -> bool:
-    """Whether the data sheet of the force channel names what the term is about."""
-    return scores.look.model.terms[number].suspect.quantity in refitter.sheet
+def is_within_the_data_sheet(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether the data sheet of the force channel admits what was found."""
+    model = scores.look.model
+    quantity = model.terms[number].suspect.quantity
+    return model.numbers_of(number)[quantity] <= refitter.sheet[quantity]
 
 
 def told(term: Term) -> str:
@@ -167,10 +169,10 @@ Test = Callable[[Refitter, Scores, int], bool]
 TESTS: Mapping[str, Test] = {
     "phase": same_in_all_runs,
     "range": ends_at_one_value,
-    "data_sheet": stands_in_the_data_sheet,
+    "data_sheet": is_within_the_data_sheet,
 }
 WORDS = {
     "phase": "it is the same in every run, at every amplitude, preload and speed",
     "range": "the force ends at one value, excursion after excursion",
-    "data_sheet": "the data sheet of the channel names it",
+    "data_sheet": "it is within the data sheet of the channel",
 }

@@ -53,9 +53,12 @@ class Refitter:
         return natural_sizes(self.runs)
 
     @cached_property
-    def sheet(self) -> frozenset[str]:
-        """What the data sheets of the force channel name."""
-        return frozenset(quantity for sheet in self.sensors.values() for quantity in sheet)
+    def sheet(self) -> dict[str, float]:
+        """What the data sheets of the force channel admit at most in any run, in SI, by quantity."""
+        found: dict[str, float] = {}
+        for quantity, most in (entry for sheet in self.sensors.values() for entry in sheet.items()):
+            found[quantity] = max(most, found.get(quantity, most))
+        return found
 
     def refit(self, model: Model, terms: Sequence[Term], noise: Noise, change: Array | None = None) -> Model:
         """A model with other terms, all numbers fitted.

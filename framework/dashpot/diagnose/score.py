@@ -184,11 +184,12 @@ class Scores:
 def _left_out(grams: Array, scale: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
     """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
 
-    ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand.
+    ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand; it and the
+    ``target`` (c,) are of columns divided by their ``scale`` (c,), ``grams`` of the columns as they are.
     """
     inner = grams[:, at[:, None], at] / np.outer(scale[at], scale[at])
-    bent = grams @ (target / scale) / scale
-    cross, square = bent[:, at], bent @ target
+    against = grams @ (target / scale) / scale
+    cross, square = against[:, at], against @ target
     whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)

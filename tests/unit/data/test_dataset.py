@@ -141,9 +141,10 @@ def test_settings_are_si_and_words_are_notes(tmp_path):
 
 def test_sensors_are_inherited_and_si(tmp_path):
     write_run(tmp_path, "a.npz")
-    head = HEAD + "sensors:\n  force: {gain: 0.2 %, zero: 3 N, delay: 50 us, noise: 0.005 kN}\n"
+    head = HEAD + "sensors:\n  force: {gain: 0.2 %, zero: 3 N, delay: 50 us, noise: 0.005 kN, compliance: 2 nm/N}\n"
     run = read(tmp_path, "- {file: a.npz, sensors: {force: {noise: 6 N}, displacement: {zero: 1 um}}}", head).run("a")
-    assert run.sensors["force"] == pytest.approx({"gain": 0.002, "zero": 3.0, "delay": 50e-6, "noise": 6.0})
+    expected = {"gain": 0.002, "zero": 3.0, "delay": 50e-6, "noise": 6.0, "compliance": 2e-9}
+    assert run.sensors["force"] == pytest.approx(expected)
     assert run.sensors["displacement"] == {"zero": 1e-6}
 
 

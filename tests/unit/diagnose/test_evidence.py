@@ -1,8 +1,12 @@
 """Evidence against the rig: what a fault of the measurement does and no law of a specimen."""
 
+from dataclasses import replace
+from types import MappingProxyType
+
 import numpy as np
 import pytest
-from unit.diagnose.rig import TIME, bench, causes, dataset, friction, plain
+from scipy.signal import lfilter
+from unit.diagnose.rig import STIFFNESS, TIME, bench, causes, dataset, friction, plain
 
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
@@ -11,18 +15,24 @@ from dashpot.diagnose.pursue import terms_of
 from dashpot.diagnose.score import Added, Scores, Structure
 
 
-def proven(data, word):
+def refitter_of(made, sheet):
+    """The refitter of a bench whose force channel has a data sheet."""
+    return replace(made.refitter, sensors={run.name: sheet for run in made.refitter.runs})
+
+
+def proven(data, word, sheet=MappingProxyType({})):
     """Whether the best form of a cause, refitted beside the network, has its evidence."""
     made = bench(data)
-    folds, chosen = folds_of(made.refitter.runs, made.groups), causes(word)
-    look = look_at(made.refitter, made.model, chosen, folds)
+    refitter = refitter_of(made, sheet)
+    folds, chosen = folds_of(refitter.runs, made.groups), causes(word)
+    look = look_at(refitter, made.model, chosen, folds)
     scores = Scores(look)
     places = [(k, place) for k, one in enumerate(look.candidates) for place in range(len(one.suspect.grid))]
     structures = [Structure(added=frozenset({Added(k, (place,))})) for k, place in places]
     best = min(structures, key=scores.score)
-    model = made.refitter.refit(look.model, terms_of(scores, best), look.noise, scores.moves(best))
-    seen = Scores(look_at(made.refitter, model, chosen, folds, look.noise))
-    return is_determined(seen, 0) and has_evidence(made.refitter, seen, 0)
+    model = refitter.refit(look.model, terms_of(scores, best), look.noise, scores.moves(best))
+    seen = Scores(look_at(refitter, model, chosen, folds, look.noise))
+    return is_determined(seen, 0) and has_evidence(refitter, seen, 0)
 
 
 def rubbing(motion):
@@ -53,3 +63,23 @@ def test_dry_friction_behind_a_spring_is_no_delay():
     """Its force lags behind the velocity alike in all runs, and no phase of a spring is there to prove a delay."""
     assert not proven(dataset(late(rubbing, 1.2e-3)), "delay")
 
+
+def soft_fixture(motion, compliance=1e-6, damping=4e3):
+    """Spring and dashpot behind a fixture of 1 kN/mm (n,) N: F + T dF/dt = (k x + d v) / (1 + k c)."""
+    fine = np.linspace(0.0, TIME[-1], 10 * (TIME.size - 1) + 1)
+    share = 1.0 / (1.0 + STIFFNESS * compliance)
+    driven = share * (STIFFNESS * motion.x(fine) + damping * motion.v(fine))
+    kept = np.exp(-(fine[1] - fine[0]) / (damping * compliance * share))
+    middle = 0.5 * (driven[1:] + driven[:-1])
+    return np.append(driven[0], lfilter([1.0 - kept], [1.0, -kept], middle, zi=[kept * driven[0]])[0])[::10]
+
+
+@pytest.mark.parametrize("most, admitted", [(2e-6, True), (0.2e-6, False)])
+def test_a_fixture_gives_way_within_the_data_sheet(most, admitted):
+    assert proven(dataset(soft_fixture), "fixture_compliance", {"compliance": most}) is admitted
+
+
+def test_without_a_data_sheet_no_fixture_is_suspected():
+    made = bench(dataset(soft_fixture))
+    folds = folds_of(made.refitter.runs, made.groups)
+    assert look_at(made.refitter, made.model, causes("fixture_compliance"), folds).candidates == ()
