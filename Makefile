@@ -13,7 +13,7 @@ demo: $(VENV)/installed
 	$(BIN)/dashpot demo --output $(REPORTS) --force
 
 test: $(VENV)/installed-for-tests
-	$(BIN)/ruff check .
+	$(BIN)/ruff check . && $(BIN)/ruff format --check .
 	$(BIN)/python -m pytest -m "not slow and not real" --numprocesses auto --dist worksteal
 
 types: $(VENV)/installed-for-tests

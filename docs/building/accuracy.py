@@ -56,11 +56,17 @@ def _kept(name: str, found: Mapping[str, Any]) -> Iterator[str]:
     yield written.table(
         ("seed", "model that was diagnosed", "hidden", "effect over noise", "verdict", "named"),
         [
-            (str(case["seed"]), f"`{case['base']}`", _words(case["hidden"]) or "nothing", f"{case['strength']:.2g}",
-             case["verdict"].replace("_", " "), _words(case["named"]) or "nothing")
+            (
+                str(case["seed"]),
+                f"`{case['base']}`",
+                _words(case["hidden"]) or "nothing",
+                f"{case['strength']:.2g}",
+                case["verdict"].replace("_", " "),
+                _words(case["named"]) or "nothing",
+            )
             for case in found["outcomes"]
         ],
-    )  # fmt: skip
+    )
 
 
 BLIND_KINDS = {

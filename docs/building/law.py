@@ -61,9 +61,15 @@ def evaluate(term: Term, names: Mapping[str, Any]) -> Any:
 
 
 OPERATIONS: Mapping[str, Callable[..., Any]] = {
-    "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": np.power, "abs": np.abs,
-    "minus": np.negative, "group": lambda value: value,
-}  # fmt: skip
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "^": np.power,
+    "abs": np.abs,
+    "minus": np.negative,
+    "group": lambda value: value,
+}
 
 
 def mathml(term: Term, symbols: Mapping[str, str]) -> str:

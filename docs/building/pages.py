@@ -219,12 +219,19 @@ def _weighed(version: str, found: Mapping[str, Any]) -> Iterator[str]:
     yield written.table(
         ("car", "top mount (N/mm)", "true (kg)", "found (kg)", "95 % interval (kg)", "off (%)", "error (N)", "model"),
         [
-            (str(car["number"]), f"{1e-3 * car['mount']:.0f}" if car["mount"] else "none", f"{car['truth']:.3f}",
-             f"{car['value']:.3f}", f"{car['interval'][0]:.3f} to {car['interval'][1]:.3f}", f"{each:+.2f}",
-             f"{car['error']:.2f}", f"`{car['model']}`")
+            (
+                str(car["number"]),
+                f"{1e-3 * car['mount']:.0f}" if car["mount"] else "none",
+                f"{car['truth']:.3f}",
+                f"{car['value']:.3f}",
+                f"{car['interval'][0]:.3f} to {car['interval'][1]:.3f}",
+                f"{each:+.2f}",
+                f"{car['error']:.2f}",
+                f"`{car['model']}`",
+            )
             for car, each in zip(cars, off, strict=True)
         ],
-    )  # fmt: skip
+    )
 
 
 def _section(title: str, text: str, write: Callable[[], Iterator[str]]) -> Callable[[], Iterator[str]]:
@@ -240,30 +247,52 @@ def _section(title: str, text: str, write: Callable[[], Iterator[str]]) -> Calla
 PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
     "elements": elements,
     "networks": networks,
-    "causes": _section("Causes", "What a diagnosis can name. A plugin adds "
-                       "[causes of its own](../how-to/own-cause.md).", written.causes),
-    "optimizers": _section("Optimizers", "`--optimizer WORD`, options as `--set OPTION=VALUE`; in Python "
-                           "`dp.fit(..., optimizer=..., options=...)`. A plugin adds "
-                           "[methods of its own](../how-to/own-optimizer.md).", written.optimizers),
-    "formats": _section("File formats", "The ending of a file's name chooses the reader; `reader: WORD` under a run "
-                        "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).", written.formats),
-    "rigs": _section("Rigs", "`dashpot simulate MODEL --rig WORD` or `dp.measure(model, \"WORD\", ...)`.",
-                     written.rigs),
-    "exports": _section("Exports", "`dashpot export MODEL --to WORD -o OUT`: a network [in other "
-                        "programs](../how-to/use-elsewhere.md).", written.exports),
-    "metrics": _section("Metrics", "Figures for which a test is made. Comparisons, studies and looks contain "
-                        "them, and virtual measurements, for every run that is such a test; "
-                        "[inspection tests](../how-to/inspection-tests.md) shows two.", written.metrics),
-    "specimens": _section("Specimens", "Virtual specimens: programs that stand for a part on a rig.",
-                          written.specimens),
-    "modules": _section("Modules", "Every module of the framework, with the first sentence of its docstring; "
-                        "[the inside](../explanation/inside.md) tells how they work together.", written.modules),
+    "causes": _section(
+        "Causes",
+        "What a diagnosis can name. A plugin adds [causes of its own](../how-to/own-cause.md).",
+        written.causes,
+    ),
+    "optimizers": _section(
+        "Optimizers",
+        "`--optimizer WORD`, options as `--set OPTION=VALUE`; in Python "
+        "`dp.fit(..., optimizer=..., options=...)`. A plugin adds "
+        "[methods of its own](../how-to/own-optimizer.md).",
+        written.optimizers,
+    ),
+    "formats": _section(
+        "File formats",
+        "The ending of a file's name chooses the reader; `reader: WORD` under a run "
+        "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).",
+        written.formats,
+    ),
+    "rigs": _section("Rigs", '`dashpot simulate MODEL --rig WORD` or `dp.measure(model, "WORD", ...)`.', written.rigs),
+    "exports": _section(
+        "Exports",
+        "`dashpot export MODEL --to WORD -o OUT`: a network [in other programs](../how-to/use-elsewhere.md).",
+        written.exports,
+    ),
+    "metrics": _section(
+        "Metrics",
+        "Figures for which a test is made. Comparisons, studies and looks contain "
+        "them, and virtual measurements, for every run that is such a test; "
+        "[inspection tests](../how-to/inspection-tests.md) shows two.",
+        written.metrics,
+    ),
+    "specimens": _section(
+        "Specimens", "Virtual specimens: programs that stand for a part on a rig.", written.specimens
+    ),
+    "modules": _section(
+        "Modules",
+        "Every module of the framework, with the first sentence of its docstring; "
+        "[the inside](../explanation/inside.md) tells how they work together.",
+        written.modules,
+    ),
     "commands": commands,
     "python": python,
     "accuracy": accuracy,
     "masses": masses,
     "benchmarks": benchmarks,
-}  # fmt: skip
+}
 
 
 def write_pages(folder: Path) -> None:

@@ -23,11 +23,17 @@ for frequency in (1.0, 4.0, 9.0, 16.0):
         turning = 2.0 * np.pi * frequency
         stiffness = 200.0 + 60.0 * 0.02j * turning / (1.0 + 0.02j * turning)  # N/mm
         force = (stiffness * np.exp(1j * turning * time)).imag + 2.0 * rng.normal(size=time.size)
-        parts.append(dp.Data.from_arrays(
-            time, np.sin(turning * time), force, units={"displacement": "mm"},
-            name=f"f{frequency:g}" + ("_again" if repeats else ""), repeats=repeats,
-            settings={"amplitude": "1 mm", "frequency": frequency},
-        ))
+        parts.append(
+            dp.Data.from_arrays(
+                time,
+                np.sin(turning * time),
+                force,
+                units={"displacement": "mm"},
+                name=f"f{frequency:g}" + ("_again" if repeats else ""),
+                repeats=repeats,
+                settings={"amplitude": "1 mm", "frequency": frequency},
+            )
+        )
 data = dp.Data.join(parts, "bush")
 data
 
@@ -36,8 +42,10 @@ data
 # each run as arrays.
 
 # %%
-{name: f"{np.mean(found.magnitude) / 1e3:.1f} N/mm, {np.degrees(np.mean(found.loss_angle)):.2f} deg"
- for name, found in data.dynamic_stiffness().items()}
+{
+    name: f"{np.mean(found.magnitude) / 1e3:.1f} N/mm, {np.degrees(np.mean(found.loss_angle)):.2f} deg"
+    for name, found in data.dynamic_stiffness().items()
+}
 
 # %% [markdown]
 # ## A network as an object

@@ -25,15 +25,26 @@ time = np.arange(0.0, 4.0, 1e-3)
 def platforms(name, side, frequency):
     left = 3e-3 * np.sin(2.0 * np.pi * frequency * time) * np.minimum(time, 1.0)
     unknown = np.sin(time)  # no force was measured: it is what is computed
-    return dp.Data.from_arrays(time, channels={
-        "displacement@platform_left": left, "displacement@platform_right": side * left,
-        "force@platform_left": unknown, "force@platform_right": unknown,
-    }, name=name, kind="harmonic", settings={"added_mass": 0.0})
+    return dp.Data.from_arrays(
+        time,
+        channels={
+            "displacement@platform_left": left,
+            "displacement@platform_right": side * left,
+            "force@platform_left": unknown,
+            "force@platform_right": unknown,
+        },
+        name=name,
+        kind="harmonic",
+        settings={"added_mass": 0.0},
+    )
 
 
 frequencies = (4.0, 8.0, 11.0, 14.0, 18.0)
-runs = [platforms(f"{word}_{frequency:g}", side, frequency) for word, side in (("phase", 1.0), ("against", -1.0))
-        for frequency in frequencies]
+runs = [
+    platforms(f"{word}_{frequency:g}", side, frequency)
+    for word, side in (("phase", 1.0), ("against", -1.0))
+    for frequency in frequencies
+]
 forces = dp.simulate(axle, dp.Data.join(runs, "platforms"))
 
 # %% [markdown]

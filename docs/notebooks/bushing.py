@@ -14,11 +14,14 @@ from pathlib import Path
 
 import dashpot as dp
 
-truth = dp.Network("rubber", {
-    "elastic": {"element": "spring", "stiffness": "300 N/mm"},
-    "relaxation": {"element": "maxwell", "stiffness": "80 N/mm", "relaxation_time": "15 ms"},
-    "filler": {"element": "dahl", "stiffness": "250 N/mm", "limit": "25 N"},
-})
+truth = dp.Network(
+    "rubber",
+    {
+        "elastic": {"element": "spring", "stiffness": "300 N/mm"},
+        "relaxation": {"element": "maxwell", "stiffness": "80 N/mm", "relaxation_time": "15 ms"},
+        "filler": {"element": "dahl", "stiffness": "250 N/mm", "limit": "25 N"},
+    },
+)
 Path("bench.yaml").write_text("""
 format: dashpot-rig/1
 name: bench

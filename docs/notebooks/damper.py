@@ -7,10 +7,13 @@
 # %%
 import dashpot as dp
 
-truth = dp.Network("damper", {
-    "gas": {"element": "spring", "stiffness": "3 N/mm"},
-    "valves": {"element": "asymmetric_damper", "compression": "0.8 N*s/mm", "rebound": "2.4 N*s/mm"},
-})
+truth = dp.Network(
+    "damper",
+    {
+        "gas": {"element": "spring", "stiffness": "3 N/mm"},
+        "valves": {"element": "asymmetric_damper", "compression": "0.8 N*s/mm", "rebound": "2.4 N*s/mm"},
+    },
+)
 truth
 
 # %% [markdown]
@@ -30,8 +33,16 @@ for amplitude in (10.0, 25.0):
         name = f"a{amplitude:g}_f{frequency:g}".replace(".", "p")
         motion = dp.Data.from_arrays(time, x, x, name=name, kind="harmonic")  # its force is not known yet
         force = dp.simulate(truth, motion)[name] + 10.0 * rng.normal(size=time.size)
-        parts.append(dp.Data.from_arrays(time, x, force, name=name, kind="harmonic",
-                                         settings={"amplitude": 1e-3 * amplitude, "frequency": frequency}))
+        parts.append(
+            dp.Data.from_arrays(
+                time,
+                x,
+                force,
+                name=name,
+                kind="harmonic",
+                settings={"amplitude": 1e-3 * amplitude, "frequency": frequency},
+            )
+        )
 data = dp.Data.join(parts, "damper bench")
 data.plot("loops")
 
@@ -39,10 +50,13 @@ data.plot("loops")
 # ## A straight damper
 
 # %%
-straight = dp.Network("straight", {
-    "gas": {"element": "spring", "stiffness": {"start": "2 N/mm"}},
-    "oil": {"element": "damper", "damping": {"start": "1 N*s/mm"}},
-})
+straight = dp.Network(
+    "straight",
+    {
+        "gas": {"element": "spring", "stiffness": {"start": "2 N/mm"}},
+        "oil": {"element": "damper", "damping": {"start": "1 N*s/mm"}},
+    },
+)
 diagnosis = dp.diagnose(straight, data)
 diagnosis
 

@@ -12,11 +12,14 @@ import numpy as np
 
 import dashpot as dp
 
-mount = dp.Network("mount", {
-    "rubber": {"element": "spring", "stiffness": "220 N/mm"},
-    "relaxation": {"element": "maxwell", "stiffness": "60 N/mm", "relaxation_time": "20 ms"},
-    "friction": {"element": "dahl", "stiffness": "400 N/mm", "limit": "20 N"},
-})
+mount = dp.Network(
+    "mount",
+    {
+        "rubber": {"element": "spring", "stiffness": "220 N/mm"},
+        "relaxation": {"element": "maxwell", "stiffness": "60 N/mm", "relaxation_time": "20 ms"},
+        "friction": {"element": "dahl", "stiffness": "400 N/mm", "limit": "20 N"},
+    },
+)
 ready = shutil.which("cc") is not None
 files = dp.load_registry().exports["fmu"]().files(mount) if ready else {}
 for name, content in files.items():
@@ -37,9 +40,10 @@ if ready:
     import fmpy
 
     motion = np.rec.fromarrays([time, x, v], names="time, displacement, velocity")
-    run = fmpy.simulate_fmu("mount.fmu", stop_time=time[-1], step_size=1e-3, output_interval=1e-3, input=motion,
-                            output=["force"])
+    run = fmpy.simulate_fmu(
+        "mount.fmu", stop_time=time[-1], step_size=1e-3, output_interval=1e-3, input=motion, output=["force"]
+    )
     own = dp.simulate(mount, dp.Data.from_arrays(time, x, x, name="sine"))["sine"]
     # what is handed to a step is the motion at its end: the simulator hands it over one step later
-    off = run["force"][1:len(own)] - own[:len(run["force"]) - 1]
+    off = run["force"][1 : len(own)] - own[: len(run["force"]) - 1]
     print(f"force up to {np.abs(own).max():.1f} N, the unit differs by {np.abs(off[2:]).max():.2g} N")

@@ -9,12 +9,20 @@ import numpy as np
 
 import dashpot as dp
 
-mount = dp.Network("hydromount", {
-    "rubber": {"element": "spring", "stiffness": "180 N/mm"},
-    "loss": {"element": "damper", "damping": "0.15 N*s/mm"},
-    "track": {"element": "hydro", "fluid_mass": "35 kg", "stiffness": "160 N/mm", "damping": "0.8 N*s/mm",
-              "quadratic_damping": "200 kN*s^2/m^2"},
-})
+mount = dp.Network(
+    "hydromount",
+    {
+        "rubber": {"element": "spring", "stiffness": "180 N/mm"},
+        "loss": {"element": "damper", "damping": "0.15 N*s/mm"},
+        "track": {
+            "element": "hydro",
+            "fluid_mass": "35 kg",
+            "stiffness": "160 N/mm",
+            "damping": "0.8 N*s/mm",
+            "quadratic_damping": "200 kN*s^2/m^2",
+        },
+    },
+)
 mount
 
 # %% [markdown]
@@ -45,8 +53,16 @@ print("largest deviation in percent:", (100.0 * abs(small / closed - 1.0)).max()
 # Sweeps at two amplitudes on a virtual rig without noise; the search starts elsewhere.
 
 # %%
-data = dp.measure(mount, "hydropulser", amplitudes="0.2 mm, 1 mm", preloads="2 mm", stop="30 Hz", duration="5 s",
-                  sampling="1 kHz", seed=1)
+data = dp.measure(
+    mount,
+    "hydropulser",
+    amplitudes="0.2 mm, 1 mm",
+    preloads="2 mm",
+    stop="30 Hz",
+    duration="5 s",
+    sampling="1 kHz",
+    seed=1,
+)
 start = dp.declare(mount.text)
 start["rubber"].stiffness = {"start": "100 N/mm"}
 start["loss"].damping = {"start": "0.3 N*s/mm"}

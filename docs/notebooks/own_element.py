@@ -42,13 +42,16 @@ from dataclasses import replace
 
 installed = dp.load_registry()
 registry = replace(installed, elements={**installed.elements, "hardening_spring": HardeningSpring})
-bump = dp.declare("""
+bump = dp.declare(
+    """
 format: dashpot-network/1
 name: bump_stop
 branches:
   rubber: {element: hardening_spring, stiffness: {start: 20 N/mm}, width: {start: 30 mm}}
   friction: {element: dahl, stiffness: {start: 100 N/mm}, limit: {start: 10 N}}
-""", registry=registry)
+""",
+    registry=registry,
+)
 bump
 
 # %% [markdown]

@@ -70,8 +70,10 @@ def ride(speed, dt, samples, numbers, state, out):
 
 motion = np.empty((15_000, 3))
 force = ride(10.0, 1e-4, len(motion), solver.numbers, solver.state(), motion)
-print(f"highest point of the road {motion[:, 0].max() * 1e3:.1f} mm, of the wheel {motion[:, 1].max() * 1e3:.1f} mm, "
-      f"of the body {motion[:, 2].max() * 1e3:.1f} mm; tire force at the end {force:.0f} N")
+print(
+    f"highest point of the road {motion[:, 0].max() * 1e3:.1f} mm, of the wheel {motion[:, 1].max() * 1e3:.1f} mm, "
+    f"of the body {motion[:, 2].max() * 1e3:.1f} mm; tire force at the end {force:.0f} N"
+)
 
 # %% [markdown]
 # ## Inside an optimizer

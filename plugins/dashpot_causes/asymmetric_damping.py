@@ -14,8 +14,13 @@ from dashpot_causes.powers import reference_speed
 
 Array = NDArray[np.float64]
 COMPRESSION, REBOUND = 1.0, -1.0
-UNITS = {"compression": "N*s/m", "rebound": "N*s/m", "compression_exponent": "1", "rebound_exponent": "1",
-         "reference": "m/s"}  # fmt: skip
+UNITS = {
+    "compression": "N*s/m",
+    "rebound": "N*s/m",
+    "compression_exponent": "1",
+    "rebound_exponent": "1",
+    "reference": "m/s",
+}
 NOTHING = 0.01  # N s/m
 POWERS = (0.5, 0.7, 1.4, 2.0)
 EXPONENTS = (0.3, 3.0)

@@ -42,9 +42,15 @@ class Clearance(Cause):
         least = PLAIN * view.stroke
         loose = tuple(gap for gap in gaps[:-1] if gap > least)
         for travel in SLIDING * view.stroke:
-            yield added_branch("loose_friction", "clearance", loose, _loose(travel), {**units, "limit": "N"},
-                               bounds={"gap": (least, view.stroke)},
-                               admits=lambda found: all(gap > BEYOND * least for gap in _gaps(found)))  # fmt: skip
+            yield added_branch(
+                "loose_friction",
+                "clearance",
+                loose,
+                _loose(travel),
+                {**units, "limit": "N"},
+                bounds={"gap": (least, view.stroke)},
+                admits=lambda found: all(gap > BEYOND * least for gap in _gaps(found)),
+            )
 
 
 def _gaps(found: Mapping[str, float]) -> list[float]:

@@ -44,8 +44,16 @@ class Clipping(Cause):
             if f"force.{KEYS[side]}" not in network.measurement:
                 levels = tuple(float(end - side * share * (high - low)) for share in SHARES)
                 cut = _Cut(side, levels, (low, high))
-                yield Suspect("upper level" if side > 0 else "lower level", levels, cut, cut.extend, measured=True,
-                              quantity="share that is missing", unit="1", largest=1.0)  # fmt: skip
+                yield Suspect(
+                    "upper level" if side > 0 else "lower level",
+                    levels,
+                    cut,
+                    cut.extend,
+                    measured=True,
+                    quantity="share that is missing",
+                    unit="1",
+                    largest=1.0,
+                )
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,19 @@ from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 Numbers = Mapping[str, float]
-UNITS = {"stiffness": "N/m", "relaxation_time": "s", "force": "N", "exponent": "1", "reference": "m/s",
-         "compression": "N*s/m", "rebound": "N*s/m", "compression_knee": "m/s", "rebound_knee": "m/s",
-         "compression_opened": "N*s/m", "rebound_opened": "N*s/m"}  # fmt: skip
+UNITS = {
+    "stiffness": "N/m",
+    "relaxation_time": "s",
+    "force": "N",
+    "exponent": "1",
+    "reference": "m/s",
+    "compression": "N*s/m",
+    "rebound": "N*s/m",
+    "compression_knee": "m/s",
+    "rebound_knee": "m/s",
+    "compression_opened": "N*s/m",
+    "rebound_opened": "N*s/m",
+}
 PLAIN = ("exponent", "reference", "compression_opened", "rebound_opened")
 NEAR = 1e-2  # of 1/w at the end of the band: a lag so short that the force changes in proportion to it
 SHORTEST = 1.01e-5  # s, the least lag that a file may ask for
@@ -55,8 +65,15 @@ class CompliantDamper(Cause):
                 text = dampers[int(place)].extend(text, compliance)
             return text
 
-        yield Suspect("a spring in series with a damper", tuple(map(float, range(len(dampers)))), columns, extend,
-                      unknowns=0, quantity="compliance", unit="m/N")  # fmt: skip
+        yield Suspect(
+            "a spring in series with a damper",
+            tuple(map(float, range(len(dampers)))),
+            columns,
+            extend,
+            unknowns=0,
+            quantity="compliance",
+            unit="m/N",
+        )
 
 
 @dataclass(frozen=True)

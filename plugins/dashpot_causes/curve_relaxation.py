@@ -30,9 +30,15 @@ def along_curves(view: View, network: NetworkSpec, fastest: float) -> Iterator[S
         if curve and curve.form in ("polynomial", "table"):
             times = np.geomspace(max(2.0 * fastest, 2.0 * view.dt), 0.3 * view.duration, PLACES)
             spring = _Spring(branch, curve, tuple(times.tolist()))
-            yield Suspect(f"along the curve of {branch.name}", spring.times, spring.columns, spring.extend,
-                          quantity="share of the curve", unit="1",
-                          admits=lambda found: _slower(found, fastest))  # fmt: skip
+            yield Suspect(
+                f"along the curve of {branch.name}",
+                spring.times,
+                spring.columns,
+                spring.extend,
+                quantity="share of the curve",
+                unit="1",
+                admits=lambda found: _slower(found, fastest),
+            )
 
 
 def _slower(found: Mapping[str, float], fastest: float) -> bool:
@@ -59,8 +65,9 @@ class _Spring:
     def extend(self, text: str, atoms: Sequence[Atom]) -> str:
         """The network with the branch, its curve as it is."""
         share, time = atoms[0]
-        lines = branch_lines(free_name(text, "relaxation"), "relaxing_spring",
-                             {"share": share, "relaxation_time": time}, UNITS)  # fmt: skip
+        lines = branch_lines(
+            free_name(text, "relaxation"), "relaxing_spring", {"share": share, "relaxation_time": time}, UNITS
+        )
         return add_branch(text, f"{lines}\n  stiffness: {self._written()}")
 
     def _written(self) -> str:

@@ -37,10 +37,12 @@ class Delay(Cause):
         To first order in the frequency they are the same: both together, one against the other, would be any law.
         """
         if not {"force.delay", "force.lag"} & set(network.measurement):
-            yield Suspect("delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay",
-                          unit="s")  # fmt: skip
-            yield Suspect("low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share",
-                          unit="1")  # fmt: skip
+            yield Suspect(
+                "delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay", unit="s"
+            )
+            yield Suspect(
+                "low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share", unit="1"
+            )
 
 
 def _slope(view: View, run: str) -> Array:

@@ -49,8 +49,17 @@ class Drift(Cause):
             over = f"{{setting: {ORDER}, at: {first:g}, slope: {{start: {slope}}}}}"
             return add_measurement(text, "offset", f"{{fixed: 0 N, over: {over}}}")
 
-        yield Suspect("from run to run", (0.0,), columns, extend, sign=0, unknowns=0, measured=True,
-                      quantity="drift from a run to the next", unit="N")  # fmt: skip
+        yield Suspect(
+            "from run to run",
+            (0.0,),
+            columns,
+            extend,
+            sign=0,
+            unknowns=0,
+            measured=True,
+            quantity="drift from a run to the next",
+            unit="N",
+        )
 
     def channel_faults(self, view: View) -> Iterable[ChannelFault]:
         """A zero that moves evenly over a run, wherever it began."""

@@ -44,9 +44,16 @@ class EndStop(Cause):
                 yield added_branch("end_stop", "end_stop", side, numbers, units, fixed=fixed)
                 progressive = partial(_progressive, numbers, reference)
                 yield added_branch(
-                    "end_stop", "end_stop", side, progressive, units, fixed=(*fixed, "reference"), unknowns=2,
-                    bounds={"exponent": EXPONENTS}, form="a progressive buffer",
-                )  # fmt: skip
+                    "end_stop",
+                    "end_stop",
+                    side,
+                    progressive,
+                    units,
+                    fixed=(*fixed, "reference"),
+                    unknowns=2,
+                    bounds={"exponent": EXPONENTS},
+                    form="a progressive buffer",
+                )
 
 
 def _compression(stiffness: float, place: float) -> dict[str, float]:

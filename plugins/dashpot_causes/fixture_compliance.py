@@ -34,8 +34,9 @@ class FixtureCompliance(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A deflection in proportion to the force, ahead of the whole network."""
         if "force.compliance" not in network.measurement:
-            yield Suspect("compliance", (0.0,), _lost, _extend, unknowns=0, measured=True,
-                          quantity="compliance", unit="m/N")  # fmt: skip
+            yield Suspect(
+                "compliance", (0.0,), _lost, _extend, unknowns=0, measured=True, quantity="compliance", unit="m/N"
+            )
 
 
 def _lost(view: View, run: str) -> Array:

@@ -69,8 +69,9 @@ def _directed(view: View) -> Suspect:
         found = dict(zip(("compression", "rebound"), limits, strict=True))
         return {**found, "stiffness": limit / abs(place), "exponent": 1.0}
 
-    suspect = added_branch("directional_friction", "friction", sides, values, UNITS, unknowns=3,
-                           form="a limit for each direction")  # fmt: skip
+    suspect = added_branch(
+        "directional_friction", "friction", sides, values, UNITS, unknowns=3, form="a limit for each direction"
+    )
     return replace(suspect, quantity="limit", unit="N")
 
 

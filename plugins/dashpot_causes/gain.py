@@ -30,5 +30,10 @@ class Gain(Cause):
 
     def channel_faults(self, view: View) -> Iterable[ChannelFault]:
         """A relative error of the force."""
-        yield ChannelFault("gain", "gain error", "1", lambda view, run: view.force(run)[None],
-                           lambda strengths: Correction(gain=1.0 / (1.0 + strengths[0])))  # fmt: skip
+        yield ChannelFault(
+            "gain",
+            "gain error",
+            "1",
+            lambda view, run: view.force(run)[None],
+            lambda strengths: Correction(gain=1.0 / (1.0 + strengths[0])),
+        )

@@ -46,8 +46,9 @@ class Heating(Cause):
         for share in SPRINGS:
             places = list(product(WARMTHS, [part * view.duration for part in TIMES]))
 
-            def values(damping: float, number: float, share: float = share,
-                       places: list[tuple[float, float]] = places) -> Mapping[str, float]:  # fmt: skip
+            def values(
+                damping: float, number: float, share: float = share, places: list[tuple[float, float]] = places
+            ) -> Mapping[str, float]:
                 warmth, time = places[int(number)]
                 found = {"damping": damping, "power": damping * mean_square / warmth, "time": time}
                 return found | ({"stiffness": share * damping * band} if share else {})

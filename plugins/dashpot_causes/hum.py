@@ -39,9 +39,15 @@ class Hum(Cause):
         """Sine and cosine of a frequency of the mains or one of its harmonics."""
         highest = HIGHEST / max(view.step(run) for run in view.runs)
         for frequency in (line for line in MAINS if view.highest_frequency < line < highest):
-            yield ChannelFault(f"{frequency:g} Hz", "amplitude", "N", partial(_line, frequency),
-                               partial(_corrected, frequency), "at_rest",
-                               f"a line at {frequency:g} Hz, where nothing was driven")  # fmt: skip
+            yield ChannelFault(
+                f"{frequency:g} Hz",
+                "amplitude",
+                "N",
+                partial(_line, frequency),
+                partial(_corrected, frequency),
+                "at_rest",
+                f"a line at {frequency:g} Hz, where nothing was driven",
+            )
 
 
 def _line(frequency: float, view: View, run: str) -> Array:

@@ -9,8 +9,9 @@ from dashpot.contract.cause import Suspect, View, added_branch
 UNITS = {"limit": "N", "creep_velocity": "m/s"}
 
 
-def levelling_force(view: View, branch: str, shares: tuple[float, float], places: int,
-                    room: tuple[float, float]) -> Suspect:  # fmt: skip
+def levelling_force(
+    view: View, branch: str, shares: tuple[float, float], places: int, room: tuple[float, float]
+) -> Suspect:
     """The suspect of such a force over velocities between two ``shares`` of the largest one.
 
     A refit may go as far as ``room`` times the first and the last of them.

@@ -33,8 +33,17 @@ class LiftOff(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """The force that the model would pull with, taken away."""
-        yield Suspect("lift-off", (0.0,), _pull, _pressed, unknowns=0, measured=True,
-                      quantity="share of the pull that is missing", unit="1", largest=1.0)  # fmt: skip
+        yield Suspect(
+            "lift-off",
+            (0.0,),
+            _pull,
+            _pressed,
+            unknowns=0,
+            measured=True,
+            quantity="share of the pull that is missing",
+            unit="1",
+            largest=1.0,
+        )
 
 
 def _pull(view: View, run: str) -> Array:

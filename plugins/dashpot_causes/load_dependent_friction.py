@@ -64,8 +64,12 @@ def _side_load(view: View) -> Suspect:
     def values(limit: float, number: float) -> Mapping[str, float]:
         middle, travel = places[int(number)]
         furthest = max(high - middle, middle - low)
-        return {"limit": LEAST * limit, "growth": (1.0 - LEAST) * limit / furthest, "middle": middle,
-                "stiffness": limit / travel}  # fmt: skip
+        return {
+            "limit": LEAST * limit,
+            "growth": (1.0 - LEAST) * limit / furthest,
+            "middle": middle,
+            "stiffness": limit / travel,
+        }
 
     def admits(found: Mapping[str, float]) -> bool:
         # both ends have to lie off the middle, and the limit has to grow to them
@@ -106,8 +110,17 @@ class _Scaled:
 
     def suspect(self, unknowns: int) -> Suspect:
         way = "growing" if self.rising else "falling"
-        return Suspect(f"{self.element} {way} with deflection", self.grid, self, self.extend, unknowns=unknowns,
-                       quantity="limit", unit="N", admits=self.admits, of_motion=True)  # fmt: skip
+        return Suspect(
+            f"{self.element} {way} with deflection",
+            self.grid,
+            self,
+            self.extend,
+            unknowns=unknowns,
+            quantity="limit",
+            unit="N",
+            admits=self.admits,
+            of_motion=True,
+        )
 
     @property
     def places(self) -> tuple[float, ...]:

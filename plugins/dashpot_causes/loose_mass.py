@@ -40,8 +40,14 @@ class LooseMass(Cause):
         fastest = SAMPLED / view.dt
         bands = sorted({min(share * view.highest_frequency, fastest) for share in FREQUENCIES})
         plays = [(share * 0.5 * view.stroke, band) for share, band in product(GAPS, bands)]
-        yield _form("rattles in a clearance", "rattling_mass", plays, _rattling(view.speed), 3,
-                    {"gap": (0.0, 0.5 * view.stroke)})  # fmt: skip
+        yield _form(
+            "rattles in a clearance",
+            "rattling_mass",
+            plays,
+            _rattling(view.speed),
+            3,
+            {"gap": (0.0, 0.5 * view.stroke)},
+        )
         swing = view.speed * 2.0 * np.pi * view.highest_frequency
         slides = [(share * swing, band) for share, band in product(LIMITS, bands)]
         yield _form("slides", "sliding_mass", slides, _sliding, 3)
@@ -53,16 +59,26 @@ def _rattling(speed: float) -> Callable[[float, float, float], Mapping[str, floa
 
 def _sliding(mass: float, acceleration: float, band: float) -> Mapping[str, float]:
     stiffness = _stiffness(mass, band)
-    return {"mass": mass, "stiffness": stiffness, "limit": mass * acceleration,
-            "damping": 2.0 * RATIO * np.sqrt(stiffness * mass)}  # fmt: skip
+    return {
+        "mass": mass,
+        "stiffness": stiffness,
+        "limit": mass * acceleration,
+        "damping": 2.0 * RATIO * np.sqrt(stiffness * mass),
+    }
 
 
 def _stiffness(mass: float, band: float) -> float:
     return mass * (2.0 * np.pi * band) ** 2
 
 
-def _form(form: str, element: str, places: list[Pair], values: Callable[[float, float, float], Mapping[str, float]],
-          unknowns: int, bounds: Mapping[str, Pair] = NOTHING) -> Suspect:  # fmt: skip
+def _form(
+    form: str,
+    element: str,
+    places: list[Pair],
+    values: Callable[[float, float, float], Mapping[str, float]],
+    unknowns: int,
+    bounds: Mapping[str, Pair] = NOTHING,
+) -> Suspect:
     suspect = added_branch(
         element,
         "loose_mass",

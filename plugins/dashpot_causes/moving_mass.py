@@ -49,5 +49,13 @@ class MovingMass(Cause):
         def is_mass(found: Mapping[str, float]) -> bool:
             return bool(np.sqrt(found["stiffness"] / found["mass"]) > 2.0 * np.pi * STIFF * end)
 
-        yield added_branch("vibration_absorber", "moving_mass", [share * end for share in MOUNTINGS], mounted, UNITS,
-                           unknowns=2, admits=is_mass, form="a mass on its mounting")  # fmt: skip
+        yield added_branch(
+            "vibration_absorber",
+            "moving_mass",
+            [share * end for share in MOUNTINGS],
+            mounted,
+            UNITS,
+            unknowns=2,
+            admits=is_mass,
+            form="a mass on its mounting",
+        )

@@ -31,5 +31,10 @@ class Offset(Cause):
 
     def channel_faults(self, view: View) -> Iterable[ChannelFault]:
         """A constant force."""
-        yield ChannelFault("offset", "offset", "N", lambda view, run: np.ones((1, view.force(run).size)),
-                           lambda strengths: Correction(offset=strengths[0]))  # fmt: skip
+        yield ChannelFault(
+            "offset",
+            "offset",
+            "N",
+            lambda view, run: np.ones((1, view.force(run).size)),
+            lambda strengths: Correction(offset=strengths[0]),
+        )

@@ -45,18 +45,38 @@ class PreloadDependentDamping(Cause):
         dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
         sign: Literal[0, 1] = 0 if any(branch.element.word == "damper" for branch in branches) else 1
-        yield _suspect(f"{KNOTS} knots", knots, ("damping at a knot", "N*s/m"), _damping, damper, sign=sign,
-                       admits=anyhow if dampers else changes)  # fmt: skip
+        yield _suspect(
+            f"{KNOTS} knots",
+            knots,
+            ("damping at a knot", "N*s/m"),
+            _damping,
+            damper,
+            sign=sign,
+            admits=anyhow if dampers else changes,
+        )
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
-            yield _suspect(f"{KNOTS} knots on '{family}'", knots, ("change of the factor at a knot", "1"),
-                           there, _OnBranch(family, 1.0, there.extend))  # fmt: skip
+            yield _suspect(
+                f"{KNOTS} knots on '{family}'",
+                knots,
+                ("change of the factor at a knot", "1"),
+                there,
+                _OnBranch(family, 1.0, there.extend),
+            )
         for time in np.geomspace(SHORTEST * view.dt, LONGEST * view.duration, TIMES):
             found = _Relaxing([{"stiffness": 1.0, "relaxation_time": float(time)}])
-            yield _suspect(f"relaxation with {KNOTS} knots", knots, ("stiffness at a knot", "N/m"),
-                           found, found.extend, sign=1, unknowns=1, admits=changes,
-                           of_motion=True)  # fmt: skip
+            yield _suspect(
+                f"relaxation with {KNOTS} knots",
+                knots,
+                ("stiffness at a knot", "N/m"),
+                found,
+                found.extend,
+                sign=1,
+                unknowns=1,
+                admits=changes,
+                of_motion=True,
+            )
 
 
 def anyhow(numbers: Mapping[str, float]) -> bool:
@@ -92,8 +112,19 @@ def _suspect(
     def extended(text: str, atoms: Sequence[Atom]) -> str:
         return extend(text, at_all_places(knots, atoms))
 
-    return Suspect(form, knots, columns, extended, joint=True, sign=sign, unknowns=unknowns,
-                   quantity=strength[0], unit=strength[1], admits=admits, of_motion=of_motion)  # fmt: skip
+    return Suspect(
+        form,
+        knots,
+        columns,
+        extended,
+        joint=True,
+        sign=sign,
+        unknowns=unknowns,
+        quantity=strength[0],
+        unit=strength[1],
+        admits=admits,
+        of_motion=of_motion,
+    )
 
 
 def _damping(view: View, run: str) -> Array:

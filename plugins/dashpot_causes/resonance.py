@@ -15,8 +15,12 @@ from dashpot_causes.moving_mass import STIFF
 
 Array = NDArray[np.float64]
 UNITS = {
-    "mass": "kg", "fluid_mass": "kg", "stiffness": "N/m", "damping": "N*s/m", "quadratic_damping": "N*s^2/m^2",
-}  # fmt: skip
+    "mass": "kg",
+    "fluid_mass": "kg",
+    "stiffness": "N/m",
+    "damping": "N*s/m",
+    "quadratic_damping": "N*s^2/m^2",
+}
 BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
 TURBULENT = (0.2, 0.8)  # damping ratios of the turbulence alone, at half of the largest speed
 LOWEST = 0.15  # of the end of the measured band
@@ -45,8 +49,7 @@ class Resonance(Cause):
         end = view.highest_frequency
         band = Band(LOWEST * end, STIFF * end, 0.15 / view.dt, 0.5 * view.speed)
         plain = [Mode(f, ratio) for ratio, count in (BROAD, NARROW) for f in band.frequencies(count)]
-        turbulent = [Mode(f, NARROW[0], ratio / band.speed)
-                     for ratio in TURBULENT for f in band.frequencies(BROAD[1])]  # fmt: skip
+        turbulent = [Mode(f, NARROW[0], ratio / band.speed) for ratio in TURBULENT for f in band.frequencies(BROAD[1])]
         for words, element, mass in (
             ("a mass behind a spring", "hydro", "fluid_mass"),
             ("a mass hung on a spring", "vibration_absorber", "mass"),
@@ -106,5 +109,6 @@ def _form(form: str, element: str, mass: str, modes: Sequence[Mode], unknowns: i
         return band.shows(found[mass], found["stiffness"], found["damping"], found.get("quadratic_damping", 0.0))
 
     grid = tuple(map(float, range(len(modes))))
-    return Suspect(form, grid, columns, extend, unknowns=unknowns, quantity="stiffness", unit="N/m",
-                   admits=admits, of_motion=True)  # fmt: skip
+    return Suspect(
+        form, grid, columns, extend, unknowns=unknowns, quantity="stiffness", unit="N/m", admits=admits, of_motion=True
+    )

@@ -32,8 +32,9 @@ def order_of(view: View) -> Mapping[str, float]:
 def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
     """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
     common = sorted(set.intersection(*(set(each) for each in settings.values())) - {ORDER})
-    moved = [[np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))]
-             for run in settings]  # fmt: skip
+    moved = [
+        [np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))] for run in settings
+    ]
     return np.column_stack([moved, np.array([[each[key] for key in common] for each in settings.values()])])
 
 

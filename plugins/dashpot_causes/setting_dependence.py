@@ -156,8 +156,17 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
         return text
 
     grid = tuple(map(float, range(len(numbers))))
-    return Suspect(f"a number over {setting.name}", grid, columns, extend, sign=0, unknowns=0, most=2,
-                   quantity="change over the settings", unit="1")  # fmt: skip
+    return Suspect(
+        f"a number over {setting.name}",
+        grid,
+        columns,
+        extend,
+        sign=0,
+        unknowns=0,
+        most=2,
+        quantity="change over the settings",
+        unit="1",
+    )
 
 
 def tabulated(setting: Setting, number: Number) -> Suspect:
@@ -172,8 +181,17 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         factors, reference = factors_of([strength for strength, _ in at_all_places(places, atoms)])
         return make_dependent(text, number.branch.name, number.key, setting.table(factors.tolist(), reference))
 
-    return Suspect(f"{number.branch.name}.{number.key} in a table over {setting.name}", places, columns, extend,
-                   joint=True, sign=0, unknowns=0, quantity="change of the factor", unit="1")  # fmt: skip
+    return Suspect(
+        f"{number.branch.name}.{number.key} in a table over {setting.name}",
+        places,
+        columns,
+        extend,
+        joint=True,
+        sign=0,
+        unknowns=0,
+        quantity="change of the factor",
+        unit="1",
+    )
 
 
 def has_curved_spring(network: NetworkSpec) -> bool:
@@ -196,8 +214,16 @@ def stiffness_over(setting: Setting) -> Suspect:
         name = free_name(text, "setting_stiffness")
         return add_branch(text, f"{name}:\n  element: signed_spring\n  {entry}")
 
-    return Suspect(f"a stiffness over {setting.name}", (0.0,), columns, extend, sign=0, unknowns=0,
-                   quantity="change over the settings", unit="N/m")  # fmt: skip
+    return Suspect(
+        f"a stiffness over {setting.name}",
+        (0.0,),
+        columns,
+        extend,
+        sign=0,
+        unknowns=0,
+        quantity="change over the settings",
+        unit="N/m",
+    )
 
 
 def _force(setting: Setting) -> Suspect:
@@ -209,5 +235,13 @@ def _force(setting: Setting) -> Suspect:
         entry = f"force: {{fixed: 0 N, over: {{{setting.over(slope)}}}}}"
         return add_branch(text, f"{free_name(text, 'setting_force')}:\n  element: constant_force\n  {entry}")
 
-    return Suspect(f"a force over {setting.name}", (0.0,), columns, extend, sign=0, unknowns=0,
-                   quantity="change over the settings", unit="N")  # fmt: skip
+    return Suspect(
+        f"a force over {setting.name}",
+        (0.0,),
+        columns,
+        extend,
+        sign=0,
+        unknowns=0,
+        quantity="change over the settings",
+        unit="N",
+    )

@@ -33,12 +33,32 @@ class StiffnessCurve(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A square and a cube of the deflection; a correction curve through few or many knots over what is covered."""
         bent = _Powers(float(np.abs(view.reach).max()))
-        yield Suspect("a polynomial", POWERS, bent, bent.extend, sign=0, unknowns=0, most=len(POWERS),
-                      quantity="force at the end of the reach", unit="N", of_motion=True)  # fmt: skip
+        yield Suspect(
+            "a polynomial",
+            POWERS,
+            bent,
+            bent.extend,
+            sign=0,
+            unknowns=0,
+            most=len(POWERS),
+            quantity="force at the end of the reach",
+            unit="N",
+            of_motion=True,
+        )
         for count in KNOTS:
             knots = tuple(np.linspace(*view.reach, count))
-            yield Suspect(f"{count} knots", knots, _Correction(knots), _extend, joint=True, sign=0, unknowns=0,
-                          quantity="force at a knot", unit="N", of_motion=True)  # fmt: skip
+            yield Suspect(
+                f"{count} knots",
+                knots,
+                _Correction(knots),
+                _extend,
+                joint=True,
+                sign=0,
+                unknowns=0,
+                quantity="force at a knot",
+                unit="N",
+                of_motion=True,
+            )
 
 
 @dataclass(frozen=True)

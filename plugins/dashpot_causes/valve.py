@@ -13,11 +13,14 @@ from dashpot.model.network import NetworkSpec
 
 SIDES = ("compression", "rebound")
 UNITS = {
-    **{side + key: unit for side in SIDES
-       for key, unit in (("", "N*s/m"), ("_knee", "m/s"), ("_opened", "N*s/m"), ("_digression", "s/m"))},
+    **{
+        side + key: unit
+        for side in SIDES
+        for key, unit in (("", "N*s/m"), ("_knee", "m/s"), ("_opened", "N*s/m"), ("_digression", "s/m"))
+    },
     "stiffness": "N/m",
     "sharpness": "1",
-}  # fmt: skip
+}
 KNEES = (0.02, 0.06, 0.2, 0.6)  # of the largest speed
 RATIOS = (0.5, 1.0, 2.0)  # damping in compression over that in rebound
 TIMES = (0.02, 0.1, 0.5)  # of 1/w at the end of the band: the lag of the force
@@ -49,8 +52,15 @@ class Valve(Cause):
         yield _form(view, "a sharp blow-off behind a spring", "valve", _sharp, lags, 6, SERIES)
 
 
-def _form(view: View, form: str, element: str, values: Callable[..., Mapping[str, float]],
-          lags: tuple[float, ...], unknowns: int, bounds: Mapping[str, Pair] = NOTHING) -> Suspect:  # fmt: skip
+def _form(
+    view: View,
+    form: str,
+    element: str,
+    values: Callable[..., Mapping[str, float]],
+    lags: tuple[float, ...],
+    unknowns: int,
+    bounds: Mapping[str, Pair] = NOTHING,
+) -> Suspect:
     places = [(knee * view.speed, ratio, lag) for knee, ratio, lag in product(KNEES, RATIOS, lags)]
     suspect = added_branch(
         element,
@@ -66,13 +76,22 @@ def _form(view: View, form: str, element: str, values: Callable[..., Mapping[str
 
 
 def _digressive(damping: float, knee: float, ratio: float, _: float) -> Mapping[str, float]:
-    return {"compression": damping, "rebound": damping / ratio, "compression_digression": 1.0 / knee,
-            "rebound_digression": 1.0 / knee}  # fmt: skip
+    return {
+        "compression": damping,
+        "rebound": damping / ratio,
+        "compression_digression": 1.0 / knee,
+        "rebound_digression": 1.0 / knee,
+    }
 
 
 def _lagging(damping: float, knee: float, ratio: float, lag: float) -> Mapping[str, float]:
-    return {"compression": damping, "rebound": damping / ratio, "compression_knee": knee, "rebound_knee": knee,
-            "stiffness": damping / lag}  # fmt: skip
+    return {
+        "compression": damping,
+        "rebound": damping / ratio,
+        "compression_knee": knee,
+        "rebound_knee": knee,
+        "stiffness": damping / lag,
+    }
 
 
 def _sharp(damping: float, knee: float, ratio: float, lag: float) -> Mapping[str, float]:

@@ -8,8 +8,15 @@ from itertools import product
 from dashpot.contract.cause import NOTHING, Cause, Pair, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
-UNITS = {"limit": "N", "breakaway": "N", "stribeck_velocity": "m/s", "stiffness": "N/m", "creep_velocity": "m/s",
-         "decay": "1", "exponent": "1"}  # fmt: skip
+UNITS = {
+    "limit": "N",
+    "breakaway": "N",
+    "stribeck_velocity": "m/s",
+    "stiffness": "N/m",
+    "creep_velocity": "m/s",
+    "decay": "1",
+    "exponent": "1",
+}
 TRAVELS = (1e-3, 8e-3, 6e-2, 0.3)  # of the stroke
 SPEEDS = (8e-3, 4e-2, 0.2)  # of the largest speed
 RATIO = 3.0

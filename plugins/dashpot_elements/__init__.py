@@ -9,12 +9,31 @@ import pluggy
 hookimpl = pluggy.HookimplMarker("dashpot")
 
 SPRINGS = ("spring", "contact", "end_stop", "clearance", "backlash", "gas_spring", "warm_gas_spring")
-DAMPERS = ("damper", "asymmetric_damper", "quadratic_damper", "power_law_damper", "valve", "compliant_damper",
-           "fading_damper", "worn_damper")  # fmt: skip
+DAMPERS = (
+    "damper",
+    "asymmetric_damper",
+    "quadratic_damper",
+    "power_law_damper",
+    "valve",
+    "compliant_damper",
+    "fading_damper",
+    "worn_damper",
+)
 RELAXATION = ("maxwell", "springpot", "creep", "preload_creep", "hydro", "vibration_absorber", "relaxing_spring")
 MASSES = ("inerter", "rattling_mass", "sliding_mass")
-FRICTION = ("coulomb", "dahl", "prandtl", "stribeck", "stribeck_curve", "directional_friction", "side_load_friction",
-            "loose_friction", "bouc_wen", "iwan", "kraus")  # fmt: skip
+FRICTION = (
+    "coulomb",
+    "dahl",
+    "prandtl",
+    "stribeck",
+    "stribeck_curve",
+    "directional_friction",
+    "side_load_friction",
+    "loose_friction",
+    "bouc_wen",
+    "iwan",
+    "kraus",
+)
 CHANGE = ("bedding_in", "mullins", "softening", "fading_spring", "self_heating")
 WORDS = (*SPRINGS, *DAMPERS, *RELAXATION, *FRICTION, *CHANGE, *MASSES, "constant_force", "signed_spring")
 

@@ -19,9 +19,12 @@ class Contact(Element):
     picture = Series(Symbol.GAP, Symbol.SPRING)
 
     stiffness = Curve(
-        ("force", "N"), ("deflection", "m"), "force over deflection, or its constant slope",
-        bounds=(1.0, 1e9), symbol="k",
-    )  # fmt: skip
+        ("force", "N"),
+        ("deflection", "m"),
+        "force over deflection, or its constant slope",
+        bounds=(1.0, 1e9),
+        symbol="k",
+    )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The characteristic at the depth at the end of the step."""

@@ -24,8 +24,9 @@ class Dahl(Element):
 
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
     limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
-    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
-                         default=1.0)  # fmt: skip
+    exponent = Parameter(
+        "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
+    )
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

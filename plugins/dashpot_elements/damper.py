@@ -17,9 +17,13 @@ class Damper(Element):
     picture = Symbol.DASHPOT
 
     damping = Curve(
-        ("force", "N"), ("velocity", "m/s"), "force over velocity, or its constant slope",
-        bounds=(1e-2, 1e7), symbol="d", rising=True,
-    )  # fmt: skip
+        ("force", "N"),
+        ("velocity", "m/s"),
+        "force over velocity, or its constant slope",
+        bounds=(1e-2, 1e7),
+        symbol="d",
+        rising=True,
+    )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The characteristic at the velocity at the end of the step."""

@@ -25,8 +25,9 @@ class DirectionalFriction(Element):
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
     compression = Parameter("N", "sliding force in compression", bounds=(1e-3, 1e6), symbol="F_c")
     rebound = Parameter("N", "sliding force in rebound", bounds=(1e-3, 1e6), symbol="F_r")
-    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
-                         default=1.0)  # fmt: skip
+    exponent = Parameter(
+        "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
+    )
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -22,10 +22,21 @@ class EndStop(Element):
     picture = Series(Symbol.GAP, Symbol.SPRING)
 
     stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e9), symbol="k")
-    compression = Parameter("m", "deflection at which the compression stop is touched",
-                            bounds=(0.0, OUT_OF_REACH), scale="linear", symbol="x_c")  # fmt: skip
-    rebound = Parameter("m", "deflection at which the rebound stop is touched", bounds=(-OUT_OF_REACH, 0.0),
-                        scale="linear", symbol="x_r", default=-OUT_OF_REACH)  # fmt: skip
+    compression = Parameter(
+        "m",
+        "deflection at which the compression stop is touched",
+        bounds=(0.0, OUT_OF_REACH),
+        scale="linear",
+        symbol="x_c",
+    )
+    rebound = Parameter(
+        "m",
+        "deflection at which the rebound stop is touched",
+        bounds=(-OUT_OF_REACH, 0.0),
+        scale="linear",
+        symbol="x_r",
+        default=-OUT_OF_REACH,
+    )
     exponent = Parameter("1", "power of the depth", bounds=(1.0, 5.0), scale="linear", symbol="n", default=1.0)
     reference = Parameter("m", "depth at which the stiffness is given", bounds=(1e-6, 10.0), symbol="x_0", default=1e-3)
 

@@ -28,10 +28,12 @@ class Hydro(Element):
     fluid_mass = Parameter("kg", "mass of the fluid in the track, felt at the piston", bounds=(1e-3, 1e4), symbol="m")
     stiffness = Parameter("N/m", "stiffness of the bulging walls", bounds=(1.0, 1e9), symbol="k_b")
     damping = Parameter("N*s/m", "linear damping in the track", bounds=(1e-2, 1e7), symbol="d_1")
-    quadratic_damping = Parameter("N*s^2/m^2", "turbulent damping in the track", bounds=(0.0, 1e8), scale="linear",
-                                  symbol="d_2", default=0.0)  # fmt: skip
-    compensation_stiffness = Parameter("N/m", "stiffness of the compensation chamber", bounds=(0.0, 1e9),
-                                       scale="linear", symbol="k_2", default=0.0)  # fmt: skip
+    quadratic_damping = Parameter(
+        "N*s^2/m^2", "turbulent damping in the track", bounds=(0.0, 1e8), scale="linear", symbol="d_2", default=0.0
+    )
+    compensation_stiffness = Parameter(
+        "N/m", "stiffness of the compensation chamber", bounds=(0.0, 1e9), scale="linear", symbol="k_2", default=0.0
+    )
     bulge = State("m", "bulge of the walls beyond the static one")
     flow = State("m/s", "velocity of the fluid in the track")
 

@@ -28,8 +28,9 @@ class Iwan(Element):
     stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")
     shortest = Parameter("m", "yield travel of the first slider", bounds=(1e-8, 1.0), symbol="t_1")
     longest = Parameter("m", "yield travel of the last slider", bounds=(1e-7, 10.0), symbol="t_8")
-    slope = Parameter("1", "how the stiffness falls with the travel", bounds=(-2.0, 2.0), scale="linear", symbol="s",
-                      default=0.0)  # fmt: skip
+    slope = Parameter(
+        "1", "how the stiffness falls with the travel", bounds=(-2.0, 2.0), scale="linear", symbol="s", default=0.0
+    )
     stretch_1, stretch_2, stretch_3, stretch_4, stretch_5, stretch_6, stretch_7, stretch_8 = stretches(COUNT)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

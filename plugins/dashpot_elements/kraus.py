@@ -27,10 +27,12 @@ class Kraus(Element):
 
     stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")
     travel = Parameter("m", "yield travel of the middle of all sliders", bounds=(1e-7, 1.0), symbol="t_c")
-    exponent = Parameter("1", "how suddenly the sliders yield around it", bounds=(0.3, 4.0), scale="linear", symbol="n",
-                         default=1.0)  # fmt: skip
-    (stretch_1, stretch_2, stretch_3, stretch_4, stretch_5,
-     stretch_6, stretch_7, stretch_8, stretch_9, stretch_10) = stretches(COUNT)  # fmt: skip
+    exponent = Parameter(
+        "1", "how suddenly the sliders yield around it", bounds=(0.3, 4.0), scale="linear", symbol="n", default=1.0
+    )
+    (stretch_1, stretch_2, stretch_3, stretch_4, stretch_5, stretch_6, stretch_7, stretch_8, stretch_9, stretch_10) = (
+        stretches(COUNT)
+    )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Every spring takes the travel up to its yield travel."""

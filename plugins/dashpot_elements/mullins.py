@@ -23,8 +23,14 @@ class Mullins(Element):
 
     stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
     depth = Parameter("m", "root of the difference of squares that leaves 24 %", bounds=(1e-6, 10.0), symbol="x_m")
-    widening = Parameter("1", "share of the largest energy so far that is added", bounds=(0.0, 10.0), scale="linear",
-                         symbol="beta", default=0.0)  # fmt: skip
+    widening = Parameter(
+        "1",
+        "share of the largest energy so far that is added",
+        bounds=(0.0, 10.0),
+        scale="linear",
+        symbol="beta",
+        default=0.0,
+    )
     reach = State("m", "largest deflection to either side so far")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -29,10 +29,12 @@ class Prandtl(Element):
 
     stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k_p")
     limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
-    sharpness = Parameter("1", "stiffness of the slider over that of the spring", bounds=(0.1, 1e3), symbol="s",
-                          default=10.0)  # fmt: skip
-    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
-                         default=1.0)  # fmt: skip
+    sharpness = Parameter(
+        "1", "stiffness of the slider over that of the spring", bounds=(0.1, 1e3), symbol="s", default=10.0
+    )
+    exponent = Parameter(
+        "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
+    )
     force = State("N", "force in the branch")
     side = State("1", "direction of the last step")
     reach = State("1", "what sinks in proportion to the way; s u + ln(s u) for i = 1")

@@ -28,8 +28,14 @@ class RattlingMass(Element):
     mass = Parameter("kg", "mass that flies", bounds=(1e-4, 1e4), symbol="m")
     stiffness = Parameter("N/m", "stiffness of the contact", bounds=(1.0, 1e9), symbol="k")
     gap = Parameter("m", "play to either side", bounds=(0.0, 1.0), scale="linear", symbol="g")
-    loss = Parameter("s/m", "damping of the contact over its stiffness and depth", bounds=(0.0, 1e3), scale="linear",
-                     symbol="c", default=0.0)  # fmt: skip
+    loss = Parameter(
+        "s/m",
+        "damping of the contact over its stiffness and depth",
+        bounds=(0.0, 1e3),
+        scale="linear",
+        symbol="c",
+        default=0.0,
+    )
     way = State("m", "way between specimen and mass")
     speed = State("m/s", "velocity of the mass")
     force = State("N", "force on the mass")

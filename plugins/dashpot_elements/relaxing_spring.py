@@ -27,8 +27,14 @@ class RelaxingSpring(Element):
     exact = False
     passive = False
 
-    stiffness = Curve(("force", "N"), ("deflection", "m"), "force over deflection of a sudden step, or its slope",
-                      bounds=(1.0, 1e9), symbol="f", rising=True)  # fmt: skip
+    stiffness = Curve(
+        ("force", "N"),
+        ("deflection", "m"),
+        "force over deflection of a sudden step, or its slope",
+        bounds=(1.0, 1e9),
+        symbol="f",
+        rising=True,
+    )
     relaxation_time = Parameter("s", "time constant of the fading", bounds=(1e-5, 1e4), symbol="T")
     share = Parameter("1", "factor on the curve", bounds=(1e-4, 1e4), symbol="g", default=1.0)
     force = State("N", "force in the branch")

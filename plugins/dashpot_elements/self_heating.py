@@ -30,13 +30,20 @@ class SelfHeating(Element):
     exact = False
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness of the cold specimen", bounds=(0.0, 1e9), scale="linear", symbol="k",
-                          default=0.0)  # fmt: skip
+    stiffness = Parameter(
+        "N/m", "stiffness of the cold specimen", bounds=(0.0, 1e9), scale="linear", symbol="k", default=0.0
+    )
     damping = Parameter("N*s/m", "damping of the cold specimen", bounds=(1e-2, 1e7), symbol="d")
     power = Parameter("W", "dissipated power at which the damping is halved in the end", bounds=(1e-6, 1e7), symbol="P")
     time = Parameter("s", "time constant of warming and cooling", bounds=(1e-2, 1e5), symbol="T")
-    ratio = Parameter("1", "fall of the stiffness over that of the damping, of their logarithms", bounds=(0.0, 10.0),
-                      scale="linear", symbol="r", default=1.0)  # fmt: skip
+    ratio = Parameter(
+        "1",
+        "fall of the stiffness over that of the damping, of their logarithms",
+        bounds=(0.0, 10.0),
+        scale="linear",
+        symbol="r",
+        default=1.0,
+    )
     warmth = State("1", "rise of temperature over that which halves the damping")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -27,10 +27,21 @@ class SideLoadFriction(Element):
 
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
     limit = Parameter("N", "sliding force in the middle", bounds=(1e-3, 1e6), symbol="F_c")
-    growth = Parameter("N/m", "rise of the sliding force with the distance from the middle", bounds=(0.0, 1e9),
-                       scale="linear", symbol="g")  # fmt: skip
-    middle = Parameter("m", "deflection at which the sliding force is least", bounds=(-10.0, 10.0), scale="linear",
-                       symbol="x_0", default=0.0)  # fmt: skip
+    growth = Parameter(
+        "N/m",
+        "rise of the sliding force with the distance from the middle",
+        bounds=(0.0, 1e9),
+        scale="linear",
+        symbol="g",
+    )
+    middle = Parameter(
+        "m",
+        "deflection at which the sliding force is least",
+        bounds=(-10.0, 10.0),
+        scale="linear",
+        symbol="x_0",
+        default=0.0,
+    )
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -18,9 +18,12 @@ class Spring(Element):
     source = "Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300 for the monotone cubic"
 
     stiffness = Curve(
-        ("force", "N"), ("deflection", "m"), "force over deflection, or its constant slope",
-        bounds=(1.0, 1e9), symbol="k",
-    )  # fmt: skip
+        ("force", "N"),
+        ("deflection", "m"),
+        "force over deflection, or its constant slope",
+        bounds=(1.0, 1e9),
+        symbol="k",
+    )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The characteristic at the end of the step."""

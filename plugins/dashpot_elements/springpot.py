@@ -32,15 +32,31 @@ class Springpot(Element):
 
     stiffness = Parameter("N/m", "dynamic stiffness at the reference frequency", bounds=(1.0, 1e9), symbol="k_a")
     order = Parameter("1", "0 of a spring, 1 of a dashpot", bounds=(0.01, 0.99), scale="linear", symbol="a")
-    reference = Parameter("Hz", "frequency at which the stiffness is given", bounds=(1e-4, 1e5), symbol="f_r",
-                          default=1.0)  # fmt: skip
+    reference = Parameter(
+        "Hz", "frequency at which the stiffness is given", bounds=(1e-4, 1e5), symbol="f_r", default=1.0
+    )
     lowest = Parameter("Hz", "low end of the range of frequencies", bounds=(1e-6, 1e5), symbol="f_1", default=0.1)
-    decades = Parameter("1", "length of the range of frequencies", bounds=(0.5, 8.0), scale="linear", symbol="N",
-                        default=3.0)  # fmt: skip
-    dwell = Parameter("s", "time under the first deflection before the record", bounds=(1e-3, 1e9), symbol="t_0",
-                      default=1e9)  # fmt: skip
-    (force_1, force_2, force_3, force_4, force_5, force_6, force_7, force_8, force_9, force_10, force_11, force_12,
-     force_13) = (State("N", f"force in branch {number}") for number in range(1, INSIDE + 3))  # fmt: skip
+    decades = Parameter(
+        "1", "length of the range of frequencies", bounds=(0.5, 8.0), scale="linear", symbol="N", default=3.0
+    )
+    dwell = Parameter(
+        "s", "time under the first deflection before the record", bounds=(1e-3, 1e9), symbol="t_0", default=1e9
+    )
+    (
+        force_1,
+        force_2,
+        force_3,
+        force_4,
+        force_5,
+        force_6,
+        force_7,
+        force_8,
+        force_9,
+        force_10,
+        force_11,
+        force_12,
+        force_13,
+    ) = (State("N", f"force in branch {number}") for number in range(1, INSIDE + 3))
     begun = State("1", "whether the first step has been taken")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

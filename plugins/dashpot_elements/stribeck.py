@@ -31,10 +31,10 @@ class Stribeck(Element):
     limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
     breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
     stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
-    decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta",
-                      default=2.0)  # fmt: skip
-    exponent = Parameter("1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i",
-                         default=1.0)  # fmt: skip
+    decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta", default=2.0)
+    exponent = Parameter(
+        "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
+    )
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -46,8 +46,10 @@ class Swinging:
         part = 0.5**DOUBLINGS
         square = -part * part * self.stiff, -part * part * self.damped
         powers = (1.0, 0.0), (0.0, part), square, self.product((0.0, part), square)
-        found = [_sum(*(_sum(power, times=1.0 / (factorial(n) * (n + j + 1))) for n, power in enumerate(powers)))
-                 for j in range(3)]  # fmt: skip
+        found = [
+            _sum(*(_sum(power, times=1.0 / (factorial(n) * (n + j + 1))) for n, power in enumerate(powers)))
+            for j in range(3)
+        ]
         for number in range(DOUBLINGS):
             found = self._doubled(found, 2.0**number * part)
         return found
@@ -57,8 +59,10 @@ class Swinging:
         none, one, two = moments
         growth = self.product((0.0, part), none)
         late = none, _sum(one, none), _sum(two, one, one, none)
-        return [_sum(early, later, self.product(growth, later), times=0.5 ** (j + 1))
-                for j, (early, later) in enumerate(zip(moments, late, strict=True))]  # fmt: skip
+        return [
+            _sum(early, later, self.product(growth, later), times=0.5 ** (j + 1))
+            for j, (early, later) in enumerate(zip(moments, late, strict=True))
+        ]
 
     def moved(self, memory: Pair, x: Motion, dt: Any, share: Any = 1.0, drag: Any = 0.0) -> Pair:
         """The memory after a step along the cubic path, whose velocity moves the place and drags the speed."""

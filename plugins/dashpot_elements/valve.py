@@ -37,10 +37,22 @@ class Valve(Element):
     rebound = Parameter("N*s/m", "damping in rebound below the knee", bounds=(1e-2, 1e7), symbol="d_r")
     compression_knee = Parameter("m/s", "velocity at which it opens in compression", bounds=(1e-4, 1e3), symbol="v_c")
     rebound_knee = Parameter("m/s", "velocity at which it opens in rebound", bounds=(1e-4, 1e3), symbol="v_r")
-    compression_opened = Parameter("N*s/m", "slope far above the knee in compression, at most its damping",
-                                   bounds=(0.0, 1e7), scale="linear", symbol="b_c", default=0.0)  # fmt: skip
-    rebound_opened = Parameter("N*s/m", "slope far above the knee in rebound, at most its damping", bounds=(0.0, 1e7),
-                               scale="linear", symbol="b_r", default=0.0)  # fmt: skip
+    compression_opened = Parameter(
+        "N*s/m",
+        "slope far above the knee in compression, at most its damping",
+        bounds=(0.0, 1e7),
+        scale="linear",
+        symbol="b_c",
+        default=0.0,
+    )
+    rebound_opened = Parameter(
+        "N*s/m",
+        "slope far above the knee in rebound, at most its damping",
+        bounds=(0.0, 1e7),
+        scale="linear",
+        symbol="b_r",
+        default=0.0,
+    )
     sharpness = Parameter("1", "how suddenly it opens", bounds=(1.0, 8.0), scale="linear", symbol="m", default=1.0)
     load, speed = memory()
 

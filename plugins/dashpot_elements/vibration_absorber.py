@@ -30,8 +30,14 @@ class VibrationAbsorber(Element):
     mass = Parameter("kg", "mass that swings along", bounds=(1e-3, 1e4), symbol="m")
     stiffness = Parameter("N/m", "stiffness of the spring that it hangs on", bounds=(1.0, 1e9), symbol="k")
     damping = Parameter("N*s/m", "linear damping beside the spring", bounds=(1e-2, 1e7), symbol="d_1")
-    quadratic_damping = Parameter("N*s^2/m^2", "damping that grows with the square of the speed",
-                                  bounds=(0.0, 1e8), scale="linear", symbol="d_2", default=0.0)  # fmt: skip
+    quadratic_damping = Parameter(
+        "N*s^2/m^2",
+        "damping that grows with the square of the speed",
+        bounds=(0.0, 1e8),
+        scale="linear",
+        symbol="d_2",
+        default=0.0,
+    )
     stretch = State("m", "deflection of the spring")
     speed = State("m/s", "velocity of the mass")
 

@@ -20,6 +20,5 @@ class C(Export):
         """``NAME.h`` and ``NAME.c``."""
         found, name = exported(network), identifier(network.name)
         header = print_header(found.online, network.name, found.title, network.identified)
-        source = print_source(found.online, network.name, found.values, found.units,
-                              network.identified.range)  # fmt: skip
+        source = print_source(found.online, network.name, found.values, found.units, network.identified.range)
         return {f"{name}.h": header.encode(), f"{name}.c": source.encode()}

@@ -24,14 +24,25 @@ class Fmu(MockUpUnit):
 
     def root(self, name: str, token: str, about: str) -> Element:
         """The head of the description."""
-        return Element("fmiModelDescription", fmiVersion="3.0", modelName=name, instantiationToken=token,
-                       description=about, generationTool="dashpot")  # fmt: skip
+        return Element(
+            "fmiModelDescription",
+            fmiVersion="3.0",
+            modelName=name,
+            instantiationToken=token,
+            description=about,
+            generationTool="dashpot",
+        )
 
     def declare(self, root: Element, name: str, found: Exported) -> None:
         """What the unit can do."""
-        SubElement(root, "CoSimulation", modelIdentifier=name, canGetAndSetFMUState="true",
-                   canSerializeFMUState="true",
-                   canHandleVariableCommunicationStepSize=str(found.online.system is None).lower())  # fmt: skip
+        SubElement(
+            root,
+            "CoSimulation",
+            modelIdentifier=name,
+            canGetAndSetFMUState="true",
+            canSerializeFMUState="true",
+            canHandleVariableCommunicationStepSize=str(found.online.system is None).lower(),
+        )
 
     def add_variable(self, parent: Element, number: int, variable: Variable) -> None:
         """A variable with its interval."""

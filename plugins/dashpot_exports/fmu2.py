@@ -24,15 +24,26 @@ class Fmu2(MockUpUnit):
 
     def root(self, name: str, token: str, about: str) -> Element:
         """The head of the description."""
-        return Element("fmiModelDescription", fmiVersion="2.0", modelName=name, guid=token, description=about,
-                       generationTool="dashpot", variableNamingConvention="flat")  # fmt: skip
+        return Element(
+            "fmiModelDescription",
+            fmiVersion="2.0",
+            modelName=name,
+            guid=token,
+            description=about,
+            generationTool="dashpot",
+            variableNamingConvention="flat",
+        )
 
     def declare(self, root: Element, name: str, found: Exported) -> None:
         """What the unit can do."""
-        simulation = SubElement(root, "CoSimulation", modelIdentifier=name, canGetAndSetFMUstate="true",
-                                canSerializeFMUstate="true",
-                                canHandleVariableCommunicationStepSize=str(found.online.system is None).lower(),
-                                )  # fmt: skip
+        simulation = SubElement(
+            root,
+            "CoSimulation",
+            modelIdentifier=name,
+            canGetAndSetFMUstate="true",
+            canSerializeFMUstate="true",
+            canHandleVariableCommunicationStepSize=str(found.online.system is None).lower(),
+        )
         files = SubElement(simulation, "SourceFiles")
         for source in (self.wrapper, f"{name}.c"):
             SubElement(files, "File", name=source)

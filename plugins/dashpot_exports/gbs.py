@@ -27,8 +27,14 @@ TURNING = 4  # points beyond each end of the static curve, where the slow loop t
 SLOW = 1000.0  # s, from one end of the static curve to the other
 WAY = (-5e-3, 5e-3)  # m, of the static curve of a network whose range of identification is not known
 DIRECTIONS = ("FX", "FY", "FZ", "TX", "TY", "TZ")
-METHODS = ("SPLINE_STIFFNESS", "CONSTANT_STIFFNESS", "CUBIC_STIFFNESS", "CONSTANT_DAMPING", "RUBBER_DAMPING",
-           "HYDROMOUNT_DAMPING")  # fmt: skip
+METHODS = (
+    "SPLINE_STIFFNESS",
+    "CONSTANT_STIFFNESS",
+    "CUBIC_STIFFNESS",
+    "CONSTANT_DAMPING",
+    "RUBBER_DAMPING",
+    "HYDROMOUNT_DAMPING",
+)
 ACTIVE = ("SPLINE_STIFFNESS", "CONSTANT_DAMPING")
 TEXT = """\
 $ {title}
@@ -104,12 +110,16 @@ class Gbs(Export):
         damping, errors = _damping(compiled, sines, place, static)
         outside = beyond(network, sines)
         text = TEXT.format(
-            title=" ".join(found.title.split()), name=name, worst=max(share for _, share in errors),
+            title=" ".join(found.title.split()),
+            name=name,
+            worst=max(share for _, share in errors),
             outside=f"\n$ {outside}" if outside else "",
-            directions=" ".join(DIRECTIONS), activity="\n".join(self._activity()), direction=self.direction,
+            directions=" ".join(DIRECTIONS),
+            activity="\n".join(self._activity()),
+            direction=self.direction,
             curve="\n".join(f"{1e3 * x!r} {force!r}" for x, force in zip(place.tolist(), static.tolist(), strict=True)),
             damping=1e-3 * damping,
-        )  # fmt: skip
+        )
         rows = "\n".join(",".join(map(repr, (*given, *told))) for given, told in zip(sines, errors, strict=True))
         return {f"{name}.gbs": text.encode(), f"{name}_conversion.csv": (TABLE + rows + "\n").encode()}
 
@@ -134,8 +144,9 @@ def _static(network: NetworkSpec, compiled: Compiled, sines: Sequence[Sine]) -> 
     return place, 0.5 * (up + down)[TURNING * BETWEEN :: BETWEEN][:POINTS]
 
 
-def _damping(compiled: Compiled, sines: Sequence[Sine], place: Array,
-             static: Array) -> tuple[float, list[tuple[float, float]]]:  # fmt: skip
+def _damping(
+    compiled: Compiled, sines: Sequence[Sine], place: Array, static: Array
+) -> tuple[float, list[tuple[float, float]]]:
     """The damping (N s/m) by least squares in which all sines count alike, and the error (N, share) of each."""
     rests = []
     for each in sines:

@@ -50,6 +50,15 @@ class Numba(Export):
 
 def _numbers(found: Exported) -> str:
     online = found.online
-    return TEXT.format(names=online.numbers, units=tuple(found.units), values=list(found.values), driven=online.driven,
-                       loaded=online.loaded, free=online.free, seen=dict(found.spec.identified.range),
-                       smallest=SMALLEST_SPAN, size=online.size, place=SPAN)  # fmt: skip
+    return TEXT.format(
+        names=online.numbers,
+        units=tuple(found.units),
+        values=list(found.values),
+        driven=online.driven,
+        loaded=online.loaded,
+        free=online.free,
+        seen=dict(found.spec.identified.range),
+        smallest=SMALLEST_SPAN,
+        size=online.size,
+        place=SPAN,
+    )

@@ -23,8 +23,9 @@ def sine(frequency: float, amplitude: float, preload: float) -> Drive:
     phase = 2.0 * np.pi * np.arange(PERIODS * SAMPLES + 1) / SAMPLES
     rate = 2.0 * np.pi * frequency
     x = preload + amplitude * np.sin(phase)
-    return drive_from_path(1.0 / (frequency * SAMPLES), x, amplitude * rate * np.cos(phase),
-                           -amplitude * rate**2 * np.sin(phase))  # fmt: skip
+    return drive_from_path(
+        1.0 / (frequency * SAMPLES), x, amplitude * rate * np.cos(phase), -amplitude * rate**2 * np.sin(phase)
+    )
 
 
 def preloads_of(network: NetworkSpec) -> tuple[float, ...]:
@@ -37,9 +38,13 @@ def preloads_of(network: NetworkSpec) -> tuple[float, ...]:
 def beyond(network: NetworkSpec, sines: Sequence[tuple[float, float, float]]) -> str:
     """What of the sines (frequency, amplitude, preload) lies outside the range of identification, in words."""
     frequencies, amplitudes, preloads = (np.array(row) for row in zip(*sines, strict=True))
-    seen = {"frequency": frequencies, "amplitude": amplitudes, "preload": preloads,
-            "displacement": np.concatenate([preloads - amplitudes, preloads + amplitudes]),
-            "speed": np.append(2.0 * np.pi * frequencies * amplitudes, 0.0)}  # fmt: skip
+    seen = {
+        "frequency": frequencies,
+        "amplitude": amplitudes,
+        "preload": preloads,
+        "displacement": np.concatenate([preloads - amplitudes, preloads + amplitudes]),
+        "speed": np.append(2.0 * np.pi * frequencies * amplitudes, 0.0),
+    }
     known = network.identified.range
     ends = {key: (float(seen[quantity_of(key)].min()), float(seen[quantity_of(key)].max())) for key in known}
     words = outside(ends, known)
@@ -50,5 +55,8 @@ def require_one_end(network: NetworkSpec, what: str) -> None:
     """InputError for a network that is not driven at one end alone."""
     topology = topology_of(network)
     if len(topology.held("driven")) != 1 or topology.held("loaded"):
-        raise InputError.at(Place(network.file), f"{what} needs a network with one driven end, got "
-                            f"{len(topology.held('driven'))}", "export it with --to fmu")  # fmt: skip
+        raise InputError.at(
+            Place(network.file),
+            f"{what} needs a network with one driven end, got {len(topology.held('driven'))}",
+            "export it with --to fmu",
+        )

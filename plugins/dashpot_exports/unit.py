@@ -80,8 +80,15 @@ class MockUpUnit(Export):
     def sources(self, found: Exported, name: str, token: str) -> dict[str, bytes]:
         """The sources by name."""
         online = found.online
-        model = MODEL.format(name=name, guard=name.upper(), driven=len(online.driven), loaded=len(online.loaded),
-                             span=SPAN, step=STEP, token=token)  # fmt: skip
+        model = MODEL.format(
+            name=name,
+            guard=name.upper(),
+            driven=len(online.driven),
+            loaded=len(online.loaded),
+            span=SPAN,
+            step=STEP,
+            token=token,
+        )
         own, spec = resources(__package__), found.spec
         source = print_source(online, spec.name, found.values, found.units, spec.identified.range)
         return {
@@ -150,12 +157,16 @@ def compiled(sources: Mapping[str, bytes], names: list[str], library: str) -> by
         try:
             subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
         except FileNotFoundError:
-            raise InputError.at(Place(), "a mock-up unit needs the C compiler 'cc', which is not there",
-                                "install one, or export with --to c and build elsewhere") from None  # fmt: skip
+            raise InputError.at(
+                Place(),
+                "a mock-up unit needs the C compiler 'cc', which is not there",
+                "install one, or export with --to c and build elsewhere",
+            ) from None
         except subprocess.CalledProcessError as error:
             first = (error.stderr or "").strip().partition("\n")[0]
-            raise InputError.at(Place(), f"the C compiler refused the sources: {first}",
-                                "export with --to c to see them") from None  # fmt: skip
+            raise InputError.at(
+                Place(), f"the C compiler refused the sources: {first}", "export with --to c to see them"
+            ) from None
         return (Path(folder) / library).read_bytes()
 
 

@@ -63,9 +63,12 @@ def _unit(name: str) -> str:
 
 
 def _numbers(found: Exported) -> list[Variable]:
-    return [Variable(slot.path, "parameter", f"{slot.value.role} number", slot.value.unit, value,
-                     _interval(slot.value.interval))
-            for slot, value in zip(found.slots, found.values, strict=True)]  # fmt: skip
+    return [
+        Variable(
+            slot.path, "parameter", f"{slot.value.role} number", slot.value.unit, value, _interval(slot.value.interval)
+        )
+        for slot, value in zip(found.slots, found.values, strict=True)
+    ]
 
 
 def _interval(interval: tuple[float, float] | None) -> str:

@@ -72,11 +72,15 @@ def _read_block(segment: Segment, lines: Sequence[str], heading: FileHeading) ->
     named = [i for i, name in enumerate(segment.names) if name != _COMMENT and i not in clocks]
     titles = distinct([segment.names[index] for index in named], "channel")
     channels = {title: columns[index] for title, index in zip(titles, named, strict=True)}
-    written = {number: columns[index] for number, index in enumerate(clocks, 1)
-               if np.isfinite(_plain(columns[index])).any()}  # fmt: skip
+    written = {
+        number: columns[index] for number, index in enumerate(clocks, 1) if np.isfinite(_plain(columns[index])).any()
+    }
     clock = _plain(next(iter(written.values()))) if written else _counted(segment, heading, len(rows))
-    channels |= {f"{_CLOCK} {number}": values for number, values in written.items()
-                 if not np.array_equal(_plain(values), clock, equal_nan=True)}  # fmt: skip
+    channels |= {
+        f"{_CLOCK} {number}": values
+        for number, values in written.items()
+        if not np.array_equal(_plain(values), clock, equal_nan=True)
+    }
     return _Block(clock, channels, np.array(kept) + 1)
 
 

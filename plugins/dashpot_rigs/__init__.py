@@ -39,5 +39,18 @@ def dashpot_rigs() -> list[type]:
     from dashpot_rigs.triangle import Triangle
     from dashpot_rigs.triangles import Triangles
 
-    return [Triangle, Triangles, Hold, Hydropulser, SteppedSine, PreloadRamp, Blocks, Random, DamperLadder, AxleSweep,
-            FourPost, Eusama, PhaseShift]  # fmt: skip
+    return [
+        Triangle,
+        Triangles,
+        Hold,
+        Hydropulser,
+        SteppedSine,
+        PreloadRamp,
+        Blocks,
+        Random,
+        DamperLadder,
+        AxleSweep,
+        FourPost,
+        Eusama,
+        PhaseShift,
+    ]

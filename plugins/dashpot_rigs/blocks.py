@@ -28,8 +28,10 @@ class Blocks(Rig):
         sampling: Annotated[float, "Hz"] = 1000.0,
     ):
         if not len(amplitudes) == len(frequencies) == len(cycles):
-            raise ValueError(f"expected as many frequencies and cycles as the {len(amplitudes)} amplitudes, "
-                             f"got {len(frequencies)} and {len(cycles)}")  # fmt: skip
+            raise ValueError(
+                f"expected as many frequencies and cycles as the {len(amplitudes)} amplitudes, "
+                f"got {len(frequencies)} and {len(cycles)}"
+            )
         if min(*amplitudes, *frequencies, *cycles, rounds) <= 0.0:
             raise ValueError("amplitudes, frequencies, cycles and rounds: expected more than 0")
         require_sampling(max(frequencies), sampling)

@@ -27,15 +27,25 @@ def inspection_runs(
     ValueError for a test that cannot be driven or sampled.
     """
     if min(amplitude, stop, duration) <= 0.0 or start <= stop or min(rest, steady) < 0.0:
-        raise ValueError("expected amplitude, stop and duration of more than 0, a start above the stop, and neither "
-                         "rest nor steady below 0")  # fmt: skip
+        raise ValueError(
+            "expected amplitude, stop and duration of more than 0, a start above the stop, and neither "
+            "rest nor steady below 0"
+        )
     if sampling < 20.0 * start:
         raise ValueError(f"sampling: expected at least 20 samples a cycle of {start:g} Hz, got {sampling:g} Hz")
     time = np.arange(round((rest + steady + duration) * sampling) + 1) / sampling
     path = falling_sine(time - rest, amplitude, start, stop, steady, duration)
     settings = {"amplitude": amplitude, "start": start, "stop": stop}
-    return [PlannedRun(f"{name}_m{mass:.6g}".replace(".", "p"), "sweep", 1.0 / sampling, {node or PORT: path},
-                       {**settings, "added_mass": mass}) for mass in added_masses]  # fmt: skip
+    return [
+        PlannedRun(
+            f"{name}_m{mass:.6g}".replace(".", "p"),
+            "sweep",
+            1.0 / sampling,
+            {node or PORT: path},
+            {**settings, "added_mass": mass},
+        )
+        for mass in added_masses
+    ]
 
 
 def falling_sine(

@@ -32,8 +32,9 @@ class PhaseShift(Rig):
         node: str = "",
         sampling: Annotated[float, "Hz"] = 1000.0,
     ):
-        self.planned = inspection_runs(self.word, amplitude, start, stop, duration, rest, steady, added_masses, node,
-                                       sampling)  # fmt: skip
+        self.planned = inspection_runs(
+            self.word, amplitude, start, stop, duration, rest, steady, added_masses, node, sampling
+        )
 
     def runs(self) -> Sequence[PlannedRun]:
         """A run for each added mass."""

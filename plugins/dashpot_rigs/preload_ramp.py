@@ -32,8 +32,10 @@ class PreloadRamp(Rig):
         sampling: Annotated[float, "Hz"] = 1000.0,
     ):
         if min(*frequencies, *amplitudes) <= 0.0 or duration * min(frequencies) < 10.0 or low == high:
-            raise ValueError("expected frequencies and amplitudes of more than 0, ten cycles and more within the "
-                             "duration, and two different preloads")  # fmt: skip
+            raise ValueError(
+                "expected frequencies and amplitudes of more than 0, ten cycles and more within the "
+                "duration, and two different preloads"
+            )
         require_sampling(max(frequencies), sampling)
         self.plans = list(product(frequencies, amplitudes))
         self.low, self.high, self.duration, self.sampling = low, high, duration, sampling

@@ -37,8 +37,10 @@ class Random(Rig):
         if spectrum not in FALL:
             raise ValueError(f"spectrum: expected {', '.join(FALL)}, got '{spectrum}'")
         if min(rms) <= 0.0 or not 0.0 < low < high or not 0.0 < 2.0 * fade <= duration or duration * low < 2.0:
-            raise ValueError("expected an rms of more than 0, low below high, two cycles of low and more in the "
-                             "duration, and a fade for which there is room at both ends")  # fmt: skip
+            raise ValueError(
+                "expected an rms of more than 0, low below high, two cycles of low and more in the "
+                "duration, and a fade for which there is room at both ends"
+            )
         require_sampling(high, sampling)
         self.spectrum, self.band, self.duration, self.fade = spectrum, (low, high), duration, fade
         self.plans, self.seed, self.sampling = list(product(preloads, rms)), seed, sampling

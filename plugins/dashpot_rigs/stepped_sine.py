@@ -39,7 +39,11 @@ class SteppedSine(Rig):
 
     def _run(self, preload: float, amplitude: float) -> PlannedRun:
         path = sine_blocks([(amplitude, frequency, self.cycles) for frequency in self.frequencies], 1.0 / self.sampling)
-        settings = {"amplitude": amplitude, "preload": preload, "start": self.frequencies[0],
-                    "stop": self.frequencies[-1]}  # fmt: skip
+        settings = {
+            "amplitude": amplitude,
+            "preload": preload,
+            "start": self.frequencies[0],
+            "stop": self.frequencies[-1],
+        }
         name = f"steps_a{millimetres(amplitude)}_p{millimetres(preload)}"
         return PlannedRun(name, "sweep", 1.0 / self.sampling, {PORT: around(path, preload)}, settings)

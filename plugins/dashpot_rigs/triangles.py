@@ -45,5 +45,10 @@ class Triangles(Rig):
         path = triangle_path(depth, speed, self.loops, CORNER * depth / speed, sample_time)
         settings = {"speed": speed, "amplitude": self.amplitude, "preload": self.preload}
         name = f"triangle_v{plain(1e3 * speed)}_a{millimetres(self.amplitude)}"
-        return PlannedRun(name, "quasi_static" if speed <= SLOW else "transient", sample_time,
-                          {PORT: around(path, self.preload - self.amplitude)}, settings)  # fmt: skip
+        return PlannedRun(
+            name,
+            "quasi_static" if speed <= SLOW else "transient",
+            sample_time,
+            {PORT: around(path, self.preload - self.amplitude)},
+            settings,
+        )

@@ -50,8 +50,9 @@ def stations(places: Sequence[float], ramp: float, dwell: float, sample_time: fl
     return PrescribedPath(*path)
 
 
-def random_profile(exponent: float, band: tuple[float, float], duration: float, sample_time: float,
-                   seed: int) -> PrescribedPath:  # fmt: skip
+def random_profile(
+    exponent: float, band: tuple[float, float], duration: float, sample_time: float, seed: int
+) -> PrescribedPath:
     """A random motion of an RMS of 1 m whose power density falls with frequency^exponent within the band (Hz).
 
     It is a sum of sines of all multiples of one over the duration with random phases, so that its rates are exact.
@@ -75,8 +76,13 @@ def plateau(time: Array, length: float, fade: float) -> Array:
 
 def product(level: Array, wave: Array) -> Array:
     """Level times wave (3, n), each with its first and second rate."""
-    return np.stack([level[0] * wave[0], level[1] * wave[0] + level[0] * wave[1],
-                     level[2] * wave[0] + 2.0 * level[1] * wave[1] + level[0] * wave[2]])  # fmt: skip
+    return np.stack(
+        [
+            level[0] * wave[0],
+            level[1] * wave[0] + level[0] * wave[1],
+            level[2] * wave[0] + 2.0 * level[1] * wave[1] + level[0] * wave[2],
+        ]
+    )
 
 
 def around(path: PrescribedPath, middle: float | PrescribedPath, factor: float = 1.0) -> PrescribedPath:

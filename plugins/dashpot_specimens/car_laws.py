@@ -76,15 +76,34 @@ def drive_car(car: Car, platforms: np.ndarray, added_mass: float, settle: float 
     travels = np.geomspace(*car.tire.travels, 24)
     times = np.geomspace(*car.tire.times, 9)
     held = np.repeat(platforms[:, :1], round(settle / STEP), axis=1)
-    numbers = np.array([
-        car.wheel_mass + added_mass, car.tire.stiffness, car.tire.hardening, car.tire.damping, sag, car.spring,
-        car.spring_hardening, car.spring_force, car.bump_at, car.bump_stiffness, *car.rebound, *car.compression,
-        car.mount_stiffness, car.mount_damping, car.rod_mass, car.friction, car.breakaway, car.friction_travel, car.bar,
-        car.bar_friction,
-    ])  # fmt: skip
+    numbers = np.array(
+        [
+            car.wheel_mass + added_mass,
+            car.tire.stiffness,
+            car.tire.hardening,
+            car.tire.damping,
+            sag,
+            car.spring,
+            car.spring_hardening,
+            car.spring_force,
+            car.bump_at,
+            car.bump_stiffness,
+            *car.rebound,
+            *car.compression,
+            car.mount_stiffness,
+            car.mount_damping,
+            car.rod_mass,
+            car.friction,
+            car.breakaway,
+            car.friction_travel,
+            car.bar,
+            car.bar_friction,
+        ]
+    )
     path = np.concatenate([held, platforms], axis=1)
-    force, wheel = _march(path, low, numbers, car.tire.sliding_stiffness / 24, travels,
-                          car.tire.relaxing_stiffness / 9, times)  # fmt: skip
+    force, wheel = _march(
+        path, low, numbers, car.tire.sliding_stiffness / 24, travels, car.tire.relaxing_stiffness / 9, times
+    )
     return {"force": force[:, held.shape[1] :], "wheel": wheel[:, held.shape[1] :]}
 
 
@@ -103,8 +122,11 @@ def _digressive(v, slope, knee):  # type: ignore[no-untyped-def]
 @njit(cache=True)
 def _march(path, low, numbers, slide, travels, relax, times):  # type: ignore[no-untyped-def]
     """Leapfrog steps of both wheels and both rods, from wheels that stand ``low`` (m) on their platforms."""
-    (mass, k, hardening, tire_damping, sag, spring, progress, load, bump_at, bump, re_slope, re_knee, co_slope, co_knee,
-     mount, mount_damping, rod_mass, limit, breakaway, travel, bar, bar_limit) = numbers  # fmt: skip
+    mass, k, hardening, tire_damping, sag = numbers[:5]
+    spring, progress, load, bump_at, bump = numbers[5:10]
+    re_slope, re_knee, co_slope, co_knee = numbers[10:14]
+    mount, mount_damping, rod_mass = numbers[14:17]
+    limit, breakaway, travel, bar, bar_limit = numbers[17:]
     steps = path.shape[1]
     force, wheel = np.zeros((2, steps)), np.zeros((2, steps))
     z, v, a = path[:, 0] - low, np.zeros(2), np.zeros(2)
@@ -156,9 +178,16 @@ def _march(path, low, numbers, slide, travels, relax, times):  # type: ignore[no
 
 def tire_force(tire: CarTire, deflection: np.ndarray) -> np.ndarray:
     """The force (steps,) of the tire alone along a deflection at every 50 us, beginning relaxed."""
-    return _tire_alone(deflection, tire.stiffness, tire.hardening, tire.damping, tire.sliding_stiffness / 24,
-                       np.geomspace(*tire.travels, 24), tire.relaxing_stiffness / 9,
-                       np.geomspace(*tire.times, 9))  # fmt: skip
+    return _tire_alone(
+        deflection,
+        tire.stiffness,
+        tire.hardening,
+        tire.damping,
+        tire.sliding_stiffness / 24,
+        np.geomspace(*tire.travels, 24),
+        tire.relaxing_stiffness / 9,
+        np.geomspace(*tire.times, 9),
+    )
 
 
 @njit(cache=True)

@@ -75,8 +75,19 @@ class Mount:
 
     def pressure(self, velocity: np.ndarray) -> np.ndarray:
         """Pressure in the upper chamber over the ambient one, Pa, shape (steps,), by the Runge-Kutta method."""
-        numbers = (self.piston, self.bulge, self.bellows, self.inertance, self.friction, self.turbulence, self.plate,
-                   self.plate_mass, self.plate_damping, self.travel, self.seat_stiffness)  # fmt: skip
+        numbers = (
+            self.piston,
+            self.bulge,
+            self.bellows,
+            self.inertance,
+            self.friction,
+            self.turbulence,
+            self.plate,
+            self.plate_mass,
+            self.plate_damping,
+            self.travel,
+            self.seat_stiffness,
+        )
         return _pumped(velocity, STEP / SUBSTEPS, SUBSTEPS, np.array(numbers))
 
 

@@ -100,8 +100,9 @@ def _tire_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int) -
     again = [(amplitude, PRELOADS[1], "_b") for amplitude in AMPLITUDES]
     for amplitude, preload, mark in [*plans, *again, (HOP, PRELOADS[1], "")]:
         first, stop = f"tire_a{amplitude * 1e3:g}_p{preload * 1e3:g}", HOP_STOP if amplitude == HOP else STOP
-        settings = (f"{{amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm, start: 1 Hz, "
-                    f"stop: {stop:g} Hz}}")  # fmt: skip
+        settings = (
+            f"{{amplitude: {amplitude * 1e3:g} mm, preload: {preload * 1e3:g} mm, start: 1 Hz, stop: {stop:g} Hz}}"
+        )
         about = f"kind: sweep\n    settings: {settings}" + (f"\n    repeats: {first}" if mark else "")
         yield run(first + mark, preload + car_path.sweep(amplitude, 1.0, stop, TIRE_SWEEP), dynamic, about)
 
@@ -114,8 +115,11 @@ def _axle_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int, d
 
     def run(name: str, paths: np.ndarray, every: int, added: float, about: str) -> str:
         found = drive_car(car, paths, added)
-        channels = {f"{key}{side[0]}": values[number, ::every] for number, side in enumerate(SIDES)
-                    for key, values in (("x", paths), ("z", found["wheel"]), ("F", found["force"]))}  # fmt: skip
+        channels = {
+            f"{key}{side[0]}": values[number, ::every]
+            for number, side in enumerate(SIDES)
+            for key, values in (("x", paths), ("z", found["wheel"]), ("F", found["force"]))
+        }
         _write(folder / f"{name}.npz", every, channels, rng)
         return f"  - name: {name}\n    file: {name}.npz\n    {about}\n{AXLE_CHANNELS}"
 
@@ -137,9 +141,12 @@ def _write(path: Path, every: int, channels: dict[str, np.ndarray], rng: np.rand
     from dashpot_specimens.rig_log import coloured_noise
 
     size = len(next(iter(channels.values())))
-    noisy: dict[str, Any] = {key: np.round(values + coloured_noise(rng, size, 5.0), 1) if key[0] == "F" else
-                             np.round(1e3 * (values + 1e-6 * rng.standard_normal(size)), 4)
-                             for key, values in channels.items()}  # fmt: skip
+    noisy: dict[str, Any] = {
+        key: np.round(values + coloured_noise(rng, size, 5.0), 1)
+        if key[0] == "F"
+        else np.round(1e3 * (values + 1e-6 * rng.standard_normal(size)), 4)
+        for key, values in channels.items()
+    }
     np.savez_compressed(path, t=np.arange(size) * every * STEP, **noisy)
 
 
@@ -154,12 +161,25 @@ def random_car(rng: np.random.Generator, mount: bool) -> Car:
         return float(number * rng.uniform(1.0 - spread, 1.0 + spread))
 
     plain = Car()
-    tire = replace(CarTire(), stiffness=around(190e3, 0.15), hardening=around(2.2e6, 0.4),
-                   sliding_stiffness=around(45e3, 0.4), relaxing_stiffness=around(30e3, 0.4),
-                   damping=around(35.0, 0.5))  # fmt: skip
-    car = replace(plain, wheel_mass=float(rng.uniform(36.0, 55.0)), tire=tire, spring=around(plain.spring, 0.2),
-                  rebound=(around(4200.0, 0.3), around(0.32, 0.2)),
-                  compression=(around(2100.0, 0.3), around(0.28, 0.2)),
-                  friction=around(40.0, 0.5), friction_travel=around(0.35e-3, 0.3), bar=around(11e3, 0.3),
-                  mount_stiffness=float(rng.uniform(300e3, 800e3)), rod_mass=float(rng.uniform(1.0, 2.0)))  # fmt: skip
+    tire = replace(
+        CarTire(),
+        stiffness=around(190e3, 0.15),
+        hardening=around(2.2e6, 0.4),
+        sliding_stiffness=around(45e3, 0.4),
+        relaxing_stiffness=around(30e3, 0.4),
+        damping=around(35.0, 0.5),
+    )
+    car = replace(
+        plain,
+        wheel_mass=float(rng.uniform(36.0, 55.0)),
+        tire=tire,
+        spring=around(plain.spring, 0.2),
+        rebound=(around(4200.0, 0.3), around(0.32, 0.2)),
+        compression=(around(2100.0, 0.3), around(0.28, 0.2)),
+        friction=around(40.0, 0.5),
+        friction_travel=around(0.35e-3, 0.3),
+        bar=around(11e3, 0.3),
+        mount_stiffness=float(rng.uniform(300e3, 800e3)),
+        rod_mass=float(rng.uniform(1.0, 2.0)),
+    )
     return car if mount else car.rigid

@@ -64,8 +64,10 @@ def excitation(seconds: float) -> Excitation:
     times = DT * np.arange(round(seconds / DT))
     platform = platform_in(min)
     paths = [np.array([platform(t, seconds, angle) for t in times.tolist()]).T for angle in ANGLES]
-    drives = {node: drive_from_path(DT, *map(np.ascontiguousarray, path))
-              for node, path in zip(axle().outputs, paths, strict=True)}  # fmt: skip
+    drives = {
+        node: drive_from_path(DT, *map(np.ascontiguousarray, path))
+        for node, path in zip(axle().outputs, paths, strict=True)
+    }
     return Excitation(drives, {}, {}, DT, times.size, "W2")
 
 
@@ -108,12 +110,19 @@ def equations(seconds: float, tongue: Tongue) -> Equations:
     spec = axle().spec
     numbers = {slot.path: slot.value.number for slot in spec.slots()}
     tire, held, spring, absorber = (table_of(spec.curves()[path], path == HELD) for path in TABLES)
-    laws = np.array([
-        *((numbers[f"tire.maxwell_{k}.stiffness"], numbers[f"tire.maxwell_{k}.relaxation_time"]) for k in (1, 2, 3)),
-        *((numbers[f"tire.prandtl_{k}.stiffness"], numbers[f"tire.prandtl_{k}.limit"]) for k in (1, 2, 3)),
-        *((numbers[f"{name}.stiffness"], numbers[f"{name}.limit"]) for name in ("tire.friction", "friction",
-                                                                                  "anti_roll_bar.friction")),
-    ])  # fmt: skip
+    laws = np.array(
+        [
+            *(
+                (numbers[f"tire.maxwell_{k}.stiffness"], numbers[f"tire.maxwell_{k}.relaxation_time"])
+                for k in (1, 2, 3)
+            ),
+            *((numbers[f"tire.prandtl_{k}.stiffness"], numbers[f"tire.prandtl_{k}.limit"]) for k in (1, 2, 3)),
+            *(
+                (numbers[f"{name}.stiffness"], numbers[f"{name}.limit"])
+                for name in ("tire.friction", "friction", "anti_roll_bar.friction")
+            ),
+        ]
+    )
     mass, offset, damping = numbers["wheel_left.mass"], numbers["tire.offset"], numbers["tire.damping.damping"]
     bar = numbers["anti_roll_bar.bar.stiffness"]
 

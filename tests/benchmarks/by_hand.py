@@ -41,8 +41,14 @@ class ByHand:
         arrays = (self.first, self.sides, self.ways, self.motion, self.static, self.measured)
         for lane in range(0, self.error.size, GROUP):
             own, error = _place(self.numbers[:, lane:]), _place(self.error[lane:])
-            self.code(ctypes.c_long(self.sides.size), *map(_place, arrays), own, ctypes.c_long(self.error.size),
-                      ctypes.c_double(SHARPNESS), error)  # fmt: skip
+            self.code(
+                ctypes.c_long(self.sides.size),
+                *map(_place, arrays),
+                own,
+                ctypes.c_long(self.error.size),
+                ctypes.c_double(SHARPNESS),
+                error,
+            )
         return self.error[: self.count].copy()
 
 

@@ -64,17 +64,21 @@ def measured(verb: str, campaign: CampaignSpec) -> tuple[float, float]:
     """Seconds of a job on one worker, and the efficiency of two."""
     clock, busy = zip(*(timed(campaign, workers) for workers in (1, 2)), strict=True)
     count, efficiency = len(campaign.jobs), clock[0] / (2.0 * clock[1])
-    print(f"{count} x {verb}: {clock[0]:.2f} s with one worker, {clock[1]:.2f} s with two, efficiency "
-          f"{efficiency:.2f}; {1e3 * clock[0] / count:.0f} ms each; "
-          f"workers were busy {busy[0]:.3f} and {busy[1]:.3f} of the time")  # fmt: skip
+    print(
+        f"{count} x {verb}: {clock[0]:.2f} s with one worker, {clock[1]:.2f} s with two, efficiency "
+        f"{efficiency:.2f}; {1e3 * clock[0] / count:.0f} ms each; "
+        f"workers were busy {busy[0]:.3f} and {busy[1]:.3f} of the time"
+    )
     return clock[0] / count, efficiency
 
 
 def timed(campaign: CampaignSpec, workers: int) -> tuple[float, float]:
     """Seconds for all jobs, on workers that have done one before, and the share of it in which these were busy."""
     work = Work({model.name: model for model in campaign.models}, campaign.seed)
-    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster, \
-            Client(cluster) as client:  # fmt: skip
+    with (
+        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+    ):
         client.run(run_job, work, campaign.jobs[0])
         began = time.perf_counter()
         jobs = [future.result() for _, future in finished(timed_job, work, campaign.jobs, client)]
@@ -120,17 +124,24 @@ def simulated(workers: int) -> None:
     """Print how a scheduler keeps so many workers busy with jobs that wait."""
     jobs = 5 * workers
     began = time.perf_counter()
-    with LocalCluster(n_workers=workers, threads_per_worker=1, processes=False, dashboard_address=None,
-                      silence_logs=50) as cluster, Client(cluster) as client:  # fmt: skip
+    with (
+        LocalCluster(
+            n_workers=workers, threads_per_worker=1, processes=False, dashboard_address=None, silence_logs=50
+        ) as cluster,
+        Client(cluster) as client,
+    ):
         client.wait_for_workers(workers)
         started = time.perf_counter() - began
         began = time.perf_counter()
         done = sum(1 for _ in finished(wait, WAIT, list(range(jobs)), client))
         spent = time.perf_counter() - began
         ideal = done * WAIT / workers
-        print(f"{workers} workers, {done} jobs of {WAIT:g} s: {spent:.2f} s where {ideal:.2f} s are ideal, "
-              f"{1e3 * (spent - ideal) / done:.2f} ms each more; {done / spent:.0f} jobs/s; "
-              f"workers stood after {started:.0f} s", flush=True)  # fmt: skip
+        print(
+            f"{workers} workers, {done} jobs of {WAIT:g} s: {spent:.2f} s where {ideal:.2f} s are ideal, "
+            f"{1e3 * (spent - ideal) / done:.2f} ms each more; {done / spent:.0f} jobs/s; "
+            f"workers stood after {started:.0f} s",
+            flush=True,
+        )
 
 
 if __name__ == "__main__":

@@ -98,8 +98,9 @@ def dictionary(posed: Problem, seed: int) -> tuple[list[tuple[int, float]], floa
     start = dictionary_start(posed.objective, posed.coordinates)
     assert start is not None
     losses: list[float] = []
-    found = refine(posed.objective, posed.coordinates, start.point, watch=losses.append,
-                   budget=2 * LANES - start.evaluations)  # fmt: skip
+    found = refine(
+        posed.objective, posed.coordinates, start.point, watch=losses.append, budget=2 * LANES - start.evaluations
+    )
     step = 1 + start.point.size + len(DAMPINGS)
     return [(start.evaluations + 1 + step * number, loss) for number, loss in enumerate(losses, 1)], found.loss
 
@@ -115,8 +116,11 @@ def other(method: str) -> Method:
             optimizer,
             lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
             lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
-            Space(coordinates.paths, start), seed, LARGEST, posed.goal,
-        )  # fmt: skip
+            Space(coordinates.paths, start),
+            seed,
+            LARGEST,
+            posed.goal,
+        )
         return [(standing.evaluations, standing.loss) for standing in found.history], found.loss
 
     return run

@@ -19,8 +19,10 @@ def euler_force(path: tuple[Array, Array], numbers: Mapping[str, float]) -> Arra
     carcass = np.interp(x, KNOTS, [numbers[f"stiffness.stiffness[{k}]"] for k in range(KNOTS.size)])
     factor = np.interp(x, FACTOR_AT, [numbers[f"damping.scale[{k}]"] for k in range(FACTOR_AT.size)])
     kinds = (("maxwell", "relaxation_time"), ("prandtl", "limit"))
-    rows = [np.array([[numbers[f"{name}_{k}.stiffness"], numbers[f"{name}_{k}.{key}"]] for k in (1, 2, 3)])
-            for name, key in kinds]  # fmt: skip
+    rows = [
+        np.array([[numbers[f"{name}_{k}.stiffness"], numbers[f"{name}_{k}.{key}"]] for k in (1, 2, 3)])
+        for name, key in kinds
+    ]
     dahl = np.array([numbers["friction.stiffness"], numbers["friction.limit"]])
     return euler(x, carcass + numbers["damping.damping"] * factor * v, *rows, dahl, DT)
 

@@ -37,8 +37,10 @@ def _parts(content: Content) -> Iterator[list[str]]:
         base = _row(content, work, first)["ns"]
         rows = [f"| {row['who']} | {row['ns']:.3g} | {row['ns'] / base:.3g} | {_error(row)} |" for row in content[work]]
         yield [f"| {work} | ns per lane and sample | ratio | error rms in N |", "| --- | ---: | ---: | ---: |", *rows]
-    rows = [f"| {what} | {_told(counts)} | {_told(spent)} | {uneven(counts, spent):.0%} |"
-            for what, (counts, spent) in growth(content).items()]  # fmt: skip
+    rows = [
+        f"| {what} | {_told(counts)} | {_told(spent)} | {uneven(counts, spent):.0%} |"
+        for what, (counts, spent) in growth(content).items()
+    ]
     yield [
         "| growth with | how many | ms | largest distance from a straight line |",
         "| --- | --- | --- | ---: |",
@@ -81,9 +83,11 @@ def _head(content: Content) -> str:
     before, after = content["load"]
     machine = f"{content['machine']['processor']}, {content['machine']['cores']} cores"
     sweeps = f"{content['sweeps']} sweeps of {content['seconds']:g} s"
-    return (f"{content['date']}, {machine}; {versions}.{absent} W1: {sweeps}, W2: one. Medians of {content['rounds']} "
-            f"rounds; integrators on {content['peer_seconds']:g} s of one run. Programs at work in the minute before: "
-            f"{before:.1f}, in the last one, with this: {after:.1f}.")  # fmt: skip
+    return (
+        f"{content['date']}, {machine}; {versions}.{absent} W1: {sweeps}, W2: one. Medians of {content['rounds']} "
+        f"rounds; integrators on {content['peer_seconds']:g} s of one run. Programs at work in the minute before: "
+        f"{before:.1f}, in the last one, with this: {after:.1f}."
+    )
 
 
 def goals(content: Content) -> Iterator[Goal]:
@@ -98,8 +102,12 @@ def goals(content: Content) -> Iterator[Goal]:
     yield _least("two threads over one", 1.9, swarm["clock_ns"] / two["clock_ns"])
     counted = content["swarm"]
     yield _most(f"swarm of {LANES} x {counted['iterations']}, two threads, s", 30.0, counted["seconds"])
-    for work, base, name, times in (("W1", swarm, NUMBALSODA, 400.0), ("W1", swarm, SUNDIALS, 5000.0),
-                                    ("W2", axle, NUMBALSODA, 20.0), ("W2", axle, SUNDIALS, 20.0)):  # fmt: skip
+    for work, base, name, times in (
+        ("W1", swarm, NUMBALSODA, 400.0),
+        ("W1", swarm, SUNDIALS, 5000.0),
+        ("W2", axle, NUMBALSODA, 20.0),
+        ("W2", axle, SUNDIALS, 20.0),
+    ):
         if peer := _row(content, work, name):
             yield _least(f"{work}, {name} over dashpot", times, peer["ns"] / base["ns"])
     worst = max(content["sums"], key=lambda row: row["ratio"])

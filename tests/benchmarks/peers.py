@@ -122,8 +122,9 @@ def casadi_cvodes(symbolic: Equations, equations: Equations, times: Array, rtol:
     dy = [casadi.SX(0.0)] * equations.start.size
     symbolic.rate(t, y, dy)
     options = {"reltol": rtol, "abstol": float(min(_small(equations, rtol))), "max_num_steps": 10_000_000}
-    solver = casadi.integrator("solver", "cvodes", {"x": y, "t": t, "ode": casadi.vertcat(*dy)}, float(times[0]),
-                               times.tolist(), options)  # fmt: skip
+    solver = casadi.integrator(
+        "solver", "cvodes", {"x": y, "t": t, "ode": casadi.vertcat(*dy)}, float(times[0]), times.tolist(), options
+    )
     return lambda: np.array(solver(x0=equations.start)["xf"])
 
 
@@ -157,8 +158,16 @@ def forces(equations: Equations, times: Array, states: Array) -> Array:
     )
 
 
-def _loosest(who: str, what: str, settings: tuple, integrator: Integrator, equations: Equations, truth: Array,
-             times: Array, goal: float) -> Entry:  # fmt: skip
+def _loosest(
+    who: str,
+    what: str,
+    settings: tuple,
+    integrator: Integrator,
+    equations: Equations,
+    truth: Array,
+    times: Array,
+    goal: float,
+) -> Entry:
     integrator(equations, times[:5], settings[0])()
     for setting in settings:
         work = integrator(equations, times, setting)

@@ -43,8 +43,11 @@ from dashpot.kernel.parts import take_apart
 from dashpot.kernel.targets.llvm.source import print_source
 
 LADDER = ("spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_2", "tire_model_5", "ubs", "eub")
-ELEMENTS = {"maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms", "prandtl": "stiffness: 9 N/mm, limit: 20 N",
-            "dahl": "stiffness: 60 N/mm, limit: 15 N"}  # fmt: skip
+ELEMENTS = {
+    "maxwell": "stiffness: 8 N/mm, relaxation_time: 30 ms",
+    "prandtl": "stiffness: 9 N/mm, limit: 20 N",
+    "dahl": "stiffness: 60 N/mm, limit: 15 N",
+}
 COUNTS, SHARES, GROUPS = (1, 2, 4, 8, 16), (0.25, 0.5, 0.75, 1.0), (16, 32, 64, 96, 192)
 HARDEST = 8  # 5 mm around 10 mm
 EXACT_PARTS = 64
@@ -67,8 +70,10 @@ def tire_rows(sweeps: tuple[Sweep, ...], rounds: int) -> Iterator[Row]:
     if by_hand:
         units = tasks[f"{NETWORK}, {LANES} lanes"].units
         field.append(Contestant(f"C by hand, {LANES} lanes", lambda: [each.score() for each in by_hand], units))
-    error = {f"{NETWORK}, {LANES} lanes": tire_error(sweeps), "explicit Euler, numba, scalar":
-             rms(euler_force(path, numbers) - tire_force(hardest, numbers))}  # fmt: skip
+    error = {
+        f"{NETWORK}, {LANES} lanes": tire_error(sweeps),
+        "explicit Euler, numba, scalar": rms(euler_force(path, numbers) - tire_force(hardest, numbers)),
+    }
     yield from _rows(field, rounds, error)
 
 
@@ -102,8 +107,13 @@ def _rows(field: list[Contestant], rounds: int, error: dict[str, float]) -> Iter
     for name, timing in time_together(field, rounds).items():
         # work of other threads is not in the time of this one
         time_of = timing.clock if "threads" in name else timing.cpu
-        yield {"who": name, "ns": time_of, "clock_ns": timing.clock, "spread": timing.spread,
-               **({"error": error[name]} if name in error else {})}  # fmt: skip
+        yield {
+            "who": name,
+            "ns": time_of,
+            "clock_ns": timing.clock,
+            "spread": timing.spread,
+            **({"error": error[name]} if name in error else {}),
+        }
 
 
 def tire_error(sweeps: tuple[Sweep, ...]) -> float:
@@ -191,15 +201,23 @@ def measured(quick: bool, rounds: int) -> dict:
     sweeps = tuple(replace(sweep, seconds=seconds) for sweep in (SWEEPS[::5] if quick else SWEEPS))
     before = os.getloadavg()[0]
     content = {
-        "machine": {"processor": processor(), "cores": os.cpu_count()}, "date": time.strftime("%Y-%m-%d"),
-        "versions": {name: found for name in LIBRARIES if (found := installed(name))}, "missing": missing(),
-        "seconds": seconds, "sweeps": len(sweeps), "rounds": rounds, "peer_seconds": short,
-        "W1": list(tire_rows(sweeps, rounds)), "W2": list(axle_rows(seconds, rounds)),
+        "machine": {"processor": processor(), "cores": os.cpu_count()},
+        "date": time.strftime("%Y-%m-%d"),
+        "versions": {name: found for name in LIBRARIES if (found := installed(name))},
+        "missing": missing(),
+        "seconds": seconds,
+        "sweeps": len(sweeps),
+        "rounds": rounds,
+        "peer_seconds": short,
+        "W1": list(tire_rows(sweeps, rounds)),
+        "W2": list(axle_rows(seconds, rounds)),
         "swarm": {"iterations": iterations, "seconds": swarm_seconds(seconds, iterations, 2)},
-        "growth": list(growth_rows(sweeps[-1], rounds)), "sums": list(sum_rows(sweeps[-1], rounds)),
-        "start": start_times(1 if quick else rounds), "vectors": vectors(),
+        "growth": list(growth_rows(sweeps[-1], rounds)),
+        "sums": list(sum_rows(sweeps[-1], rounds)),
+        "start": start_times(1 if quick else rounds),
+        "vectors": vectors(),
         "instructions": {} if quick else instructions(),
-    }  # fmt: skip
+    }
     for work, rows in peer_rows(short).items():
         content[work] += rows
     return content | {"load": [before, os.getloadavg()[0]]}

@@ -10,8 +10,10 @@ from pathlib import Path
 from statistics import median
 
 HERE = Path(__file__).parent
-COMPILED = {"tire_model_5": ("from workload import network", "network('tire_model_5').native(2)"),
-            "axle_model_3": ("from axle import axle", "axle()")}  # fmt: skip
+COMPILED = {
+    "tire_model_5": ("from workload import network", "network('tire_model_5').native(2)"),
+    "axle_model_3": ("from axle import axle", "axle()"),
+}
 
 
 def start_times(rounds: int) -> dict[str, float]:

@@ -58,8 +58,10 @@ class Task:
             read_network(name, load_registry().elements) if self.coupled else filled(name, Dice(SEED))
         )
         found = exported(self.spec)
-        motions = {node: along_cubics(random_drive(rng, "multisine", 6e-3, 0.01, SAMPLES, 1e-3))
-                   for node in found.online.driven}  # fmt: skip
+        motions = {
+            node: along_cubics(random_drive(rng, "multisine", 6e-3, 0.01, SAMPLES, 1e-3))
+            for node in found.online.driven
+        }
         self.drives: list[Drive] = list(motions.values())
         self.excitation = Excitation(motions, {}, {"added_mass": 0.0}, self.drives[0].dt, SAMPLES, "run")
         self.values = np.array(found.values)
@@ -161,8 +163,11 @@ def table(content: dict[str, dict[str, dict[str, float]]]) -> str:
         "| network | " + " | ".join(f"`{target}`" for target in TARGETS) + " |",
         "| --- " * (len(TARGETS) + 1) + "|",
     ]
-    rows = [f"| `{name}` | {' | '.join(_cell(content[name][target]) for target in TARGETS)} |"
-            for name in (*NAMES, *SYSTEMS) if name in content]  # fmt: skip
+    rows = [
+        f"| `{name}` | {' | '.join(_cell(content[name][target]) for target in TARGETS)} |"
+        for name in (*NAMES, *SYSTEMS)
+        if name in content
+    ]
     return "\n".join(head + rows)
 
 

@@ -15,11 +15,13 @@ def tire_equations(sweep: Sweep, tongue: Tongue) -> Equations:
     compiled = network()
     numbers = dict(zip(compiled.paths, compiled.start.tolist(), strict=True))
     spring, held = (table_of(compiled.curves[path], path == HELD) for path in ("stiffness.stiffness", HELD))
-    laws = np.array([
-        *((numbers[f"maxwell_{k}.stiffness"], numbers[f"maxwell_{k}.relaxation_time"]) for k in (1, 2, 3)),
-        *((numbers[f"prandtl_{k}.stiffness"], numbers[f"prandtl_{k}.limit"]) for k in (1, 2, 3)),
-        (numbers["friction.stiffness"], numbers["friction.limit"]),
-    ])  # fmt: skip
+    laws = np.array(
+        [
+            *((numbers[f"maxwell_{k}.stiffness"], numbers[f"maxwell_{k}.relaxation_time"]) for k in (1, 2, 3)),
+            *((numbers[f"prandtl_{k}.stiffness"], numbers[f"prandtl_{k}.limit"]) for k in (1, 2, 3)),
+            (numbers["friction.stiffness"], numbers["friction.limit"]),
+        ]
+    )
     damping, amplitude, preload = numbers["damping.damping"], sweep.amplitude, sweep.preload
     faster = (FASTEST - SLOWEST) / sweep.seconds
 

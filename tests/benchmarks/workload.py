@@ -84,8 +84,9 @@ def network(name: str = NETWORK) -> CompiledNetwork:
 @cache
 def network_of(branches: str) -> CompiledNetwork:
     """A network with these branches, as they stand in a file."""
-    return compile_network(parse_network("format: dashpot-network/1\nname: bench\nbranches:\n" + branches,
-                                         load_registry().elements))  # fmt: skip
+    return compile_network(
+        parse_network("format: dashpot-network/1\nname: bench\nbranches:\n" + branches, load_registry().elements)
+    )
 
 
 def grounded(spec: NetworkSpec) -> NetworkSpec:

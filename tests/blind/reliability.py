@@ -64,8 +64,10 @@ def as_text(bins: Sequence[Bin]) -> str:
     lines = ["told              mean   right          95 % interval"]
     for one in bins:
         low, high = one.interval
-        lines.append(f"{one.low:4.2f} to {one.high:4.2f}  {one.told:8.3f}  {f'{one.right} of {one.count}':>12}  "
-                     f"{low:6.2f} to {high:4.2f}")  # fmt: skip
+        lines.append(
+            f"{one.low:4.2f} to {one.high:4.2f}  {one.told:8.3f}  {f'{one.right} of {one.count}':>12}  "
+            f"{low:6.2f} to {high:4.2f}"
+        )
     return "\n".join(lines)
 
 

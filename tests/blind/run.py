@@ -69,8 +69,9 @@ class Bench:
         else:
             if kind is None and (self.without or self.double):
                 kind = "+".join(random.Random(seed).sample(KINDS_OF_BASE[base], 2 if self.double else 1))
-            draw = partial(draw_case, seed, base, kind, strength, design=self.design, model=self.model,
-                           sensors=self.sensors)  # fmt: skip
+            draw = partial(
+                draw_case, seed, base, kind, strength, design=self.design, model=self.model, sensors=self.sensors
+            )
             case, robbed = draw(), kind.split("+") if self.without and kind else []
         began, network = time.perf_counter(), self.model or base
         found = diagnose_folder(case.folder, network, self.jobs, robbed)
@@ -155,8 +156,10 @@ def main() -> None:
     if options.scenario is not None:
         options.scenario = options.scenario or list(SCENARIOS)
         if options.design != "full" or options.model or options.kind or any(getattr(options, flag) for flag in FLAGS):
-            parser.error("--scenario: expected no option beside it but --cases, --seed, --strength, --jobs, --output "
-                         "and --diagram; a scenario has its own design, specimens and kinds")  # fmt: skip
+            parser.error(
+                "--scenario: expected no option beside it but --cases, --seed, --strength, --jobs, --output "
+                "and --diagram; a scenario has its own design, specimens and kinds"
+            )
     first = int.from_bytes(os.urandom(4), "little") if options.seed is None else options.seed
     print(f"seed {first}: --seed {first} repeats this run")
     flags = {flag: getattr(options, flag) for flag in FLAGS}

@@ -135,8 +135,11 @@ class Outcome:
     @property
     def told(self) -> list[Told]:
         """The probability of every name, and whether it is that of a hidden effect."""
-        return [(cause["probability"], cause["cause"] in self.kinds) for cause in self.verdict["causes"]
-                if cause.get("probability") is not None]  # fmt: skip
+        return [
+            (cause["probability"], cause["cause"] in self.kinds)
+            for cause in self.verdict["causes"]
+            if cause.get("probability") is not None
+        ]
 
     @property
     def open_set(self) -> bool:
@@ -157,8 +160,10 @@ class Outcome:
         asked = (
             f"asked for a run ({self.before['verdict']}: {', '.join(_names(self.before))}) -> " if self.before else ""
         )
-        return (f"{mark} {self.seed} {self.base}: {hidden or NULL} -> {asked}{self.verdict['verdict']}: {names or '-'} "
-                f"[{self.seconds:.1f} s]")  # fmt: skip
+        return (
+            f"{mark} {self.seed} {self.base}: {hidden or NULL} -> {asked}{self.verdict['verdict']}: {names or '-'} "
+            f"[{self.seconds:.1f} s]"
+        )
 
 
 def confused_with(word: str) -> set[str]:
@@ -195,12 +200,24 @@ def summary(outcomes: Sequence[Outcome]) -> dict:
         "right_after_asking": _share([o.right for o in found if o.before]),
         "lone_right": _share([o.right for o in known if o.lone]),
         "seconds": sorted(o.seconds for o in outcomes)[len(outcomes) // 2] if outcomes else None,
-        "outcomes": [{"seed": o.seed, "base": o.base, "hidden": list(o.kinds), "strength": o.strength,
-                      "form": [effect.form for effect in o.truth.effects], "verdict": o.verdict["verdict"],
-                      "named": o.named, "told": o.told, "gains": o.gains, "over_oracle": o.over_oracle,
-                      "seconds": round(o.seconds, 1), **({"design": o.scenario} if o.scenario else {})}
-                     for o in outcomes],
-    }  # fmt: skip
+        "outcomes": [
+            {
+                "seed": o.seed,
+                "base": o.base,
+                "hidden": list(o.kinds),
+                "strength": o.strength,
+                "form": [effect.form for effect in o.truth.effects],
+                "verdict": o.verdict["verdict"],
+                "named": o.named,
+                "told": o.told,
+                "gains": o.gains,
+                "over_oracle": o.over_oracle,
+                "seconds": round(o.seconds, 1),
+                **({"design": o.scenario} if o.scenario else {}),
+            }
+            for o in outcomes
+        ],
+    }
 
 
 def print_table(outcomes: Sequence[Outcome]) -> None:
@@ -214,24 +231,36 @@ def print_table(outcomes: Sequence[Outcome]) -> None:
         print(row.ljust(width) + "  ".join(str(counts.get(name, "")).center(len(name)) for name in columns))
     rates = summary(outcomes)
     print(f"\nnull cases with a name: {_of(rates['false_alarms'])}")
-    print(f"first name right (effects of {LEAST_STRENGTH:g} of the noise and more after a refit): "
-          f"{_of(rates['first_right'])}")  # fmt: skip
-    print(f"exactly the hidden effects: {_of(rates['exact'])}; truth named or a declared rival: "
-          f"{_of(rates['named_or_rival'])}")  # fmt: skip
-    print(f"first name of the right family: {_of(rates['family_right'])}; truth in the first three: "
-          f"{_of(rates['in_first_three'])}; confidently wrong: {_of(rates['confidently_wrong'])}, "
-          f"by a name that is not declared to be confused with it: {_of(rates['beyond_confusions'])}")  # fmt: skip
+    print(
+        f"first name right (effects of {LEAST_STRENGTH:g} of the noise and more after a refit): "
+        f"{_of(rates['first_right'])}"
+    )
+    print(
+        f"exactly the hidden effects: {_of(rates['exact'])}; truth named or a declared rival: "
+        f"{_of(rates['named_or_rival'])}"
+    )
+    print(
+        f"first name of the right family: {_of(rates['family_right'])}; truth in the first three: "
+        f"{_of(rates['in_first_three'])}; confidently wrong: {_of(rates['confidently_wrong'])}, "
+        f"by a name that is not declared to be confused with it: {_of(rates['beyond_confusions'])}"
+    )
     print(
         "first right by strength left: "
         + ", ".join(f"{band} {_of(pair)}" for band, pair in rates["by_strength"].items())
     )
-    print(f"held-out error after over that of an oracle (median, 95 %): {rates['over_oracle']}; rank correlation of "
-          f"expected and realised gain: {rates['gain_calibration']}")  # fmt: skip
-    print(f"held-out error within 1.05 of an oracle's: {_of(rates['over_oracle_to_1.05'])}; a single name without a "
-          f"rival is right: {_of(rates['lone_right'])}")  # fmt: skip
+    print(
+        f"held-out error after over that of an oracle (median, 95 %): {rates['over_oracle']}; rank correlation of "
+        f"expected and realised gain: {rates['gain_calibration']}"
+    )
+    print(
+        f"held-out error within 1.05 of an oracle's: {_of(rates['over_oracle_to_1.05'])}; a single name without a "
+        f"rival is right: {_of(rates['lone_right'])}"
+    )
     if rates["brier"] is not None:
-        print(f"\nBrier score of the probabilities: {rates['brier']:.3f}; told with 0.9 and more: "
-              f"{_of(rates['sure_right'])} right\n" + as_text(reliability(_told(outcomes))))  # fmt: skip
+        print(
+            f"\nBrier score of the probabilities: {rates['brier']:.3f}; told with 0.9 and more: "
+            f"{_of(rates['sure_right'])} right\n" + as_text(reliability(_told(outcomes)))
+        )
     _print_designs(rates.get("by_design", {}))
     if rates["right_after_asking"][1]:
         print(f"first name right once the run that was asked for is there: {_of(rates['right_after_asking'])}")
@@ -248,9 +277,11 @@ def _probabilities(outcomes: Sequence[Outcome]) -> dict:
     return {
         "brier": brier(told),
         "sure_right": _share([right for probability, right in told if probability >= SURE]),
-        "reliability": [{"from": one.low, "to": one.high, "told": one.told, "right": [one.right, one.count]}
-                        for one in reliability(told)],
-    }  # fmt: skip
+        "reliability": [
+            {"from": one.low, "to": one.high, "told": one.told, "right": [one.right, one.count]}
+            for one in reliability(told)
+        ],
+    }
 
 
 def _by_design(outcomes: Sequence[Outcome]) -> dict[str, dict]:
@@ -277,8 +308,18 @@ def _by_design(outcomes: Sequence[Outcome]) -> dict[str, dict]:
 def _print_designs(designs: dict[str, dict]) -> None:
     if not designs:
         return
-    heads = ("cases", "right", "exact", "family", "confidently_wrong", "names", "surplus", "brier", "over_oracle",
-             "seconds")  # fmt: skip
+    heads = (
+        "cases",
+        "right",
+        "exact",
+        "family",
+        "confidently_wrong",
+        "names",
+        "surplus",
+        "brier",
+        "over_oracle",
+        "seconds",
+    )
     width = max(map(len, designs)) + 2
     print("\n" + "design".ljust(width) + "  ".join(head.rjust(8) for head in heads))
     for name, row in designs.items():

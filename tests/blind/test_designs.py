@@ -64,8 +64,9 @@ def test_a_poorer_model_leaves_the_branches_hidden_that_it_lacks(seed, tmp_path)
     case = draw_case(seed, "ftire", "null", design="few", model="kelvin_voigt", folder=tmp_path)
     truth = case.label.open("something")
     assert [(effect.kind, effect.form) for effect in truth.effects] == [
-        ("relaxation", "Maxwell"), ("friction", "Prandtl")
-    ]  # fmt: skip
+        ("relaxation", "Maxwell"),
+        ("friction", "Prandtl"),
+    ]
     base = draw_base("ftire", np.random.default_rng([seed, 0]))
     assert set(base.known_to("kelvin_voigt").branches) == {"spring", "damper"}
     for plan in DESIGNS["few"]:
@@ -98,8 +99,15 @@ def test_forces_without_a_law_are_what_they_say():
 def test_every_scenario_has_a_design_and_makes_a_case(tmp_path):
     for name, scenario in SCENARIOS.items():
         assert scenario.design in DESIGNS and scenario.specimens, name
-        truth = draw_case(3, scenario.specimens[0], scenario.kind, 1.0, design=scenario.design, model=scenario.model,
-                          folder=tmp_path / name).label.open("x")  # fmt: skip
+        truth = draw_case(
+            3,
+            scenario.specimens[0],
+            scenario.kind,
+            1.0,
+            design=scenario.design,
+            model=scenario.model,
+            folder=tmp_path / name,
+        ).label.open("x")
         data = np.load(next((tmp_path / name).glob("*.npz")))
         assert truth.design == scenario.design and data["F"].size == data["t"].size > STEPS_PER_SAMPLE
 

@@ -21,8 +21,11 @@ def test_the_brier_score_is_the_mean_square_of_what_was_off():
 def test_a_bin_has_its_lower_edge_and_the_last_one_both():
     found = reliability(TOLD, edges=(0.0, 0.5, 0.9, 0.95, 1.0))
     assert [(one.low, one.high, one.right, one.count) for one in found] == [
-        (0.0, 0.5, 0, 1), (0.5, 0.9, 1, 2), (0.9, 0.95, 1, 2), (0.95, 1.0, 1, 1)
-    ]  # fmt: skip
+        (0.0, 0.5, 0, 1),
+        (0.5, 0.9, 1, 2),
+        (0.9, 0.95, 1, 2),
+        (0.95, 1.0, 1, 1),
+    ]
     assert [one.told for one in found] == pytest.approx([0.3, 0.6, 0.91, 1.0])
     assert [one.share for one in found] == [0.0, 0.5, 0.5, 1.0]
 
@@ -59,11 +62,21 @@ def case(hidden, verdict, *causes, scenario="sines"):
     """A case with hidden kinds of twice the noise, and what was said of it."""
     effects = [SimpleNamespace(kind=kind, form="", strength=2.0, strength_left=2.0) for kind in hidden]
     truth = SimpleNamespace(kinds=tuple(hidden), effects=effects, noise_rms={})
-    said = [{"cause": word, "probability": probability, "indistinguishable_from": [], "gain": None,
-             "accepted": True, "expected_gain": None} for word, probability in causes]  # fmt: skip
+    said = [
+        {
+            "cause": word,
+            "probability": probability,
+            "indistinguishable_from": [],
+            "gain": None,
+            "accepted": True,
+            "expected_gain": None,
+        }
+        for word, probability in causes
+    ]
     rmse = {"after": {"held_out": None}}
-    return Outcome(1, "spring", truth, {"verdict": verdict, "causes": said, "rmse": rmse, "held_out": []}, 1.0,
-                   scenario=scenario)  # fmt: skip
+    return Outcome(
+        1, "spring", truth, {"verdict": verdict, "causes": said, "rmse": rmse, "held_out": []}, 1.0, scenario=scenario
+    )
 
 
 def test_where_no_law_fits_unexplained_is_right_and_names_are_not():
@@ -77,11 +90,13 @@ def test_where_no_law_fits_unexplained_is_right_and_names_are_not():
 
 
 def test_the_summary_counts_names_by_design_and_scores_their_probabilities():
-    found = summary([
-        case(["friction"], "explained", ("friction", 1.0), ("hum", 0.9)),
-        case(["friction"], "explained", ("friction", 0.8)),
-        case([], "nothing_missing", scenario="random"),
-    ])  # fmt: skip
+    found = summary(
+        [
+            case(["friction"], "explained", ("friction", 1.0), ("hum", 0.9)),
+            case(["friction"], "explained", ("friction", 0.8)),
+            case([], "nothing_missing", scenario="random"),
+        ]
+    )
     assert found["brier"] == pytest.approx((0.0 + 0.81 + 0.04) / 3)
     assert found["sure_right"] == [1, 2]
     sines, random = found["by_design"]["sines"], found["by_design"]["random"]

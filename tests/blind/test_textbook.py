@@ -30,8 +30,15 @@ CASE = Circumstances(TREAD, frozenset({"spoiled"}), 0.0, 0.8)
 
 def record(displacement, **others):
     velocity = derivative(displacement, RATE)
-    return Record("run", "transient", TIME, displacement, velocity, derivative(velocity, RATE),
-                  **{"force": 2e5 * displacement, **others})  # fmt: skip
+    return Record(
+        "run",
+        "transient",
+        TIME,
+        displacement,
+        velocity,
+        derivative(velocity, RATE),
+        **{"force": 2e5 * displacement, **others},
+    )
 
 
 def complex_stiffness(displacement, force, frequency):
@@ -41,8 +48,12 @@ def complex_stiffness(displacement, force, frequency):
 
 
 def test_it_imports_nothing_of_dashpot():
-    names = {name for file in PACKAGE.glob("*.py") for node in ast.walk(ast.parse(file.read_text()))
-             for name in imported(node)}  # fmt: skip
+    names = {
+        name
+        for file in PACKAGE.glob("*.py")
+        for node in ast.walk(ast.parse(file.read_text()))
+        for name in imported(node)
+    }
     assert {name.split(".")[0] for name in names} <= ALLOWED | {"truth"}
     assert {name for name in names if name.startswith("truth")} == {"truth.case", "truth.label"}
 
@@ -111,9 +122,15 @@ def test_the_network_of_a_specimen_has_its_force(network, rng, tmp_path):
     (tmp_path / "network.yaml").write_text(text)
     spec = read_network(tmp_path / "network.yaml", load_registry().elements)
     k = specimen.stiffness
-    numbers = {"stiffness.stiffness": k, "damping.damping": specimen.damping, "relaxation.stiffness": 0.2 * k,
-               "relaxation.relaxation_time": specimen.relaxation_time, "joint.stiffness": 0.15 * k,
-               "joint.exponent": 0.0, "joint.limit": 0.15 * k * specimen.reach}  # fmt: skip
+    numbers = {
+        "stiffness.stiffness": k,
+        "damping.damping": specimen.damping,
+        "relaxation.stiffness": 0.2 * k,
+        "relaxation.relaxation_time": specimen.relaxation_time,
+        "joint.stiffness": 0.15 * k,
+        "joint.exponent": 0.0,
+        "joint.limit": 0.15 * k * specimen.reach,
+    }
     values = np.array([[numbers[slot.path] for slot in spec.slots()]])
     drive = drive_from_path(1.0 / rig.rate, path, velocity, derivative(velocity, rig.rate))
     found = compile_network(spec).along(drive)(values)[0]
@@ -133,8 +150,10 @@ def test_what_is_hidden_has_its_strength_and_its_label(rig, seed, tmp_path):
     assert not re.search("quadratic_damping|strength|null", (case.folder / "dataset.yaml").read_text())
     some, none = (sorted((tmp_path / kind).glob("*.csv")) for kind in ("some", "none"))
     assert len(some) == 17
-    errors = [np.std(np.loadtxt(a, delimiter=",", skiprows=1)[:, 2] - np.loadtxt(b, delimiter=",", skiprows=1)[:, 2])
-              for a, b in zip(some, none, strict=True)]  # fmt: skip
+    errors = [
+        np.std(np.loadtxt(a, delimiter=",", skiprows=1)[:, 2] - np.loadtxt(b, delimiter=",", skiprows=1)[:, 2])
+        for a, b in zip(some, none, strict=True)
+    ]
     assert max(errors) > truth.noise["rms"]
 
 

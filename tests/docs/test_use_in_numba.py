@@ -38,8 +38,10 @@ def names(tmp_path, monkeypatch) -> dict[str, Any]:
 
 def test_the_page_has_a_record_an_integrator_and_jax(names):
     assert [list(filter(None, block.splitlines()))[0].split()[1] for block in blocks(PAGE, "python")] == [
-        "dashpot", "scipy.integrate", "jax",
-    ]  # fmt: skip
+        "dashpot",
+        "scipy.integrate",
+        "jax",
+    ]
     assert names["force"] == pytest.approx(STIFFNESS * names["x"] + DAMPING * names["v"], rel=1e-9)
 
 

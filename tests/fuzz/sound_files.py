@@ -94,8 +94,10 @@ def _lvm(folder: Path) -> list[bytes]:
 
 
 def _lvm_file(clocks: str, decimal: str) -> bytes:
-    heading = (f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t{decimal}\n"
-               f"X_Columns\t{clocks}\nDate\t2024/02/28\nTime\t15:53:23\n***End_of_Header***\t\n\t\n")  # fmt: skip
+    heading = (
+        f"LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t{decimal}\n"
+        f"X_Columns\t{clocks}\nDate\t2024/02/28\nTime\t15:53:23\n***End_of_Header***\t\n\t\n"
+    )
     named = {"One": "X_Value\tWay\tForce", "Multi": "X_Value\tWay\tX_Value\tForce", "No": "X_Value\tWay\tForce"}
     rows = {
         "One": "{0:.6f}\t{1:.6f}\t{2:.6f}",
@@ -104,9 +106,11 @@ def _lvm_file(clocks: str, decimal: str) -> bytes:
     }
     parts = []
     for part in (TABLE[:24], TABLE[24:]):
-        channels = (f"Channels\t2\nSamples\t24\t24\nDate\t2024/02/28\t2024/02/28\nTime\t15:53:23\t15:53:23\n"
-                    f"Y_Unit_Label\tmm\tNewton\nX_Dimension\tTime\tTime\nX0\t{part[0, 0]:.6f}\t{part[0, 0]:.6f}\n"
-                    f"Delta_X\t0.01\t0.01\n***End_of_Header***\t\t\n{named[clocks]}\tComment\n")  # fmt: skip
+        channels = (
+            f"Channels\t2\nSamples\t24\t24\nDate\t2024/02/28\t2024/02/28\nTime\t15:53:23\t15:53:23\n"
+            f"Y_Unit_Label\tmm\tNewton\nX_Dimension\tTime\tTime\nX0\t{part[0, 0]:.6f}\t{part[0, 0]:.6f}\n"
+            f"Delta_X\t0.01\t0.01\n***End_of_Header***\t\t\n{named[clocks]}\tComment\n"
+        )
         parts.append(channels + "".join(rows[clocks].format(*row) + "\t\n" for row in part) + "\n")
     return (heading + "".join(parts).replace(".", decimal)).replace("\n", "\r\n").encode()
 

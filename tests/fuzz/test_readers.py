@@ -26,8 +26,12 @@ from dashpot_formats import apart
 SECONDS, MEGABYTES = 20.0, 400
 READERS = {word: made() for word, made in load_registry().formats.items()}
 # what reads a format, and the extra that it comes with
-LIBRARIES = {"hdf5": ("h5py", "matlab73"), "mdf": ("asammdf", "mdf"), "tdms": ("nptdms", "tdms"),
-             "xlsx": ("openpyxl", "excel")}  # fmt: skip
+LIBRARIES = {
+    "hdf5": ("h5py", "matlab73"),
+    "mdf": ("asammdf", "mdf"),
+    "tdms": ("nptdms", "tdms"),
+    "xlsx": ("openpyxl", "excel"),
+}
 
 DATASET = """\
 format: dashpot-dataset/1
@@ -113,8 +117,10 @@ def check(word, count, folder, monkeypatch):
     seed = seed_of(f"test_readers {word}")
     found, seconds, megabytes = fuzz(word, count, seed, folder)
     broken = sum(n for message, n in found.items() if "brings down" in message or "took more" in message)
-    print(f"{word}: seed {seed}, {found['table']} of {count} read, {broken} crashed or hung the other process, "
-          f"{seconds:.1f} s, {megabytes:.0f} MB more, {len(found)} different messages")  # fmt: skip
+    print(
+        f"{word}: seed {seed}, {found['table']} of {count} read, {broken} crashed or hung the other process, "
+        f"{seconds:.1f} s, {megabytes:.0f} MB more, {len(found)} different messages"
+    )
     assert sum(found.values()) == count
     assert found["table"] < count
     assert megabytes < MEGABYTES

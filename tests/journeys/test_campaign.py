@@ -39,8 +39,13 @@ def folder(tmp_path_factory) -> Path:
 
 def command(folder: Path, *arguments: str) -> subprocess.Popen:
     """A campaign under way."""
-    return subprocess.Popen([sys.executable, "-m", "dashpot", "campaign", *arguments], cwd=folder, text=True,
-                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
+    return subprocess.Popen(
+        [sys.executable, "-m", "dashpot", "campaign", *arguments],
+        cwd=folder,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
 
 
 def finished(folder: Path, *arguments: str) -> tuple[int, str]:
@@ -50,8 +55,9 @@ def finished(folder: Path, *arguments: str) -> tuple[int, str]:
     return process.returncode, said
 
 
-def interfered(folder: Path, name: str, output: str, where: str, records: int, how: Callable[[int], None]
-               ) -> tuple[int, str]:  # fmt: skip
+def interfered(
+    folder: Path, name: str, output: str, where: str, records: int, how: Callable[[int], None]
+) -> tuple[int, str]:
     """Start a campaign, do something when it has so many records, and wait for its end."""
     process = command(folder, name, "-o", output, "--scheduler", where)
     kept, deadline = folder / output / "checkpoint", time.monotonic() + PATIENCE
@@ -69,8 +75,9 @@ def assert_alike(one: Path, other: Path) -> None:
 
 
 def kill_the_workers(process: int) -> None:
-    workers = [child for child in psutil.Process(process).children(recursive=True)
-               if "spawn_main" in " ".join(child.cmdline())]  # fmt: skip
+    workers = [
+        child for child in psutil.Process(process).children(recursive=True) if "spawn_main" in " ".join(child.cmdline())
+    ]
     assert len(workers) == 2
     for worker in workers:
         worker.kill()
@@ -108,10 +115,23 @@ def test_an_interrupted_campaign_says_so(folder):
 def cluster(port: int) -> Iterator[subprocess.Popen]:
     """A scheduler with one worker, each a process of its own."""
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    scheduler = subprocess.Popen([sys.executable, "-m", "dask", "scheduler", "--port", str(port), "--no-dashboard"],
-                                 **quiet)  # fmt: skip
-    worker = subprocess.Popen([sys.executable, "-m", "dask", "worker", f"tcp://127.0.0.1:{port}", "--nthreads", "1",
-                               "--no-nanny", "--no-dashboard"], **quiet)  # fmt: skip
+    scheduler = subprocess.Popen(
+        [sys.executable, "-m", "dask", "scheduler", "--port", str(port), "--no-dashboard"], **quiet
+    )
+    worker = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "dask",
+            "worker",
+            f"tcp://127.0.0.1:{port}",
+            "--nthreads",
+            "1",
+            "--no-nanny",
+            "--no-dashboard",
+        ],
+        **quiet,
+    )
     try:
         yield scheduler
     finally:

@@ -48,9 +48,13 @@ def interrupted(folder: Path, arguments: str, cache: Path) -> tuple[int, str, fl
     """Exit code and words of a command that is interrupted at its first line, and how long it took to end."""
     process = subprocess.Popen(
         [sys.executable, "-c", PROGRAM, *arguments.split()],
-        cwd=folder, env={**os.environ, "DASHPOT_CACHE": str(cache)}, text=True,
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
-    )  # fmt: skip
+        cwd=folder,
+        env={**os.environ, "DASHPOT_CACHE": str(cache)},
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
     assert process.stderr is not None
     first = process.stderr.readline()
     assert first.endswith("...\n"), first

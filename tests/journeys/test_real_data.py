@@ -47,8 +47,9 @@ def told(tmp_path, network, head, runs):
     text = f"format: dashpot-dataset/1\nname: real\ndefaults:\n{head}\nruns:\n{lines}\n"
     (tmp_path / "dataset.yaml").write_text(text, encoding="utf-8")
     registry = load_registry()
-    dataset = read_dataset(tmp_path / "dataset.yaml", {word: reader() for word, reader in registry.formats.items()},
-                           allow_outside=True)  # fmt: skip
+    dataset = read_dataset(
+        tmp_path / "dataset.yaml", {word: reader() for word, reader in registry.formats.items()}, allow_outside=True
+    )
     return diagnose(parse_network(network, registry.elements), dataset, registry=registry).as_dict()
 
 

@@ -46,8 +46,11 @@ def test_labels_keep_clear_of_everything(page, name, face):
     texts = [box for box in boxes if box[0].startswith("words")]
     others = [box for box in boxes if box[0].startswith(("sign", "support", "scaling"))]
     assert len(texts) > 5
-    clashes = [(one[1], other[:2]) for one, other in [*combinations(texts, 2), *((a, b) for a in texts for b in others)]
-               if overlap(one, other)]  # fmt: skip
+    clashes = [
+        (one[1], other[:2])
+        for one, other in [*combinations(texts, 2), *((a, b) for a in texts for b in others)]
+        if overlap(one, other)
+    ]
     assert not clashes
 
 

@@ -54,7 +54,11 @@ def dashpot(folder: Path, *arguments: str) -> subprocess.Popen:
     """The command under way in a folder."""
     return subprocess.Popen(
         [sys.executable, "-m", "dashpot", *arguments],
-        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
 
 
 def finished(folder: Path, *arguments: str) -> tuple[int, str]:

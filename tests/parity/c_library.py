@@ -64,11 +64,17 @@ class Library:
         memory = np.zeros(size + values.size + 1)
         self._call("init", memory, ctypes.c_double(max(np.ptp(each.displacement) for each in drives)))
         memory[size:-1] = values
-        inputs = np.column_stack([column for each in drives
-                                  for column in (each.displacement, each.velocity, each.acceleration)])  # fmt: skip
+        inputs = np.column_stack(
+            [column for each in drives for column in (each.displacement, each.velocity, each.acceleration)]
+        )
         outputs = np.empty((drive.samples, online.before - online.outputs))
-        self.functions.along(memory.ctypes.data_as(DOUBLES), drive.samples, inputs.ctypes.data_as(DOUBLES),
-                             ctypes.c_double(drive.dt), outputs.ctypes.data_as(DOUBLES))  # fmt: skip
+        self.functions.along(
+            memory.ctypes.data_as(DOUBLES),
+            drive.samples,
+            inputs.ctypes.data_as(DOUBLES),
+            ctypes.c_double(drive.dt),
+            outputs.ctypes.data_as(DOUBLES),
+        )
         return outputs, self._call("status", memory)
 
     def _call(self, function: str, memory: np.ndarray, *more: object) -> int:

@@ -53,8 +53,10 @@ def test_a_score_is_the_weighted_sum_of_squared_errors_of_the_simulated_force(na
     values = network.start * np.exp(rng.uniform(-0.2, 0.2, (70, network.start.size)))
     measured = [1e3 * rng.standard_normal(drive.samples) for drive in drives]
     weights = [rng.uniform(0.0, 1.0, drive.samples) for drive in drives]
-    expected = [((network.simulate(run, values) - target) ** 2) @ weight
-                for run, target, weight in zip(runs, measured, weights, strict=True)]  # fmt: skip
+    expected = [
+        ((network.simulate(run, values) - target) ** 2) @ weight
+        for run, target, weight in zip(runs, measured, weights, strict=True)
+    ]
     for jobs in (1, 2):
         assert network.score(runs, measured, weights, values, jobs) == pytest.approx(np.array(expected), rel=1e-12)
 

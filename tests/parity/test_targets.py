@@ -181,8 +181,11 @@ def stepped(spec: NetworkSpec, drive: Drive, values: np.ndarray) -> int:
 
 
 def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
-    network = system("", "leg: {series: {k: {element: spring, stiffness: 900 N/mm}, "
-                         "c: {element: coulomb, limit: 60 N, creep_velocity: 1e-6 m/s}}}")  # fmt: skip
+    network = system(
+        "",
+        "leg: {series: {k: {element: spring, stiffness: 900 N/mm}, "
+        "c: {element: coulomb, limit: 60 N, creep_velocity: 1e-6 m/s}}}",
+    )
     drive = random_drive(np.random.default_rng(seed_of("stiff friction")), "multisine", 3e-3, 0.02, 200, 1e-3)
     expected = network.solve(network.prepare(drive))
     assert expected.status == (Status.GOOD,)

@@ -45,8 +45,10 @@ def heat(mean: Array, x: Array, y: Array, x_title: str, y_title: str, unit: str)
     wide, high = 420.0, 300.0
     top = float(np.nanmax(np.abs(mean)))
     step_x, step_y = (wide - LEFT - RIGHT) / (x.size - 1), (high - ABOVE - BELOW) / (y.size - 1)
-    parts = [f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{wide - LEFT - RIGHT:g}" height="{high - ABOVE - BELOW:g}" '
-             'fill="#e8ebee"/>']  # fmt: skip
+    parts = [
+        f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{wide - LEFT - RIGHT:g}" height="{high - ABOVE - BELOW:g}" '
+        'fill="#e8ebee"/>'
+    ]
     parts += [
         f'<rect x="{LEFT + column * step_x:.1f}" y="{high - BELOW - (row + 1) * step_y:.1f}" width="{step_x:.1f}" '
         f'height="{step_y:.1f}" fill="{_shade(value / top)}"/>'
@@ -74,17 +76,26 @@ def _panel(panel: Panel, x_title: str, y_title: str) -> str:
     right, bottom = WIDE - RIGHT, HIGH - BELOW
 
     def place(x: Array, y: Array) -> tuple[Array, Array]:
-        return (LEFT + (x - x_low) / (x_high - x_low) * (right - LEFT),
-                bottom - (y - y_low) / (y_high - y_low) * (bottom - ABOVE))  # fmt: skip
+        return (
+            LEFT + (x - x_low) / (x_high - x_low) * (right - LEFT),
+            bottom - (y - y_low) / (y_high - y_low) * (bottom - ABOVE),
+        )
 
-    frame = (f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{right - LEFT:g}" height="{bottom - ABOVE:g}" fill="none" '
-             'stroke="#c9cfd6"/>')  # fmt: skip
-    lines = [f'<polyline points="{_points(*place(x, y))}" fill="none" stroke="{color}" stroke-width="1.2"/>'
-             for color, x, y in panel.curves]  # fmt: skip
+    frame = (
+        f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{right - LEFT:g}" height="{bottom - ABOVE:g}" fill="none" '
+        'stroke="#c9cfd6"/>'
+    )
+    lines = [
+        f'<polyline points="{_points(*place(x, y))}" fill="none" stroke="{color}" stroke-width="1.2"/>'
+        for color, x, y in panel.curves
+    ]
     ticks = [*_ticks((x_low, x_high), LEFT, right, bottom, True), *_ticks((y_low, y_high), bottom, ABOVE, LEFT, False)]
-    titles = [_words(LEFT, ABOVE - 6, panel.title, "start"), _words(0.5 * (LEFT + right), HIGH - 8, x_title, "middle"),
-              f'<text x="10" y="{0.5 * (ABOVE + bottom):g}" fill="{SOFT}" text-anchor="middle" '
-              f'transform="rotate(-90 10 {0.5 * (ABOVE + bottom):g})">{escape(y_title)}</text>']  # fmt: skip
+    titles = [
+        _words(LEFT, ABOVE - 6, panel.title, "start"),
+        _words(0.5 * (LEFT + right), HIGH - 8, x_title, "middle"),
+        f'<text x="10" y="{0.5 * (ABOVE + bottom):g}" fill="{SOFT}" text-anchor="middle" '
+        f'transform="rotate(-90 10 {0.5 * (ABOVE + bottom):g})">{escape(y_title)}</text>',
+    ]
     return "".join([frame, *ticks, *lines, *titles])
 
 
@@ -92,8 +103,12 @@ def _ticks(ends: tuple[float, float], start: float, stop: float, across: float, 
     for share, value in ((0.0, ends[0]), (1.0, ends[1])):
         at = start + share * (stop - start)
         anchor = ("start" if share == 0.0 else "end") if along else "end"
-        yield _words(at if along else across - 3, across + 12 if along else at + (0 if share == 0.0 else 8),
-                     f"{value:.3g}", anchor)  # fmt: skip
+        yield _words(
+            at if along else across - 3,
+            across + 12 if along else at + (0 if share == 0.0 else 8),
+            f"{value:.3g}",
+            anchor,
+        )
 
 
 def _range(parts: Sequence[Array]) -> tuple[float, float]:

@@ -47,8 +47,10 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
         seen = dashpot.look(dashpot.load_dataset(one.write(Path(place)), allow_outside=True))
     about, look = one.owners, seen.as_dict()
     yield f"# {one.title}"
-    yield (f"Source: [{about['source']}]({about['url']}), licence {about['licence']}. The measurements are not part of "
-           "dashpot.")  # fmt: skip
+    yield (
+        f"Source: [{about['source']}]({about['url']}), licence {about['licence']}. The measurements are not part of "
+        "dashpot."
+    )
     yield "## What its owners say"
     yield about["owners"]
     yield "## The runs"
@@ -60,11 +62,15 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
         yield f"Black is measured, blue the written file {name}: the one with the smallest error on training runs."
         yield "\n\n".join(f"![{words}]({path.name})" for words, path in drawn)
     yield "## What can be explained"
-    rows = [("noise floor", short(look["noise_floor"].get("value"))),
-            ("explainable, on held-out runs", short(look["explainable"].get("held_out")))]  # fmt: skip
+    rows = [
+        ("noise floor", short(look["noise_floor"].get("value"))),
+        ("explainable, on held-out runs", short(look["explainable"].get("held_out"))),
+    ]
     yield table(("error (seed 0)", ""), rows)
-    yield ("Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) "
-           "leaves on runs that it has not seen; it differs with the runs that are held out.")  # fmt: skip
+    yield (
+        "Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) "
+        "leaves on runs that it has not seen; it differs with the runs that are held out."
+    )
     yield "## What is diagnosed"
     yield diagnoses([outcome for _, outcome in kept])
     yield remarks([outcome for _, outcome in kept], one)
@@ -81,15 +87,20 @@ def told_runs(runs: Sequence[dict[str, object]]) -> str:
     largest = max(abs(float(run[key])) for run in runs for key in ("least_force", "largest_force"))
     back = [str(run["run"]) for run in runs if run["gives_back"]]
     energy = f"Work is given back by {', '.join(back)}." if back else "Every run takes up work."
-    return (f"{len(runs)} runs of {reach('duration', 1.0)} s at {reach('sampling', 1.0)} Hz, amplitudes of "
-            f"{reach('amplitude', 1e3)} mm, peak speeds of {reach('peak_speed', 1e3)} mm/s, forces up to "
-            f"{short(largest)}. {energy}")  # fmt: skip
+    return (
+        f"{len(runs)} runs of {reach('duration', 1.0)} s at {reach('sampling', 1.0)} Hz, amplitudes of "
+        f"{reach('amplitude', 1e3)} mm, peak speeds of {reach('peak_speed', 1e3)} mm/s, forces up to "
+        f"{short(largest)}. {energy}"
+    )
 
 
 def best_file(kept: Kept, folder: Path) -> tuple[Path, Path] | None:
     """The network with the smallest error on training runs, of the first seed and all runs; and its folder."""
-    whole = [(outcome.files["after.train"], trial) for trial, outcome in kept
-             if "after.train" in outcome.files and not trial.fewer and trial.seed == kept[0][0].seed]  # fmt: skip
+    whole = [
+        (outcome.files["after.train"], trial)
+        for trial, outcome in kept
+        if "after.train" in outcome.files and not trial.fewer and trial.seed == kept[0][0].seed
+    ]
     if not whole:
         return None
     trial = min(whole, key=lambda pair: pair[0])[1]
@@ -102,17 +113,33 @@ def diagnoses(outcomes: Sequence[Outcome]) -> str:
     """A line for each diagnosis."""
     rows = [
         (
-            f"`{one.base}`", f"{one.seed}{', a fifth of the runs removed' if one.fewer else ''}",
+            f"`{one.base}`",
+            f"{one.seed}{', a fifth of the runs removed' if one.fewer else ''}",
             one.verdict.replace("_", " "),
             "; ".join(_said(cause) for cause in one.causes if cause["class"] == "specimen") or "–",
-            "; ".join([*(_said(cause) for cause in one.causes if cause["class"] == "measurement"),
-                       *(f"{fault['kind'].replace('_', ' ')} of {fault['run']}" for fault in one.faults)]) or "–",
-            short(one.files.get("before.held_out")), short(one.files.get("after.held_out")), short(one.explainable),
+            "; ".join(
+                [
+                    *(_said(cause) for cause in one.causes if cause["class"] == "measurement"),
+                    *(f"{fault['kind'].replace('_', ' ')} of {fault['run']}" for fault in one.faults),
+                ]
+            )
+            or "–",
+            short(one.files.get("before.held_out")),
+            short(one.files.get("after.held_out")),
+            short(one.explainable),
         )
         for one in outcomes
-    ]  # fmt: skip
-    head = ("from", "seed", "verdict", "missing in the model (probability)", "faults of the measurement",
-            "file before, held out", "file after, held out", "explainable")  # fmt: skip
+    ]
+    head = (
+        "from",
+        "seed",
+        "verdict",
+        "missing in the model (probability)",
+        "faults of the measurement",
+        "file before, held out",
+        "file after, held out",
+        "explainable",
+    )
     return table(head, rows)
 
 
@@ -129,33 +156,43 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
     within = [f"{some} of {most} from `{base}`" for (_, base), (some, most) in judge.same_names(outcomes).items()]
     guilty = sum(bool(judge.accused(outcome, one.known_faults)) for outcome in outcomes)
     near = sum(map(judge.near_or_admitted, outcomes))
-    return "\n".join([
-        *([f"- The same names: {', '.join(within)}."] if within else []),
-        f"- Told errors are those of the files, read again: {alike} of {len(outcomes)}.",
-        f"- A fault of the rig that the owners do not know of: {guilty} of {len(outcomes)}.",
-        f"- Within {judge.NEAR} times the explainable error on held-out runs, or said to be unexplained or partly "
-        f"explained: {near} of {len(outcomes)}.",
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            *([f"- The same names: {', '.join(within)}."] if within else []),
+            f"- Told errors are those of the files, read again: {alike} of {len(outcomes)}.",
+            f"- A fault of the rig that the owners do not know of: {guilty} of {len(outcomes)}.",
+            f"- Within {judge.NEAR} times the explainable error on held-out runs, or said to be unexplained or partly "
+            f"explained: {near} of {len(outcomes)}.",
+        ]
+    )
 
 
 def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     """The page that leads to the others."""
     yield "# Measured by others"
-    yield ("What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
-           "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written "
-           "files, read again and simulated.")  # fmt: skip
+    yield (
+        "What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
+        "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written "
+        "files, read again and simulated."
+    )
     rows = [
-        (f"[{SETS[name].title}]({name}.md)", str(len(outcomes)), str(sum(map(judge.near_or_admitted, outcomes))),
-         f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
-         str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)))
+        (
+            f"[{SETS[name].title}]({name}.md)",
+            str(len(outcomes)),
+            str(sum(map(judge.near_or_admitted, outcomes))),
+            f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
+            str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)),
+        )
         for name, outcomes in found.items()
-    ]  # fmt: skip
+    ]
     head = ("set", "diagnoses", "near the explainable error, or admitted", "same names", "accuse the rig")
     yield table(head, rows)
     yield "\n".join(f"- {line}" for line in summary([one for each in found.values() for one in each]))
     yield "```{toctree}\n:hidden:\n\n" + "\n".join(found) + "\n```"
-    yield ("Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, "
-           "and `python tests/real/pages.py --keep results` writes these pages.")  # fmt: skip
+    yield (
+        "Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, "
+        "and `python tests/real/pages.py --keep results` writes these pages."
+    )
 
 
 def kept_trials(one: MeasuredSet, keep: Path) -> list[tuple[Trial, Outcome]]:

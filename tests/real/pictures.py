@@ -39,8 +39,10 @@ def pictures(look: Look, network: Path, found: Path, stem: Path) -> list[tuple[s
         )
     told = residual_maps(seen)[0]
     (x, x_title), (y, y_title) = (_axis(told[which]) for which in ("x", "y"))
-    words = (f"Measured less simulated force over the two variables that explain most of it: {x_title} and {y_title}, "
-             f"{max(told['explained'], 0.0):.0%} of its mean square")  # fmt: skip
+    words = (
+        f"Measured less simulated force over the two variables that explain most of it: {x_title} and {y_title}, "
+        f"{max(told['explained'], 0.0):.0%} of its mean square"
+    )
     return [*drawn, _write(words, stem, "residual", heat(np.asarray(told["mean"]), x, y, x_title, y_title, "N"))]
 
 

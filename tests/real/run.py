@@ -21,9 +21,25 @@ from real.sets import MeasuredSet
 from real.trial import Outcome, Trial, engine_digest, kept_outcome
 
 SEEDS = (0, 1, 2)
-COLUMNS = ("set", "base", "seed", "fewer", "verdict", "names", "faults", "before train", "before held out",
-           "after train", "after held out", "explainable", "floor", "files alike", "near or admitted", "seconds",
-           "MB")  # fmt: skip
+COLUMNS = (
+    "set",
+    "base",
+    "seed",
+    "fewer",
+    "verdict",
+    "names",
+    "faults",
+    "before train",
+    "before held out",
+    "after train",
+    "after held out",
+    "explainable",
+    "floor",
+    "files alike",
+    "near or admitted",
+    "seconds",
+    "MB",
+)
 
 
 def trials(
@@ -48,27 +64,40 @@ def outcome(trial: Trial, keep: Path, stale: bool = False) -> Outcome:
 
 def kept(keep: Path) -> list[Outcome]:
     """Every outcome in a folder, in the order of the catalogue."""
-    found = [known[1] for one in SETS.values() for trial in trials(one)
-             if (known := kept_outcome(keep / one.name / trial.word))]  # fmt: skip
+    found = [
+        known[1]
+        for one in SETS.values()
+        for trial in trials(one)
+        if (known := kept_outcome(keep / one.name / trial.word))
+    ]
     return found
 
 
 def row(one: Outcome) -> dict[str, object]:
     """A line of the table, errors in N."""
     said = {kind: [cause for cause in one.causes if cause["class"] == kind] for kind in ("specimen", "measurement")}
-    listed = {kind: ", ".join(f"{cause['cause']} {cause['probability']:.2f}" for cause in causes)
-              for kind, causes in said.items()}  # fmt: skip
+    listed = {
+        kind: ", ".join(f"{cause['cause']} {cause['probability']:.2f}" for cause in causes)
+        for kind, causes in said.items()
+    }
     triage = [f"{fault['kind']} of {fault['run']}" for fault in one.faults]
     errors = {name.replace("_", " ").replace(".", " "): f"{value:.4g}" for name, value in one.told.items()}
     return {
-        "set": one.set, "base": one.base, "seed": one.seed, "fewer": "yes" if one.fewer else "",
+        "set": one.set,
+        "base": one.base,
+        "seed": one.seed,
+        "fewer": "yes" if one.fewer else "",
         "verdict": f"{one.verdict} ({one.failed})" if one.failed else one.verdict,
-        "names": listed["specimen"], "faults": ", ".join(filter(None, [listed["measurement"], *triage])), **errors,
-        "explainable": _short(one.explainable), "floor": _short(one.floor),
+        "names": listed["specimen"],
+        "faults": ", ".join(filter(None, [listed["measurement"], *triage])),
+        **errors,
+        "explainable": _short(one.explainable),
+        "floor": _short(one.floor),
         "files alike": "" if one.failed else "no" if judge.unlike(one) else "yes",
         "near or admitted": "yes" if judge.near_or_admitted(one) else "no",
-        "seconds": f"{one.seconds:.0f}", "MB": f"{one.megabytes:.0f}",
-    }  # fmt: skip
+        "seconds": f"{one.seconds:.0f}",
+        "MB": f"{one.megabytes:.0f}",
+    }
 
 
 def _short(value: float | None) -> str:

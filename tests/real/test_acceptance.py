@@ -16,8 +16,10 @@ from real.run import outcome, trials
 pytestmark = pytest.mark.real
 
 LEAST = 0.8
-PRESENT = [pytest.param(name, marks=pytest.mark.skipif(not one.present, reason=f"{one.folder} is not here"))
-           for name, one in SETS.items()]  # fmt: skip
+PRESENT = [
+    pytest.param(name, marks=pytest.mark.skipif(not one.present, reason=f"{one.folder} is not here"))
+    for name, one in SETS.items()
+]
 
 
 @pytest.fixture(scope="session")

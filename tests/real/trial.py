@@ -51,8 +51,20 @@ class Trial:
         shutil.rmtree(folder, ignore_errors=True)
         dataset = self.set.write(folder / "data", self.removed() if self.fewer else ())
         found = folder / "diagnosis"
-        command = [*DASHPOT, "diagnose", self.base, dataset, "-o", found, "--seed", self.seed, "--jobs", 1, "--force",
-                   "--allow-outside"]  # fmt: skip
+        command = [
+            *DASHPOT,
+            "diagnose",
+            self.base,
+            dataset,
+            "-o",
+            found,
+            "--seed",
+            self.seed,
+            "--jobs",
+            1,
+            "--force",
+            "--allow-outside",
+        ]
         spent = measured_command(list(map(str, command)), folder / "log.txt")
         result = found / "diagnosis.json"
         told = json.loads(result.read_text()) if spent.failed is None and result.exists() else None
@@ -101,8 +113,9 @@ def measured_command(command: list[str], log: Path) -> Spent:
     quiet = {"OMP_NUM_THREADS": "1", "COLUMNS": "200"}
     began = time.perf_counter()
     with log.open("w") as out:
-        process = subprocess.Popen(["timeout", str(LONGEST), *command], stdout=out, stderr=subprocess.STDOUT,
-                                   env={**os.environ, **quiet})  # fmt: skip
+        process = subprocess.Popen(
+            ["timeout", str(LONGEST), *command], stdout=out, stderr=subprocess.STDOUT, env={**os.environ, **quiet}
+        )
         _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     lines = [line for line in log.read_text().splitlines() if line.strip()]
@@ -118,10 +131,25 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
         return Outcome(*common, "failed", [], [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
     kept = ("cause", "class", "title", "probability", "evidence_of", "gain", "gain_interval", "indistinguishable_from")
     causes = [{key: cause[key] for key in kept} for cause in told["causes"] if cause["accepted"]]
-    errors = {f"{when}.{which}": value for when, pair in told["rmse"].items() for which, value in pair.items()
-              if value is not None}  # fmt: skip
-    return Outcome(*common, told["verdict"], causes, told["faults"], errors, {}, told["explainable"]["held_out"],
-                   told["noise_floor"]["value"], spent.seconds, spent.megabytes, spent.failed)  # fmt: skip
+    errors = {
+        f"{when}.{which}": value
+        for when, pair in told["rmse"].items()
+        for which, value in pair.items()
+        if value is not None
+    }
+    return Outcome(
+        *common,
+        told["verdict"],
+        causes,
+        told["faults"],
+        errors,
+        {},
+        told["explainable"]["held_out"],
+        told["noise_floor"]["value"],
+        spent.seconds,
+        spent.megabytes,
+        spent.failed,
+    )
 
 
 def errors_of_files(told: Mapping[str, Any], folder: Path, dataset: Path) -> dict[str, float]:

@@ -48,12 +48,13 @@ def identify_car(seed: int, number: int) -> dict[str, Any]:
         "answer": content["masses"][0],
         "models": [
             {"name": model["name"], "error": model["rmse"]["train"], **mass}
-            for model in content["models"] for mass in model["masses"]
+            for model in content["models"]
+            for mass in model["masses"]
         ],
         "tire": content["models"][0]["rmse"]["train"],
         "noise_floor": content["noise_floor"],
         "masses_without_tire": [model["masses_without_tire"] for model in content["models"][1:]],
-    }  # fmt: skip
+    }
 
 
 def drawn_car(seed: int, number: int) -> Any:
@@ -80,14 +81,19 @@ def lines(cars: list[dict[str, Any]]) -> Iterator[str]:
     yield " car  mount N/mm  true kg  found kg  95 % interval       off %  error N  model"
     for car in sorted(cars, key=lambda car: car["number"]):
         yield line(car)
-    for what, chosen in (("bolted", [c for c in cars if np.isinf(c["mount"])]),
-                         ("top mount", [c for c in cars if np.isfinite(c["mount"])]), ("all", cars)):  # fmt: skip
+    for what, chosen in (
+        ("bolted", [c for c in cars if np.isinf(c["mount"])]),
+        ("top mount", [c for c in cars if np.isfinite(c["mount"])]),
+        ("all", cars),
+    ):
         if chosen:
             off = np.array([100.0 * (answer(car)["value"] / car["truth"] - 1.0) for car in chosen])
             held = sum(holds(car) for car in chosen)
-            yield (f"{what}: {len(chosen)} cars, {off.mean():+.2f} % in the mean, {off.std():.2f} % scatter, "
-                   f"largest {np.abs(off).max():.2f} %, within 0.4 %: {np.sum(np.abs(off) <= 0.4)}; "
-                   f"the interval holds the truth in {held} = {100.0 * held / len(chosen):.0f} %")  # fmt: skip
+            yield (
+                f"{what}: {len(chosen)} cars, {off.mean():+.2f} % in the mean, {off.std():.2f} % scatter, "
+                f"largest {np.abs(off).max():.2f} %, within 0.4 %: {np.sum(np.abs(off) <= 0.4)}; "
+                f"the interval holds the truth in {held} = {100.0 * held / len(chosen):.0f} %"
+            )
 
 
 def line(car: dict[str, Any]) -> str:
@@ -96,16 +102,24 @@ def line(car: dict[str, Any]) -> str:
     low, high = found["interval"]
     off = 100.0 * (found["value"] / car["truth"] - 1.0)
     mark = "" if holds(car) else "  outside"
-    return (f"{car['number']:4d}  {1e-3 * car['mount']:10.0f}  {car['truth']:7.3f}  {found['value']:8.3f}  "
-            f"{low:7.3f} to {high:7.3f}  {off:+6.2f}  {found['error']:7.2f}  {found['model']}{mark}")  # fmt: skip
+    return (
+        f"{car['number']:4d}  {1e-3 * car['mount']:10.0f}  {car['truth']:7.3f}  {found['value']:8.3f}  "
+        f"{low:7.3f} to {high:7.3f}  {off:+6.2f}  {found['error']:7.2f}  {found['model']}{mark}"
+    )
 
 
 def kept(seed: int, cars: list[dict[str, Any]]) -> dict[str, Any]:
     """What is worth keeping of a run: each car's truth and the study's answer."""
     keys = ("value", "interval", "error", "model")
-    rows = [{"number": car["number"], "truth": car["truth"],
-             "mount": car["mount"] if np.isfinite(car["mount"]) else None, **{key: answer(car)[key] for key in keys}}
-            for car in cars]  # fmt: skip
+    rows = [
+        {
+            "number": car["number"],
+            "truth": car["truth"],
+            "mount": car["mount"] if np.isfinite(car["mount"]) else None,
+            **{key: answer(car)[key] for key in keys},
+        }
+        for car in cars
+    ]
     return {"seed": seed, "cars": sorted(rows, key=lambda row: row["number"])}
 
 

@@ -45,24 +45,45 @@ QUARTER_CAR = Linear(
     """,
     "9.81 m/s^2",
     lambda m, body, k, d, ks, ds, at, place: quarter_car(m, body, k, d, ks, ds, 9.81, at, place),
-    ("wheel.mass", "body.mass", "tire.k.stiffness", "tire.d.damping", "strut.k.stiffness", "strut.d.damping",
-     "tire.offset", "strut.offset"),
-)  # fmt: skip
-ZENER = Linear("", """
+    (
+        "wheel.mass",
+        "body.mass",
+        "tire.k.stiffness",
+        "tire.d.damping",
+        "strut.k.stiffness",
+        "strut.d.damping",
+        "tire.offset",
+        "strut.offset",
+    ),
+)
+ZENER = Linear(
+    "",
+    """
     leg:
       series:
         outer: {element: spring, stiffness: 200 N/mm}
         inner: {parallel: {k: {element: spring, stiffness: 100 N/mm}, d: {element: damper, damping: 2 N*s/mm}}}
-    """, "", zener, ("leg.outer.stiffness", "leg.inner.k.stiffness", "leg.inner.d.damping"))  # fmt: skip
-THREE = Linear("", """
+    """,
+    "",
+    zener,
+    ("leg.outer.stiffness", "leg.inner.k.stiffness", "leg.inner.d.damping"),
+)
+THREE = Linear(
+    "",
+    """
     leg:
       series:
         first: {element: spring, stiffness: 200 N/mm}
         second: {element: damper, damping: 3 N*s/mm}
         third: {parallel: {k: {element: spring, stiffness: 100 N/mm}, d: {element: damper, damping: 2 N*s/mm}}}
-    """, "", three_in_series,
-    ("leg.first.stiffness", "leg.second.damping", "leg.third.k.stiffness", "leg.third.d.damping"))  # fmt: skip
-CHAIN = Linear("{table: driven, one: {mass: 30 kg}, two: {mass: 60 kg}, wall: ground}", """
+    """,
+    "",
+    three_in_series,
+    ("leg.first.stiffness", "leg.second.damping", "leg.third.k.stiffness", "leg.third.d.damping"),
+)
+CHAIN = Linear(
+    "{table: driven, one: {mass: 30 kg}, two: {mass: 60 kg}, wall: ground}",
+    """
     first:
       between: [table, one]
       parallel: {k: {element: spring, stiffness: 200 N/mm}, d: {element: damper, damping: 300 N*s/m}}
@@ -72,7 +93,18 @@ CHAIN = Linear("{table: driven, one: {mass: 30 kg}, two: {mass: 60 kg}, wall: gr
     last:
       between: [two, wall]
       parallel: {k: {element: spring, stiffness: 80 N/mm}, d: {element: damper, damping: 1500 N*s/m}}
-    """, "0 m/s^2", chain,
-    ("one.mass", "two.mass", "first.k.stiffness", "first.d.damping", "middle.k.stiffness", "middle.b.inertance",
-     "last.k.stiffness", "last.d.damping"))  # fmt: skip
+    """,
+    "0 m/s^2",
+    chain,
+    (
+        "one.mass",
+        "two.mass",
+        "first.k.stiffness",
+        "first.d.damping",
+        "middle.k.stiffness",
+        "middle.b.inertance",
+        "last.k.stiffness",
+        "last.d.damping",
+    ),
+)
 LINEAR = {"quarter car": QUARTER_CAR, "zener": ZENER, "three in series": THREE, "two masses and an inerter": CHAIN}

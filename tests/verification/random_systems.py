@@ -37,18 +37,23 @@ def draw_system(rng: np.random.Generator) -> tuple[str, str]:
     for _ in range(rng.integers(0, 3)):
         first, second = np.sort(rng.choice(len(chain), 2, replace=False))
         ends.append((chain[first], chain[second]))
-    branches = [f"e{number}: {{{_law(rng)}, between: [{lower}, {upper}]}}"
-                for number, (lower, upper) in enumerate(ends)]  # fmt: skip
+    branches = [
+        f"e{number}: {{{_law(rng)}, between: [{lower}, {upper}]}}" for number, (lower, upper) in enumerate(ends)
+    ]
     return "{" + ", ".join(nodes) + "}", "\n".join(branches)
 
 
 def _law(rng: np.random.Generator) -> str:
     force = _between(rng, 10.0, 316.0)
     return LAWS[rng.integers(len(LAWS))].format(
-        stiffness=_between(rng, 1e4, 2e6), force=force, creep=_between(rng, 1e-7, 1e-3),
-        damping=_between(rng, 30.0, 1e4), other=_between(rng, 30.0, 1e4), time=_between(rng, 1e-3, 1.0),
+        stiffness=_between(rng, 1e4, 2e6),
+        force=force,
+        creep=_between(rng, 1e-7, 1e-3),
+        damping=_between(rng, 30.0, 1e4),
+        other=_between(rng, 30.0, 1e4),
+        time=_between(rng, 1e-3, 1.0),
         gap=_between(rng, 3e-4, 3e-3),
-    )  # fmt: skip
+    )
 
 
 def _between(rng: np.random.Generator, low: float, high: float) -> float:

@@ -43,8 +43,11 @@ def filled(name: str, dice: Dice) -> NetworkSpec:
     """A shipped network with random numbers, and a random rising table for the curve of its spring."""
     spec = read_network(name, load_registry().elements)
     words = {branch.name: branch.element.word for branch in spec.leaves()}
-    tables = {path: curve for path, curve in spec.curves().items()
-              if curve.form == "table" and words[path.rpartition(".")[0]] == "spring"}  # fmt: skip
+    tables = {
+        path: curve
+        for path, curve in spec.curves().items()
+        if curve.form == "table" and words[path.rpartition(".")[0]] == "spring"
+    }
     tables |= spec.data_curves()
     for path, curve in tables.items():
         spec = spec.with_curve(path, stiffness_table(curve, dice))

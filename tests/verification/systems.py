@@ -51,8 +51,12 @@ def drive_of(motion: Cosines, at: np.ndarray) -> Drive:
     return drive_from_path(at[1] - at[0], motion.place(at), motion.speed(at), motion.bend(at))
 
 
-def excitation(at: np.ndarray, motions: Mapping[str, Cosines], settings: Mapping[str, float] | None = None,
-               loads: Mapping[str, np.ndarray] | None = None) -> Excitation:  # fmt: skip
+def excitation(
+    at: np.ndarray,
+    motions: Mapping[str, Cosines],
+    settings: Mapping[str, float] | None = None,
+    loads: Mapping[str, np.ndarray] | None = None,
+) -> Excitation:
     drives = {node: drive_of(motion, at) for node, motion in motions.items()}
     return Excitation(drives, loads or {}, settings or {}, at[1] - at[0], at.size)
 

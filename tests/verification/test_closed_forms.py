@@ -118,11 +118,14 @@ def test_after_a_reversal_from_sliding_a_slider_is_stiffer_by_two_to_its_exponen
         assert fall == pytest.approx(expected, rel=2e-4)
 
 
-@pytest.mark.parametrize(("element", "numbers"), [
-    ("spring", {"stiffness": 2e5}),
-    ("damper", {"damping": 150.0}),
-    ("inerter", {"inertance": 3.0}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "numbers"),
+    [
+        ("spring", {"stiffness": 2e5}),
+        ("damper", {"damping": 150.0}),
+        ("inerter", {"inertance": 3.0}),
+    ],
+)
 def test_the_elements_without_memory_have_the_dynamic_stiffness_of_their_name(element, numbers):
     omega = 2.0 * np.pi * 9.0
     expected = {"spring": 2e5, "damper": 150.0 * 1j * omega, "inerter": -3.0 * omega**2}[element]

@@ -65,8 +65,9 @@ def last_cycle(spec: NetworkSpec, amplitude: float, frequency: float, middle: fl
     return x[-PER_CYCLE - 1 :], force(spec, sample_time, x, v)[-PER_CYCLE - 1 :]
 
 
-def dynamic_stiffness(spec: NetworkSpec, amplitude: float, frequency: float, middle: float = 0.0,
-                      cycles: int = 40) -> complex:  # fmt: skip
+def dynamic_stiffness(
+    spec: NetworkSpec, amplitude: float, frequency: float, middle: float = 0.0, cycles: int = 40
+) -> complex:
     """K' + i K'' in N/m of the fundamental, of a sine that has settled."""
     x, found = last_cycle(spec, amplitude, frequency, middle, cycles)
     turn = np.exp(-2j * np.pi * np.arange(PER_CYCLE) / PER_CYCLE)
@@ -134,8 +135,9 @@ def test_an_engine_mount_is_its_rubber_as_long_as_the_decoupler_is_free():
 
 @pytest.mark.parametrize("frequency", [3.0, 7.0, 10.3, 18.0])
 def test_an_engine_mount_without_decoupler_and_turbulence_is_the_linear_mount(frequency):
-    mount = component("engine_mount", fluid__decoupler__gap=1e-7, fluid__decoupler__stiffness=1e9,
-                      fluid__track__quadratic_damping=0.0)  # fmt: skip
+    mount = component(
+        "engine_mount", fluid__decoupler__gap=1e-7, fluid__decoupler__stiffness=1e9, fluid__track__quadratic_damping=0.0
+    )
     turning = 2.0 * np.pi * frequency
     walls, mass = fluid(mount, "stiffness"), fluid(mount, "fluid_mass")
     track = 1j * turning * fluid(mount, "damping") - mass * turning**2
@@ -192,8 +194,10 @@ def test_a_strut_mount_stiffens_with_frequency_by_its_relaxation_alone():
 
     def relaxation(frequency):
         turns = [2j * np.pi * frequency * number(mount, f"relaxation_{copy}.relaxation_time") for copy in (1, 2)]
-        return sum(number(mount, f"relaxation_{copy}.stiffness") * turn / (1.0 + turn)
-                   for copy, turn in zip((1, 2), turns, strict=True))  # fmt: skip
+        return sum(
+            number(mount, f"relaxation_{copy}.stiffness") * turn / (1.0 + turn)
+            for copy, turn in zip((1, 2), turns, strict=True)
+        )
 
     # rate-independent friction and elasticity drop out of the difference
     assert found[1] - found[0] == pytest.approx(relaxation(20.0) - relaxation(1.0), rel=2e-3)
@@ -210,9 +214,10 @@ def valve_law(damper: NetworkSpec, side: str, speed: float) -> float:
 def test_a_shock_absorber_is_digressive_and_of_the_usual_size(side, sign):
     damper = component("shock_absorber")
     # at constant speed, where oil and seal have settled; the least and the largest force of dampers of cars
-    usual = {"compression": {0.05: (60, 200), 0.13: (120, 350), 0.26: (200, 500), 0.52: (350, 800), 1.05: (550, 1300)},
-             "rebound": {0.05: (100, 350), 0.13: (250, 700), 0.26: (450, 1100), 0.52: (800, 1700),
-                         1.05: (1200, 2600)}}[side]  # fmt: skip
+    usual = {
+        "compression": {0.05: (60, 200), 0.13: (120, 350), 0.26: (200, 500), 0.52: (350, 800), 1.05: (550, 1300)},
+        "rebound": {0.05: (100, 350), 0.13: (250, 700), 0.26: (450, 1100), 0.52: (800, 1700), 1.05: (1200, 2600)},
+    }[side]
     found = {}
     for speed, (least, largest) in usual.items():
         x = sign * np.linspace(0.0, 40e-3, 401)
@@ -286,8 +291,13 @@ def test_a_leaf_spring_goes_over_from_envelope_to_envelope_as_fancher_says():
     leaves, friction = {branch.name: branch for branch in spring.leaves()}.values()
     limit = number(spring, "friction.limit")
     beta = limit / number(spring, "friction.stiffness")
-    x = np.concatenate([there_and_back(60e-3, 140e-3, 10e-3, 2e-3, 3), np.arange(140e-3, 134e-3, -20e-6),
-                        np.arange(134e-3, 138e-3, 20e-6)])  # fmt: skip
+    x = np.concatenate(
+        [
+            there_and_back(60e-3, 140e-3, 10e-3, 2e-3, 3),
+            np.arange(140e-3, 134e-3, -20e-6),
+            np.arange(134e-3, 138e-3, 20e-6),
+        ]
+    )
     mean = elastic(*table(leaves.curves["stiffness"]), x)
     # in steady motion a force that follows an envelope of slope k is short of it by k beta
     width = factor(*table(friction.scale), x) * limit + np.gradient(mean, x[1] - x[0]) * np.sign(np.gradient(x)) * beta

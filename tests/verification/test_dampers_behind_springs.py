@@ -8,8 +8,16 @@ from scipy.integrate import solve_ivp
 from verification.alone import circling, network_of
 from verification.test_elements_with_memory import march, orders, relative, speed
 
-VALVE = {"stiffness": 3e5, "compression": 2e3, "rebound": 5e3, "compression_knee": 0.05, "rebound_knee": 0.02,
-         "compression_opened": 300.0, "rebound_opened": 100.0, "sharpness": 3.0}  # fmt: skip
+VALVE = {
+    "stiffness": 3e5,
+    "compression": 2e3,
+    "rebound": 5e3,
+    "compression_knee": 0.05,
+    "rebound_knee": 0.02,
+    "compression_opened": 300.0,
+    "rebound_opened": 100.0,
+    "sharpness": 3.0,
+}
 
 
 def valve_curve(w, numbers):
@@ -42,18 +50,28 @@ def power_slope(w, numbers):
 
 def truth(curve, slope, numbers, time):
     """g(w) where g'(w) dw/dt = k (v - w)."""
-    answer = solve_ivp(lambda t, w: [numbers["stiffness"] * (speed(t) - w[0]) / slope(w[0], numbers)],
-                       (0.0, time[-1]), [0.0], method="LSODA", rtol=1e-10, atol=1e-13, t_eval=time,
-                       max_step=2e-4)  # fmt: skip
+    answer = solve_ivp(
+        lambda t, w: [numbers["stiffness"] * (speed(t) - w[0]) / slope(w[0], numbers)],
+        (0.0, time[-1]),
+        [0.0],
+        method="LSODA",
+        rtol=1e-10,
+        atol=1e-13,
+        t_eval=time,
+        max_step=2e-4,
+    )
     return np.array([curve(w, numbers) for w in answer.y[0]])
 
 
-@pytest.mark.parametrize(("element", "curve", "slope", "numbers"), [
-    ("valve", valve_curve, valve_slope, VALVE),
-    ("valve", valve_curve, valve_slope, {**VALVE, "sharpness": 1.0, "compression_opened": 0.0, "stiffness": 1e5}),
-    ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 300.0, "exponent": 2.0}),
-    ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 100.0, "exponent": 0.6}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "curve", "slope", "numbers"),
+    [
+        ("valve", valve_curve, valve_slope, VALVE),
+        ("valve", valve_curve, valve_slope, {**VALVE, "sharpness": 1.0, "compression_opened": 0.0, "stiffness": 1e5}),
+        ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 300.0, "exponent": 2.0}),
+        ("compliant_damper", power_curve, power_slope, {"stiffness": 4e4, "force": 100.0, "exponent": 0.6}),
+    ],
+)
 def test_a_damper_behind_a_spring_is_of_second_order_in_the_step(element, curve, slope, numbers, state):
     errors = []
     for dt in (1e-3, 0.5e-3, 0.25e-3):
@@ -71,18 +89,30 @@ def test_a_linear_damper_behind_a_spring_is_a_maxwell_element():
         _, maxwell = march("maxwell", dt, stiffness=4e4, relaxation_time=0.02)
         _, found = march("compliant_damper", dt, stiffness=4e4, force=80.0)
         errors.append(relative(found, maxwell))
-        _, valve = march("valve", dt, stiffness=4e4, compression=800.0, rebound=800.0, compression_knee=1e3,
-                         rebound_knee=1e3, compression_opened=800.0, rebound_opened=800.0)  # fmt: skip
+        _, valve = march(
+            "valve",
+            dt,
+            stiffness=4e4,
+            compression=800.0,
+            rebound=800.0,
+            compression_knee=1e3,
+            rebound_knee=1e3,
+            compression_opened=800.0,
+            rebound_opened=800.0,
+        )
         assert valve == pytest.approx(found, abs=1e-9)
     assert errors[0] < 1e-3
     assert orders(errors)[0] > 1.9
 
 
-@pytest.mark.parametrize(("element", "curve", "numbers"), [
-    ("valve", valve_curve, {**VALVE, "stiffness": 1e10}),
-    ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 2.0}),
-    ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 0.3}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "curve", "numbers"),
+    [
+        ("valve", valve_curve, {**VALVE, "stiffness": 1e10}),
+        ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 2.0}),
+        ("compliant_damper", power_curve, {"stiffness": 1e10, "force": 300.0, "exponent": 0.3}),
+    ],
+)
 def test_behind_a_rigid_spring_a_damper_follows_its_curve(element, curve, numbers):
     drive = circling(5e-3, 5.0, 2, 100)
     network = network_of(element, **numbers)

@@ -25,8 +25,9 @@ def test_a_relaxing_spring_with_a_straight_curve_is_a_maxwell_element():
 def test_a_relaxing_spring_fades_along_its_curve(state):
     errors = []
     for dt in (4e-3, 2e-3, 1e-3):
-        time, found = march("relaxing_spring", dt, stiffness="{polynomial: [2e4, 3e6, 4e9]}", relaxation_time=0.02,
-                            share=0.3)  # fmt: skip
+        time, found = march(
+            "relaxing_spring", dt, stiffness="{polynomial: [2e4, 3e6, 4e9]}", relaxation_time=0.02, share=0.3
+        )
 
         def rate(t, force):
             x = place(t)
@@ -121,8 +122,16 @@ def flight(time, mass, stiffness, gap, loss):
         side = np.sign(way)
         return side * stiffness * max(abs(way) - gap, 0.0) * max(1.0 + loss * side * rate, 0.0)
 
-    answer = solve_ivp(lambda t, y: [y[1], force(t, y) / mass], (0.0, time[-1]), [0.0, 0.0], method="DOP853",
-                       rtol=1e-9, atol=1e-13, max_step=1e-4, t_eval=time)  # fmt: skip
+    answer = solve_ivp(
+        lambda t, y: [y[1], force(t, y) / mass],
+        (0.0, time[-1]),
+        [0.0, 0.0],
+        method="DOP853",
+        rtol=1e-9,
+        atol=1e-13,
+        max_step=1e-4,
+        t_eval=time,
+    )
     return answer.y, np.array([force(t, y) for t, y in zip(time, answer.y.T, strict=True)])
 
 

@@ -76,9 +76,17 @@ def test_a_linear_hydro_element_solves_its_equation_of_motion(damping, chamber, 
 
 # critical damping is 2 sqrt(k m) = 632.46 N s/m; a mass that is all but held shows the acceleration of the cubic path,
 # which between two samples is right to (2 pi 7 dt)^2/6
-@pytest.mark.parametrize(("damping", "allowed"), [
-    (1.0, 5e-8), (60.0, 5e-8), (630.0, 5e-8), (632.455532, 5e-8), (640.0, 5e-8), (5e4, 8e-5),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("damping", "allowed"),
+    [
+        (1.0, 5e-8),
+        (60.0, 5e-8),
+        (630.0, 5e-8),
+        (632.455532, 5e-8),
+        (640.0, 5e-8),
+        (5e4, 8e-5),
+    ],
+)
 def test_a_linear_absorber_solves_its_equation_of_motion(damping, allowed, state):
     time, found = march("vibration_absorber", 0.5e-3, damping=damping, **ABSORBER)
     error = relative(found, absorber_force(time, damping))
@@ -86,9 +94,13 @@ def test_a_linear_absorber_solves_its_equation_of_motion(damping, allowed, state
     assert error < allowed
 
 
-@pytest.mark.parametrize(("element", "numbers", "force", "damping"), [
-    ("hydro", HYDRO, hydro_force, 1.6e3), ("vibration_absorber", ABSORBER, absorber_force, 60.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "numbers", "force", "damping"),
+    [
+        ("hydro", HYDRO, hydro_force, 1.6e3),
+        ("vibration_absorber", ABSORBER, absorber_force, 60.0),
+    ],
+)
 def test_the_step_of_a_linear_mass_on_a_spring_leaves_the_error_of_the_cubic_path_alone(
     element, numbers, force, damping
 ):
@@ -99,9 +111,13 @@ def test_the_step_of_a_linear_mass_on_a_spring_leaves_the_error_of_the_cubic_pat
     assert np.all(orders(errors) > 3.7)
 
 
-@pytest.mark.parametrize(("element", "numbers", "force", "damping", "turbulence"), [
-    ("hydro", HYDRO, hydro_force, 300.0, 2e4), ("vibration_absorber", ABSORBER, absorber_force, 20.0, 500.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "numbers", "force", "damping", "turbulence"),
+    [
+        ("hydro", HYDRO, hydro_force, 300.0, 2e4),
+        ("vibration_absorber", ABSORBER, absorber_force, 20.0, 500.0),
+    ],
+)
 def test_quadratic_damping_is_of_second_order_in_the_step(element, numbers, force, damping, turbulence, state):
     errors = []
     for dt in (2e-3, 1e-3, 0.5e-3):

@@ -178,8 +178,10 @@ def _excited(counter: EnergyCounter, name: str) -> EnergyBalance:
     fade = 1.0 - np.exp(-((time / 0.1) ** 3))
     nodes = counter.system.outputs
     middle = 0.016 if nodes == ("",) else 0.0
-    drives = {node: drive_from_samples(DT, middle + 3e-3 * fade * np.sin(16.0 * np.pi * time + number), smooth=False)
-              for number, node in enumerate(nodes)}  # fmt: skip
+    drives = {
+        node: drive_from_samples(DT, middle + 3e-3 * fade * np.sin(16.0 * np.pi * time + number), smooth=False)
+        for number, node in enumerate(nodes)
+    }
     return counter.balance(Excitation(drives, {}, {}, DT, time.size, name))
 
 

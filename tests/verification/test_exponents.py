@@ -33,9 +33,16 @@ def integrate(slope, travel, force):
 
     slips.terminal = True
     # sign and root have no derivative where slipping begins: the event ends the integration there
-    found = solve_ivp(lambda x, f: side * slope(f, side), (0.0, abs(travel)), [force], method="DOP853", rtol=1e-12,
-                      atol=1e-12, events=slips if abs(side * force - LIMIT) > 1e-9 else None,
-                      max_step=max(abs(travel) / 20.0, 1e-12))  # fmt: skip
+    found = solve_ivp(
+        lambda x, f: side * slope(f, side),
+        (0.0, abs(travel)),
+        [force],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-12,
+        events=slips if abs(side * force - LIMIT) > 1e-9 else None,
+        max_step=max(abs(travel) / 20.0, 1e-12),
+    )
     assert found.success
     return side * LIMIT if found.status == 1 else float(found.y[0, -1])
 

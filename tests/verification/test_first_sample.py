@@ -33,21 +33,45 @@ SPEED = Sine().speed(0.0)
 BLOCK = "{table: driven, block: {mass: 5 kg}, wall: ground}"
 HELD = "b: {element: spring, stiffness: 20 N/mm, between: [block, wall]}"
 CASES = {
-    "damper to a mass": (BLOCK, "a: {element: damper, damping: 300 N*s/m, between: [table, block]}\n" + HELD,
-                         300.0 * SPEED),
-    "square damper to a mass": (BLOCK, "a: {element: quadratic_damper, damping: 900 N*s^2/m^2, between: [table, block]}"
-                                "\n" + HELD, 900.0 * SPEED**2),
-    "dampers in series": ("", "leg: {series: {a: {element: damper, damping: 300 N*s/m}, "
-                          "b: {element: damper, damping: 600 N*s/m}}}", 200.0 * SPEED),
-    "damper and spring in series": ("", "leg: {series: {a: {element: damper, damping: 300 N*s/m}, "
-                                    "b: {element: spring, stiffness: 20 N/mm}}}", 0.0),
-    "square dampers in series": ("", "leg: {series: {a: {element: quadratic_damper, damping: 900 N*s^2/m^2}, "
-                                 "b: {element: quadratic_damper, damping: 900 N*s^2/m^2}}}", 225.0 * SPEED**2),
-    "sliding friction in series": ("", "leg: {series: {a: {element: damper, damping: 1000 N*s/m}, "
-                                   "b: {element: coulomb, limit: 20 N, creep_velocity: 1e-6 m/s}}}", 20.0),
-    "sticking friction in series": ("", "leg: {series: {a: {element: damper, damping: 100 N*s/m}, "
-                                    "b: {element: coulomb, limit: 20 N, creep_velocity: 1e-7 m/s}}}", 100.0 * SPEED),
-}  # fmt: skip
+    "damper to a mass": (
+        BLOCK,
+        "a: {element: damper, damping: 300 N*s/m, between: [table, block]}\n" + HELD,
+        300.0 * SPEED,
+    ),
+    "square damper to a mass": (
+        BLOCK,
+        "a: {element: quadratic_damper, damping: 900 N*s^2/m^2, between: [table, block]}\n" + HELD,
+        900.0 * SPEED**2,
+    ),
+    "dampers in series": (
+        "",
+        "leg: {series: {a: {element: damper, damping: 300 N*s/m}, b: {element: damper, damping: 600 N*s/m}}}",
+        200.0 * SPEED,
+    ),
+    "damper and spring in series": (
+        "",
+        "leg: {series: {a: {element: damper, damping: 300 N*s/m}, b: {element: spring, stiffness: 20 N/mm}}}",
+        0.0,
+    ),
+    "square dampers in series": (
+        "",
+        "leg: {series: {a: {element: quadratic_damper, damping: 900 N*s^2/m^2}, "
+        "b: {element: quadratic_damper, damping: 900 N*s^2/m^2}}}",
+        225.0 * SPEED**2,
+    ),
+    "sliding friction in series": (
+        "",
+        "leg: {series: {a: {element: damper, damping: 1000 N*s/m}, "
+        "b: {element: coulomb, limit: 20 N, creep_velocity: 1e-6 m/s}}}",
+        20.0,
+    ),
+    "sticking friction in series": (
+        "",
+        "leg: {series: {a: {element: damper, damping: 100 N*s/m}, "
+        "b: {element: coulomb, limit: 20 N, creep_velocity: 1e-7 m/s}}}",
+        100.0 * SPEED,
+    ),
+}
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -75,8 +99,9 @@ def test_dampers_between_many_nodes_are_balanced_at_once():
     free = np.linalg.solve(matrix[3:, 3:], -matrix[3:, :3] @ speeds)
     expected = matrix[:2] @ np.concatenate([speeds, free])
     nodes = "{left: driven, right: driven, wall: ground, " + ", ".join(f"{name}: free" for name in names[3:]) + "}"
-    branches = "\n".join(f"d{k}: {{element: damper, damping: 1 N*s/m, between: [{a}, {b}]}}"
-                         for k, (a, b) in enumerate(pairs))  # fmt: skip
+    branches = "\n".join(
+        f"d{k}: {{element: damper, damping: 1 N*s/m, between: [{a}, {b}]}}" for k, (a, b) in enumerate(pairs)
+    )
     network = system(nodes, branches)
     values = lanes(network, **{f"d{k}__damping": number for k, number in enumerate(damping)})
     run = excitation(times(0.01), {"left": Sine(), "right": Sine(-0.8e-3)})
@@ -87,11 +112,14 @@ def test_a_driven_mass_is_carried_at_once():
     class Swing(Sine):
         """The same, a quarter of a cycle later."""
 
-        place, speed, bend = (lambda self, t, name=name: getattr(Sine(), name)(np.add(t, 0.05)) for name in
-                              ("place", "speed", "bend"))  # fmt: skip
+        place, speed, bend = (
+            lambda self, t, name=name: getattr(Sine(), name)(np.add(t, 0.05)) for name in ("place", "speed", "bend")
+        )
 
-    network = system("{table: {hold: driven, mass: 3 kg}, block: {mass: 5 kg}, wall: ground}", "a: {element: spring, "
-                     "stiffness: 10 N/mm, between: [table, block]}\n" + HELD)  # fmt: skip
+    network = system(
+        "{table: {hold: driven, mass: 3 kg}, block: {mass: 5 kg}, wall: ground}",
+        "a: {element: spring, stiffness: 10 N/mm, between: [table, block]}\n" + HELD,
+    )
     found = network.solve(network.prepare(excitation(times(0.01), {"table": Swing()}))).force[0, 0, 0]
     # both springs in series, and the table
     assert found == pytest.approx(2e-3 * (20e3 / 3.0) - 3.0 * 2e-3 * OMEGA**2, rel=1e-9)
@@ -99,8 +127,10 @@ def test_a_driven_mass_is_carried_at_once():
 
 def test_the_first_sample_is_continued_by_the_second():
     """A network with a light mass is near one without, from the first sample on."""
-    leg = "a: {{element: damper, damping: 300 N*s/m, between: [table, block]}}\n" \
-          "b: {{element: damper, damping: 100 N*s/m, between: [block, wall]}}"  # fmt: skip
+    leg = (
+        "a: {{element: damper, damping: 300 N*s/m, between: [table, block]}}\n"
+        "b: {{element: damper, damping: 100 N*s/m, between: [block, wall]}}"
+    )
     network = system("{table: driven, block: free, wall: ground}", leg.replace("{{", "{").replace("}}", "}"))
     at = times(0.02)
     found = network.solve(network.prepare(excitation(at, {"table": Sine()}))).force[0, 0]

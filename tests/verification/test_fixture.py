@@ -60,8 +60,11 @@ def test_a_spring_is_softer_by_the_compliance(compliance):
 
 
 @pytest.mark.parametrize("compliance", [1e-8, 3e-7, 2e-6])
-@pytest.mark.parametrize("branches", [SPRING + DAMPER, SPRING + DAMPER + MAXWELL, SPRING + DAMPER + MASS, SPRING + LEG],
-                         ids=["kelvin_voigt", "relaxing", "with_a_mass", "with_a_series_connection"])  # fmt: skip
+@pytest.mark.parametrize(
+    "branches",
+    [SPRING + DAMPER, SPRING + DAMPER + MAXWELL, SPRING + DAMPER + MASS, SPRING + LEG],
+    ids=["kelvin_voigt", "relaxing", "with_a_mass", "with_a_series_connection"],
+)
 def test_a_complex_stiffness_becomes_k_over_one_plus_ck(branches, compliance):
     alone = sum(STIFFNESSES[f"{line}\n"] for line in branches.splitlines())
     expected = LENGTH * (alone / (1.0 + compliance * alone) * np.exp(1j * OMEGA * TIME)).imag
@@ -71,10 +74,17 @@ def test_a_complex_stiffness_becomes_k_over_one_plus_ck(branches, compliance):
     assert np.abs(found - expected)[SETTLED].max() < min(2e-6 * size, 2e-3 * rigid)
 
 
-@pytest.mark.parametrize(("branches", "near"), [
-    (SPRING, 1e-13), (SPRING + DAMPER, 1e-13), (SPRING + DAMPER + MASS + MAXWELL, 2e-9), (SPRING + LEG, 1e-12),
-    (CUBIC + MAXWELL, 2e-9), (SPRING + PRANDTL, 3e-5),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("branches", "near"),
+    [
+        (SPRING, 1e-13),
+        (SPRING + DAMPER, 1e-13),
+        (SPRING + DAMPER + MASS + MAXWELL, 2e-9),
+        (SPRING + LEG, 1e-12),
+        (CUBIC + MAXWELL, 2e-9),
+        (SPRING + PRANDTL, 3e-5),
+    ],
+)
 def test_a_fixture_that_does_not_give_way_changes_nothing(branches, near):
     rigid = simulated(branches)
     found = simulated(branches, on(0.0))

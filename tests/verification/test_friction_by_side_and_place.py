@@ -29,8 +29,9 @@ def test_with_equal_limits_it_is_a_dahl_slider():
 
 
 def test_sliding_to_and_fro_takes_the_work_of_both_limits_and_leaves_half_their_difference():
-    _, x, force = last_cycle("directional_friction", 5e-3, 1.0, 3, 4000, stiffness=1e8, compression=20.0, rebound=50.0,
-                             exponent=0.0)  # fmt: skip
+    _, x, force = last_cycle(
+        "directional_friction", 5e-3, 1.0, 3, 4000, stiffness=1e8, compression=20.0, rebound=50.0, exponent=0.0
+    )
     work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
     assert work == pytest.approx(2.0 * 5e-3 * (20.0 + 50.0), rel=1e-3)
     assert np.mean(force) == pytest.approx(0.5 * (20.0 - 50.0), rel=1e-2)

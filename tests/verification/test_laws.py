@@ -21,10 +21,34 @@ from dashpot.text.quantity import force_dimension
 
 SEEDS = st.integers(0, 2**32 - 1)
 KINDS = st.sampled_from(sorted(MOTIONS))
-ODD = ["backlash", "bedding_in", "bouc_wen", "clearance", "compliant_damper", "coulomb", "dahl", "damper",
-       "fading_damper", "fading_spring", "inerter", "iwan", "loose_friction", "maxwell", "mullins",
-       "power_law_damper", "prandtl", "preload_creep", "quadratic_damper", "rattling_mass", "sliding_mass",
-       "softening", "spring", "stribeck", "stribeck_curve", "worn_damper"]  # fmt: skip
+ODD = [
+    "backlash",
+    "bedding_in",
+    "bouc_wen",
+    "clearance",
+    "compliant_damper",
+    "coulomb",
+    "dahl",
+    "damper",
+    "fading_damper",
+    "fading_spring",
+    "inerter",
+    "iwan",
+    "loose_friction",
+    "maxwell",
+    "mullins",
+    "power_law_damper",
+    "prandtl",
+    "preload_creep",
+    "quadratic_damper",
+    "rattling_mass",
+    "sliding_mass",
+    "softening",
+    "spring",
+    "stribeck",
+    "stribeck_curve",
+    "worn_damper",
+]
 RATE_INDEPENDENT = {
     "dahl": {"stiffness": 6e4, "limit": 15.0},
     "prandtl": {"stiffness": 6e4, "limit": 15.0},
@@ -100,8 +124,13 @@ def test_the_mirrored_motion_gives_the_mirrored_force(word, seed, kind):
     rng = np.random.default_rng(seed)
     specimen = draw_specimens(load_registry().elements[word], rng, draw_sizes(rng), 4)[0]
     network, drive = compile_network(specimen.spec), motion(seed, kind)
-    mirrored = replace(drive, displacement=-drive.displacement, velocity=-drive.velocity,
-                       acceleration=-drive.acceleration, turn_displacement=-drive.turn_displacement)  # fmt: skip
+    mirrored = replace(
+        drive,
+        displacement=-drive.displacement,
+        velocity=-drive.velocity,
+        acceleration=-drive.acceleration,
+        turn_displacement=-drive.turn_displacement,
+    )
     assert near(simulate(network, mirrored, specimen.values), -simulate(network, drive, specimen.values))
 
 
@@ -133,8 +162,9 @@ def test_a_maxwell_element_is_linear_in_its_motion(first, second, factor):
 @given(seed=SEEDS, speed=st.floats(0.01, 100.0))
 def test_friction_does_not_know_how_fast_it_is_moved(seed, speed):
     drive = motion(seed)
-    faster = replace(drive, dt=drive.dt / speed, velocity=drive.velocity * speed,
-                     acceleration=drive.acceleration * speed**2)  # fmt: skip
+    faster = replace(
+        drive, dt=drive.dt / speed, velocity=drive.velocity * speed, acceleration=drive.acceleration * speed**2
+    )
     for element, numbers in RATE_INDEPENDENT.items():
         network = network_of(element, **numbers)
         assert np.array_equal(simulate(network, faster), simulate(network, drive))
@@ -144,8 +174,10 @@ def test_friction_does_not_know_how_fast_it_is_moved(seed, speed):
 @few
 @given(seed=SEEDS, factors=st.lists(st.floats(0.05, 20.0), min_size=4, max_size=4))
 def test_a_factor_over_its_own_deflection_keeps_an_element_passive(element, seed, factors):
-    text = (f"format: dashpot-network/1\nname: scaled\nbranches:\n  it: {{element: {element}, {SCALED[element]}, "
-            f"scale: {{deflection: [-3 mm, -1 mm, 1 mm, 3 mm], factor: {factors}}}}}\n")  # fmt: skip
+    text = (
+        f"format: dashpot-network/1\nname: scaled\nbranches:\n  it: {{element: {element}, {SCALED[element]}, "
+        f"scale: {{deflection: [-3 mm, -1 mm, 1 mm, 3 mm], factor: {factors}}}}}\n"
+    )
     network = compile_network(parse_network(text, load_registry().elements))
     drive = random_drive(np.random.default_rng(seed), "multisine", 4e-3, 0.01, 6000, 1e-4)
     force = simulate(network, drive)
@@ -157,8 +189,10 @@ def test_a_factor_over_its_own_deflection_keeps_an_element_passive(element, seed
 @given(seed=SEEDS)
 def test_a_factor_multiplies_the_force_of_its_branch(seed):
     factors = np.random.default_rng(seed).uniform(0.1, 10.0, 3)
-    text = ("format: dashpot-network/1\nname: scaled\nbranches:\n  it: {element: dahl, stiffness: 60000, limit: 15 N, "
-            f"scale: {{deflection: [-2 mm, 0 mm, 2 mm], factor: {factors.tolist()}}}}}\n")  # fmt: skip
+    text = (
+        "format: dashpot-network/1\nname: scaled\nbranches:\n  it: {element: dahl, stiffness: 60000, limit: 15 N, "
+        f"scale: {{deflection: [-2 mm, 0 mm, 2 mm], factor: {factors.tolist()}}}}}\n"
+    )
     drive = motion(seed)
     found = simulate(compile_network(parse_network(text, load_registry().elements)), drive)
     plain = simulate(network_of("dahl", stiffness=6e4, limit=15.0), drive)

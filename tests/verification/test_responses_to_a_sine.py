@@ -20,8 +20,17 @@ def harmonics(element, amplitude, frequency, cycles, samples, count=3, **numbers
 def test_a_hydro_element_has_the_dynamic_stiffness_of_its_formula(frequency, chamber):
     mass, wall, damping, omega = 50.0, 2e5, 1.6e3, 2.0 * np.pi * frequency
     track = chamber - mass * omega**2 + 1j * omega * damping
-    found = dynamic_stiffness("hydro", 1e-3, frequency, 60, 200, fluid_mass=mass, stiffness=wall, damping=damping,
-                              compensation_stiffness=chamber)  # fmt: skip
+    found = dynamic_stiffness(
+        "hydro",
+        1e-3,
+        frequency,
+        60,
+        200,
+        fluid_mass=mass,
+        stiffness=wall,
+        damping=damping,
+        compensation_stiffness=chamber,
+    )
     # 60 cycles with a damping constant of at least 16/s; the cubic between samples is good to (2 pi/200)^4/384
     assert abs(found - wall * track / (wall + track)) < (2e-8 + np.exp(-16.0 * 60.0 / frequency)) * wall
 
@@ -78,8 +87,7 @@ def test_loose_friction_dissipates_where_it_slides_only():
 
 def test_an_asymmetric_damper_has_a_mean_force_of_one_and_a_half_its_second_harmonic():
     compression, rebound, amplitude, frequency = 500.0, 1500.0, 2e-3, 10.0
-    mean, a, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 4000, compression=compression,
-                           rebound=rebound)  # fmt: skip
+    mean, a, b = harmonics("asymmetric_damper", amplitude, frequency, 1, 4000, compression=compression, rebound=rebound)
     speed, half = 2.0 * np.pi * frequency * amplitude, 0.5 * (compression - rebound)
     assert b[0] == pytest.approx(0.5 * (compression + rebound) * speed, rel=1e-6)
     assert mean == pytest.approx(2.0 / np.pi * half * speed, rel=1e-6)
@@ -179,8 +187,9 @@ def test_an_iwan_element_is_a_sum_of_springs_behind_sliders(amplitude, slope):
 
 def test_an_iwan_element_softens_by_its_stiffness_per_decade():
     # eight springs of a share each, two decades over seven distances
-    small, large = (dynamic_stiffness("iwan", x, 3.0, 3, 2000, stiffness=1e5, shortest=1e-4, longest=1e-2)
-                    for x in (4e-4, 4e-3))  # fmt: skip
+    small, large = (
+        dynamic_stiffness("iwan", x, 3.0, 3, 2000, stiffness=1e5, shortest=1e-4, longest=1e-2) for x in (4e-4, 4e-3)
+    )
     assert small.real - large.real == pytest.approx(1e5 / 8 * 7 / 2, rel=0.03)
 
 
@@ -198,8 +207,12 @@ def test_a_kraus_element_is_a_sum_of_springs_behind_sliders(amplitude, exponent)
 def test_the_tangent_of_a_kraus_element_falls_by_the_curve_of_broken_contacts(exponent):
     """From rest to a deflection x each spring carries min(x, t_i): the slope is the share that has not slipped."""
     x, step = np.array([0.05, 0.3, 1.0, 3.0]) * 1e-3, 1e-6
-    ends = np.array([last_cycle("kraus", end, 3.0, 1, 4, stiffness=1e5, travel=1e-3, exponent=exponent)[2][0]
-                     for end in np.concatenate([x - step, x + step])])  # fmt: skip
+    ends = np.array(
+        [
+            last_cycle("kraus", end, 3.0, 1, 4, stiffness=1e5, travel=1e-3, exponent=exponent)[2][0]
+            for end in np.concatenate([x - step, x + step])
+        ]
+    )
     slope = np.diff(ends.reshape(2, -1), axis=0)[0] / (2.0 * step)
     assert slope == pytest.approx(1e5 / (1.0 + (x / 1e-3) ** exponent), abs=0.051 * 1e5)
 
@@ -235,8 +248,19 @@ def test_friction_that_fades_slides_at_the_limit_of_its_speed():
     """At the speed of the peak, long after the reversal, the force is the limit there, whatever the approach."""
     amplitude, frequency = 5e-3, 2.0
     for decay, exponent in ((1.0, 1.0), (2.0, 0.0), (0.7, 1.5)):
-        _, x, force = last_cycle("stribeck", amplitude, frequency, 2, 4000, stiffness=1e6, limit=10.0, breakaway=30.0,
-                                 stribeck_velocity=0.05, decay=decay, exponent=exponent)  # fmt: skip
+        _, x, force = last_cycle(
+            "stribeck",
+            amplitude,
+            frequency,
+            2,
+            4000,
+            stiffness=1e6,
+            limit=10.0,
+            breakaway=30.0,
+            stribeck_velocity=0.05,
+            decay=decay,
+            exponent=exponent,
+        )
         middle = int(np.argmin(np.where(np.gradient(x) > 0.0, np.abs(x), np.inf)))
         expected = 10.0 + 20.0 * np.exp(-((2.0 * np.pi * frequency * amplitude / 0.05) ** decay))
         assert force[middle] == pytest.approx(expected, rel=2e-3)

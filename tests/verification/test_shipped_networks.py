@@ -52,15 +52,21 @@ CUBIC_ERROR = AMPLITUDE * (2.0 * np.pi * FASTEST * DT) ** 4 / 384.0
 
 def steepest(spec: NetworkSpec) -> float:
     """What the force can change per metre right after a reversal; a slider is twice as stiff there."""
-    slopes = [(2.0 if branch.element.word == "dahl" else 1.0) * branch.values["stiffness"].number
-              for branch in spec.leaves() if branch.element.declares.states]  # fmt: skip
+    slopes = [
+        (2.0 if branch.element.word == "dahl" else 1.0) * branch.values["stiffness"].number
+        for branch in spec.leaves()
+        if branch.element.declares.states
+    ]
     return sum(slopes)
 
 
 def damping(spec: NetworkSpec) -> float:
     """What the forces of all dampers can change per m/s."""
-    return sum(branch.curves["damping"].values[0].number * (max(table(branch.scale)[1]) if branch.scale else 1.0)
-               for branch in spec.leaves() if branch.element.word == "damper")  # fmt: skip
+    return sum(
+        branch.curves["damping"].values[0].number * (max(table(branch.scale)[1]) if branch.scale else 1.0)
+        for branch in spec.leaves()
+        if branch.element.word == "damper"
+    )
 
 
 @dataclass
@@ -110,8 +116,9 @@ def truth(state: Callable[[str], None]) -> Truth:
             if branch.element.declares.states:
                 histories.ask(branch.element.word, numbers(branch))
     x, v = position(TIME), velocity(TIME)
-    return Truth(networks, histories, x, v, histories.along_cubics(DT, x, v),
-                 histories.along_curve(velocity, turns(), TIME))  # fmt: skip
+    return Truth(
+        networks, histories, x, v, histories.along_cubics(DT, x, v), histories.along_curve(velocity, turns(), TIME)
+    )
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -133,9 +140,12 @@ def test_the_path_between_the_samples_costs_little_against_the_true_motion(name,
     splined = drive_from_samples(DT, truth.x)
     errors = [network.simulate(network.prepare(drive)) - expected for drive in (known, splined)]
     largest = [np.max(np.abs(error)) for error in errors]
-    state(f"{name}: largest error against the true sweep {largest[0]:.1e} N with its velocities, "
-          f"{largest[1]:.1e} N from displacement samples alone")  # fmt: skip
+    state(
+        f"{name}: largest error against the true sweep {largest[0]:.1e} N with its velocities, "
+        f"{largest[1]:.1e} N from displacement samples alone"
+    )
     # the velocity of the spline is off by some um/s at the ends of the record, which the dampers feel
     slip = np.max(np.abs(splined.velocity - truth.v))
     assert max(largest) < 1e-4 + 1.01 * slip * damping(truth.networks[name]) + CUBIC_ERROR * steepest(
-        truth.networks[name])  # fmt: skip
+        truth.networks[name]
+    )

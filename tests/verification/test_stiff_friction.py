@@ -23,9 +23,12 @@ NETWORKS, DRAWS = 60, 10
 
 
 def drawn_sliders(network, rng, count):
-    return lanes(network, leg__k__stiffness=10.0 ** rng.uniform(4.0, 6.3, count),
-                 leg__c__limit=10.0 ** rng.uniform(1.0, 2.5, count),
-                 leg__c__creep_velocity=10.0 ** rng.uniform(np.log10(SLOWEST), -3.0, count))  # fmt: skip
+    return lanes(
+        network,
+        leg__k__stiffness=10.0 ** rng.uniform(4.0, 6.3, count),
+        leg__c__limit=10.0 ** rng.uniform(1.0, 2.5, count),
+        leg__c__creep_velocity=10.0 ** rng.uniform(np.log10(SLOWEST), -3.0, count),
+    )
 
 
 @pytest.mark.parametrize("pairs", [1, 4])
@@ -46,14 +49,19 @@ def test_dry_friction_behind_a_spring_converges_to_what_a_bisection_finds(state)
     for pairs in (1, 4, 16):
         found[pairs] = rms(network.solve(network.prepare(run, pairs), values).force[:, 0] - exact) / rms(exact)
     worst = {pairs: float(np.max(error)) for pairs, error in found.items()}
-    state(f"dry friction behind a spring, worst of {FEW} lanes at 1, 1/4 and 1/16 ms: "
-          + ", ".join(f"{error:.1e}" for error in worst.values()))  # fmt: skip
+    state(
+        f"dry friction behind a spring, worst of {FEW} lanes at 1, 1/4 and 1/16 ms: "
+        + ", ".join(f"{error:.1e}" for error in worst.values())
+    )
     # of first order where the slider is caught within a step
     assert worst[16] < 2e-3 and worst[16] < worst[1] / 8.0
 
 
-UNSOLVED = pytest.mark.xfail(strict=True, reason="one of some 200 networks is not solved: iwan chains, a backlash and "
-                             "loose friction around two nodes without mass")  # fmt: skip
+UNSOLVED = pytest.mark.xfail(
+    strict=True,
+    reason="one of some 200 networks is not solved: iwan chains, a backlash and "
+    "loose friction around two nodes without mass",
+)
 
 
 @pytest.mark.parametrize("draw", [pytest.param(0, marks=UNSOLVED), *range(1, DRAWS)])

@@ -75,10 +75,16 @@ def found():
 def test_a_fit_finds_the_numbers_of_the_strut(found):
     numbers = {slot.path: slot.value.number for slot in found.fitted.slots()}
     truth = {
-        "gas.force": AREA * 2e5, "gas.force.slope": AREA, "gas.length": LENGTH, "rubber.stiffness": RUBBER,
-        "oil.stiffness": OIL, "oil.compression": DAMPING, "oil.rebound": DAMPING, "oil.compression_knee": KNEE,
+        "gas.force": AREA * 2e5,
+        "gas.force.slope": AREA,
+        "gas.length": LENGTH,
+        "rubber.stiffness": RUBBER,
+        "oil.stiffness": OIL,
+        "oil.compression": DAMPING,
+        "oil.rebound": DAMPING,
+        "oil.compression_knee": KNEE,
         "oil.rebound_knee": KNEE,
-    }  # fmt: skip
+    }
     assert {path: numbers[path] for path in truth} == pytest.approx(truth, rel=0.02)
     assert found.errors.train == pytest.approx(NOISE, rel=0.05)
     assert found.errors.held_out == pytest.approx(NOISE, rel=0.05)

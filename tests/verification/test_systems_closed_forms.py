@@ -44,8 +44,10 @@ def test_a_spring_and_a_damper_in_series_are_a_maxwell_element(rng):
     stiffness, damping = around(rng, 2e4), around(rng, 400.0)
     found = solved(network, at, motion, lanes(network, leg__first__stiffness=stiffness, leg__second__damping=damping))
     # F' = k x' - k/d F
-    exact = [StateSpace(np.array([[-k / d]]), np.array([[0.0, k, 0.0, 0.0]]), np.ones(1), np.zeros(4)).force(motion, at)
-             for k, d in zip(stiffness, damping, strict=True)]  # fmt: skip
+    exact = [
+        StateSpace(np.array([[-k / d]]), np.array([[0.0, k, 0.0, 0.0]]), np.ones(1), np.zeros(4)).force(motion, at)
+        for k, d in zip(stiffness, damping, strict=True)
+    ]
     assert np.all(rms(found.force[:, 0] - exact) < found.error[:, 0])
     assert np.all(rms(found.force[:, 0] - exact) < 1e-5 * rms(np.array(exact)))
     maxwell = network_of("maxwell", stiffness=2e4, relaxation_time=0.02)
@@ -58,18 +60,27 @@ def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, s
     at, motions = times(0.5), [smooth_motion(rng, 0.0, 3e-3) for _ in range(MOTIONS)]
     network = series("spring, stiffness: 20 N/mm", "dahl, stiffness: 200 N/mm, limit: 20 N")
     stiffness, limit = around(rng, 2e4), around(rng, 20.0)
-    values = lanes(network, leg__first__stiffness=stiffness, leg__second__stiffness=sharpness * stiffness,
-                   leg__second__limit=limit)  # fmt: skip
+    values = lanes(
+        network, leg__first__stiffness=stiffness, leg__second__stiffness=sharpness * stiffness, leg__second__limit=limit
+    )
     prandtl = network_of("prandtl", stiffness=2e4, limit=20.0, sharpness=sharpness)
     numbers = np.repeat(prandtl.start[None], LANES, axis=0)
     for key, column in (("stiffness", stiffness), ("limit", limit)):
         numbers[:, prandtl.paths.index(f"it.{key}")] = column
-    errors = np.concatenate([
-        rms(solved(network, at, motion, values).force[:, 0]
-            - prandtl.simulate(prandtl.prepare(drive_of(motion, at)), numbers)) / limit for motion in motions
-    ])  # fmt: skip
-    state(f"spring and slider {sharpness:g} times as stiff in series at 1 ms: {np.median(errors):.1e} of the limit, "
-          f"largest {errors.max():.1e}")  # fmt: skip
+    errors = np.concatenate(
+        [
+            rms(
+                solved(network, at, motion, values).force[:, 0]
+                - prandtl.simulate(prandtl.prepare(drive_of(motion, at)), numbers)
+            )
+            / limit
+            for motion in motions
+        ]
+    )
+    state(
+        f"spring and slider {sharpness:g} times as stiff in series at 1 ms: {np.median(errors):.1e} of the limit, "
+        f"largest {errors.max():.1e}"
+    )
     # where the slider turns Newton's method stops up to a tenth of a micrometre beside the root
     assert np.median(errors) < 5e-5
     assert np.quantile(errors, 0.9) < 2e-4
@@ -77,10 +88,13 @@ def test_a_spring_and_a_slider_in_series_are_a_prandtl_element(sharpness, rng, s
 
 
 def test_a_loaded_mass_on_a_spring_moves_as_its_equation_says(rng):
-    network = system("{block: {hold: loaded, mass: 5 kg}, wall: ground}", """
+    network = system(
+        "{block: {hold: loaded, mass: 5 kg}, wall: ground}",
+        """
         k: {element: spring, stiffness: 20 N/mm, between: [block, wall]}
         d: {element: damper, damping: 100 N*s/m, between: [block, wall]}
-        """)  # fmt: skip
+        """,
+    )
     at, motion = times(0.5), smooth_motion(rng, 3.0, 100.0)
     run = network.prepare(excitation(at, {}, loads={"block": motion.place(at)}))
     found = network.solve(run, lanes(network, block__mass=np.array([5.0, 8.0])))
@@ -117,8 +131,10 @@ def test_a_block_on_a_table_flies_freely_after_it_lost_contact(rng, state):
         flights.append(np.diff(place, 2)[1:-1][free] / 1e-6 + GRAVITY)
         pulls.append(max(0.0, -np.min(found.force)) / exact.max())
         errors.append(rms(found.force[0, 0] - exact) / exact.std())
-    state(f"lift-off at 1 ms: error {np.median(errors):.1e} of the RMS force, largest {max(errors):.1e}; the contact "
-          f"pulls by at most {max(pulls):.1e} of the largest force")  # fmt: skip
+    state(
+        f"lift-off at 1 ms: error {np.median(errors):.1e} of the RMS force, largest {max(errors):.1e}; the contact "
+        f"pulls by at most {max(pulls):.1e} of the largest force"
+    )
     # both courses fly along parabolas, which the scheme follows exactly
     flown = np.abs(np.concatenate(flights))
     assert flown.size > 20 * LANDINGS and np.mean(flown < 2e-2) > 0.99
@@ -160,8 +176,10 @@ def test_impacts_on_end_stops_converge_to_their_integration(rng, state):
         shares.append(rms(answers[0].force[0, 0] - exact) / answers[0].error[0, 0])
     coarse, fine = np.array(errors).T
     order = np.median(np.log2(coarse / fine)) / 2.0
-    state(f"impacts on end stops at 1 ms: error {np.median(coarse):.1e} of the RMS force (largest {coarse.max():.1e}), "
-          f"{np.median(shares):.2f} of the estimate (largest {max(shares):.1f}), order {order:.2f}")  # fmt: skip
+    state(
+        f"impacts on end stops at 1 ms: error {np.median(coarse):.1e} of the RMS force (largest {coarse.max():.1e}), "
+        f"{np.median(shares):.2f} of the estimate (largest {max(shares):.1f}), order {order:.2f}"
+    )
     assert coarse.max() < 1e-2
     assert order > 1.5
     # where and when a step meets a corner is chance: single estimates fall short, most do not

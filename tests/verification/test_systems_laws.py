@@ -70,10 +70,13 @@ def test_two_equal_legs_in_parallel_press_twice_as_much(seed):
 
 
 def wheel(platform: str, mass: str, body: str, spring: str, tire: str):
-    return system(f"{{{platform}: driven, {mass}: {{mass: 40 kg}}, {body}: ground}}", f"""
+    return system(
+        f"{{{platform}: driven, {mass}: {{mass: 40 kg}}, {body}: ground}}",
+        f"""
         {spring}: {{element: spring, stiffness: 25 N/mm, between: [{mass}, {body}]}}
         {tire}: {{element: spring, stiffness: 200 N/mm, between: [{platform}, {mass}]}}
-        """)  # fmt: skip
+        """,
+    )
 
 
 @few
@@ -86,10 +89,16 @@ def test_names_do_not_matter(seed):
 
 def test_units_of_the_file_do_not_matter():
     motion = smooth_motion(np.random.default_rng(seed_of("test_systems_laws")), 0.0, 4e-3)
-    one = system("{table: driven, block: {mass: 3 kg}}", "k: {element: spring, stiffness: 25 N/mm, between: "
-                 "[table, block], offset: 2 mm}", "9.81 m/s^2")  # fmt: skip
-    other = system("{table: driven, block: {mass: 3000 g}}", "k: {element: spring, stiffness: 2.5e4, between: "
-                   "[table, block], offset: 0.2 cm}", "981 cm/s^2")  # fmt: skip
+    one = system(
+        "{table: driven, block: {mass: 3 kg}}",
+        "k: {element: spring, stiffness: 25 N/mm, between: [table, block], offset: 2 mm}",
+        "9.81 m/s^2",
+    )
+    other = system(
+        "{table: driven, block: {mass: 3000 g}}",
+        "k: {element: spring, stiffness: 2.5e4, between: [table, block], offset: 0.2 cm}",
+        "981 cm/s^2",
+    )
     assert near(forces(other, {"table": motion}), forces(one, {"table": motion}), 1e-13)
 
 
@@ -117,8 +126,9 @@ def test_scaling_all_forces_and_masses_scales_the_forces(axle, seed, factor):
     rng = np.random.default_rng(seed)
     values, moved = drawn(axle, rng), motions(rng)
     # a kilogram is a newton at 1 m/s^2
-    powers = np.array([1.0 if slot.value.unit == "kg" else force_dimension(slot.value.unit)
-                       for slot in axle.spec.slots()])  # fmt: skip
+    powers = np.array(
+        [1.0 if slot.value.unit == "kg" else force_dimension(slot.value.unit) for slot in axle.spec.slots()]
+    )
     scaled = forces(axle, moved, values * factor**powers)
     assert near(scaled, factor * forces(axle, moved, values), 1e-7)
 

@@ -41,9 +41,11 @@ def test_the_force_is_that_of_the_state_space_of_third_order_in_the_step(name, r
     order = np.log2(np.array(errors[:-1]) / errors[1:])
     promised = np.log2(np.array(estimates[:-1]) / estimates[1:])
     shares = errors[0] / estimates[0]
-    state(f"{name} at 1 ms: error {np.median(errors[0] / sizes):.1e} of the RMS force, order "
-          f"{np.median(order):.2f}; estimate of order {np.median(promised):.2f}, {1.0 / np.median(shares):.0f} times "
-          f"the error (from {1.0 / shares.max():.0f} to {1.0 / shares.min():.0f})")  # fmt: skip
+    state(
+        f"{name} at 1 ms: error {np.median(errors[0] / sizes):.1e} of the RMS force, order "
+        f"{np.median(order):.2f}; estimate of order {np.median(promised):.2f}, {1.0 / np.median(shares):.0f} times "
+        f"the error (from {1.0 / shares.max():.0f} to {1.0 / shares.min():.0f})"
+    )
     assert np.max(errors[0] / sizes) < 1e-4
     assert np.median(order[0]) > 2.8 and np.median(order[1]) > 2.8
     # the estimate is that of the short steps, whose leading error has been taken away from the answer
@@ -65,8 +67,15 @@ def harmonic(network, frequency, amplitude, values=None, samples=200):
 def test_a_quarter_car_has_the_dynamic_stiffness_of_its_transfer_function(frequency, rng):
     network = QUARTER_CAR.network
     m, body, k, d, ks, ds = 36.0, 346.0, 253.2e3, 150.0, 25.57e3, 1474.0
-    values = lanes(network, wheel__mass=m, body__mass=body, tire__k__stiffness=k, tire__d__damping=d,
-                   strut__k__stiffness=ks, strut__d__damping=ds)  # fmt: skip
+    values = lanes(
+        network,
+        wheel__mass=m,
+        body__mass=body,
+        tire__k__stiffness=k,
+        tire__d__damping=d,
+        strut__k__stiffness=ks,
+        strut__d__damping=ds,
+    )
     s = 2j * np.pi * frequency
     tire, strut = k + s * d, ks + s * ds
     suspended = strut * body * s**2 / (body * s**2 + strut)
@@ -91,8 +100,12 @@ def test_compliances_add_up_in_series(rng):
 
 
 def test_springs_in_series_are_one_spring_at_once():
-    network = system("", "leg: {series: {a: {element: spring, stiffness: 3 N/mm}, b: {element: spring, "
-                         "stiffness: 6 N/mm}, c: {element: spring, stiffness: 2 N/mm}}}", "")  # fmt: skip
+    network = system(
+        "",
+        "leg: {series: {a: {element: spring, stiffness: 3 N/mm}, b: {element: spring, "
+        "stiffness: 6 N/mm}, c: {element: spring, stiffness: 2 N/mm}}}",
+        "",
+    )
     at = times(0.3)
     motion = smooth_motion(np.random.default_rng(SEED), 1e-3, 5e-3)
     found = network.solve(network.prepare(excitation(at, {network.outputs[0]: motion})))
@@ -103,10 +116,13 @@ def test_springs_in_series_are_one_spring_at_once():
 def test_a_mass_behind_a_spring_resonates_as_the_fluid_of_a_hydro_element():
     # the fluid is a mass between the wall and the body that it is pumped against, damped by the track
     nodes = "{piston: driven, fluid: {mass: 50 kg}, frame: ground}"
-    network = system(nodes, """
+    network = system(
+        nodes,
+        """
         wall: {between: [piston, fluid], element: spring, stiffness: 200 N/mm}
         track: {between: [fluid, frame], element: damper, damping: 1.6 N*s/mm}
-        """)  # fmt: skip
+        """,
+    )
     for frequency in (8.0, 12.0, np.sqrt(2e5 / 50.0) / (2.0 * np.pi)):
         track = -50.0 * (2.0 * np.pi * frequency) ** 2 + 1.6e3 * 2j * np.pi * frequency
         assert harmonic(network, frequency, 1e-3)[0] == pytest.approx(2e5 * track / (2e5 + track), rel=2e-6)

@@ -37,8 +37,9 @@ def draws(network, rng):
     return values
 
 
-@pytest.mark.parametrize("word", [pytest.param(word, marks=() if word in QUICK else pytest.mark.slow)
-                                  for word in ELEMENTS])  # fmt: skip
+@pytest.mark.parametrize(
+    "word", [pytest.param(word, marks=() if word in QUICK else pytest.mark.slow) for word in ELEMENTS]
+)
 def test_an_element_behind_a_mount_is_solved_and_converges(word, state):
     assert word in load_registry().elements
     seed = seed_of("test_systems_series")
@@ -53,8 +54,10 @@ def test_an_element_behind_a_mount_is_solved_and_converges(word, state):
     finest = found[16].force[:, 0]
     size = rms(finest)
     coarse, fine = (rms(found[pairs].force[:, 0] - finest) for pairs in (1, 4))
-    state(f"{word} behind a mount at 1 ms: {np.median(coarse / size):.1e} of the RMS force, at 1/4 ms "
-          f"{np.median(fine / size):.1e}; estimate {np.median(found[1].error[:, 0] / size):.1e}")  # fmt: skip
+    state(
+        f"{word} behind a mount at 1 ms: {np.median(coarse / size):.1e} of the RMS force, at 1/4 ms "
+        f"{np.median(fine / size):.1e}; estimate {np.median(found[1].error[:, 0] / size):.1e}"
+    )
     assert np.median(coarse / size) < 2e-3
     # two halvings of a method of second order, and a third left over for corners; Newton's method stops before zero
     unsolved = MOUNT_STIFFNESS * TOLERANCE * np.ptp(run.motions[network.outputs[0]].displacement)

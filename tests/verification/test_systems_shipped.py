@@ -56,8 +56,9 @@ class Case:
     def truth(self) -> np.ndarray:
         """Forces (platforms, n)."""
         at, model = times(SECONDS), vehicle(self.network, self.name, self.values, ADDED)
-        return model.force(self.left, at)[None] if self.name == "quarter_car" else model.forces(
-            self.left, self.right, at)  # fmt: skip
+        return (
+            model.force(self.left, at)[None] if self.name == "quarter_car" else model.forces(self.left, self.right, at)
+        )
 
     def found(self, pairs: int = 1) -> Solution:
         motions = dict(zip(self.network.outputs, (self.left, self.right), strict=False))
@@ -87,8 +88,10 @@ def test_the_forces_agree_with_an_integration_within_their_estimated_error(name,
     case = Case.draw(name, rng, way)
     truth, found = case.truth(), case.found()
     error = rms(found.force[0] - truth)
-    state(f"{name}, {'in phase' if way > 0 else 'in anti-phase'}, at 1 ms: error {error.max():.1e} N, estimate "
-          f"{found.error.max():.1e} N, of the RMS {truth.std(axis=1).max():.0f} N")  # fmt: skip
+    state(
+        f"{name}, {'in phase' if way > 0 else 'in anti-phase'}, at 1 ms: error {error.max():.1e} N, estimate "
+        f"{found.error.max():.1e} N, of the RMS {truth.std(axis=1).max():.0f} N"
+    )
     assert found.status == (Status.GOOD,)
     assert np.all(error <= found.error[0])
     assert np.max(np.abs(found.force[0] - truth)) < 2e-4 * truth.std(axis=1).max()
@@ -106,9 +109,11 @@ def test_the_estimated_error_holds_over_many_draws(rng, state):
         assert np.max(np.abs(found.force[0] - truth)) < 2e-4 * truth.std(axis=1).max()
         shares.append(np.max(error / found.error[0]))
         orders.append(np.log2(np.max(error) / np.max(rms(finer.force[0] - truth))) / 2.0)
-    state(f"{len(draws)} draws of shipped networks at 1 ms: error over estimate median {np.median(shares):.3f}, "
-          f"95 % below {np.quantile(shares, 0.95):.3f}, largest {max(shares):.3f}, smallest {min(shares):.4f}; order "
-          f"with friction {np.median(orders):.2f}")  # fmt: skip
+    state(
+        f"{len(draws)} draws of shipped networks at 1 ms: error over estimate median {np.median(shares):.3f}, "
+        f"95 % below {np.quantile(shares, 0.95):.3f}, largest {max(shares):.3f}, smallest {min(shares):.4f}; order "
+        f"with friction {np.median(orders):.2f}"
+    )
     assert np.mean(np.array(shares) <= 1.0) >= 0.95
     assert np.median(shares) > 0.01
     assert np.median(orders) > 1.7

@@ -114,7 +114,8 @@ def tire_network():
     registry = load_registry()
     spec = parse_network(TIRE, registry.elements, "tire.yaml")
     rig = registry.rigs["hydropulser"](
-        amplitudes=(0.5e-3, 4e-3), preloads=(0.0,), duration=2.0, direction="up", sampling=500.0)  # fmt: skip
+        amplitudes=(0.5e-3, 4e-3), preloads=(0.0,), duration=2.0, direction="up", sampling=500.0
+    )
     runs = [score_run(run) for run in virtual_test(spec, Bench("zoo", (rig,)))]
     spec = with_ranges(spec, natural_sizes(runs))
     return Objective(compile_network(spec), runs), search_coordinates(spec)

@@ -49,8 +49,11 @@ def file_system(address: str) -> tuple[Any, str]:
     try:
         from fsspec.core import url_to_fs
     except ImportError:
-        raise InputError.at(Place(address), "expected fsspec for data at an address, it is not installed",
-                            "pip install 'dashpot[cluster]'") from None  # fmt: skip
+        raise InputError.at(
+            Place(address),
+            "expected fsspec for data at an address, it is not installed",
+            "pip install 'dashpot[cluster]'",
+        ) from None
     try:
         return url_to_fs(address)
     except (ImportError, ValueError, OSError) as error:

@@ -28,8 +28,9 @@ def groups_alike(deviations: Array, between: Array, seed: int) -> NDArray[np.int
     if len(white) < FEWEST or most < 2:
         return np.ones(len(white), dtype=np.int64)
     rng, spread = np.random.default_rng(seed), np.cov(white.T).reshape(white.shape[1], white.shape[1])
-    drawn = np.array([_dispersions(rng.multivariate_normal(np.zeros(len(spread)), spread, len(white)), most)
-                      for _ in range(DRAWS)])  # fmt: skip
+    drawn = np.array(
+        [_dispersions(rng.multivariate_normal(np.zeros(len(spread)), spread, len(white)), most) for _ in range(DRAWS)]
+    )
     gap = drawn.mean(axis=0) - _dispersions(white, most)
     doubt = np.sqrt(1.0 + 1.0 / DRAWS) * drawn.std(axis=0)
     chosen = next((k for k in range(most - 1) if gap[k] >= gap[k + 1] - doubt[k + 1]), most - 1)

@@ -45,7 +45,19 @@ def _chart(numbers: Numbers, which: int, at: Array, members: Mapping[str, list[i
     for batch, places in members.items():
         reach = LIMIT * scatter / np.sqrt(len(places))
         ends = [numbers.value(which, each) for each in (averages[batch], center - reach, center + reach)]
-        found.append({"batch": batch, "count": len(places), "mean": ends[0], "low": ends[1], "high": ends[2],
-                      "outside": bool(abs(averages[batch] - center) > reach)})  # fmt: skip
-    return {"parameter": numbers.paths[which], "unit": numbers.units[which], "center": numbers.value(which, center),
-            "batches": found}  # fmt: skip
+        found.append(
+            {
+                "batch": batch,
+                "count": len(places),
+                "mean": ends[0],
+                "low": ends[1],
+                "high": ends[2],
+                "outside": bool(abs(averages[batch] - center) > reach),
+            }
+        )
+    return {
+        "parameter": numbers.paths[which],
+        "unit": numbers.units[which],
+        "center": numbers.value(which, center),
+        "batches": found,
+    }

@@ -28,16 +28,20 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
     return {
         "format": "dashpot-campaign-result/1",
         "version": dashpot.__version__,
-        "campaign": {**{key: getattr(campaign, key) for key in ("name", "about", "seed", "batch")},
-                     "verbs": list(campaign.verbs), "models": [model.name for model in campaign.models]},
+        "campaign": {
+            **{key: getattr(campaign, key) for key in ("name", "about", "seed", "batch")},
+            "verbs": list(campaign.verbs),
+            "models": [model.name for model in campaign.models],
+        },
         "specimens": [_specimen(one, result, fits, told) for one in campaign.specimens],
-        "populations": [{"model": model, **each.as_dict(),
-                         "shared": _shared(model, result.shared.get(model), result.outcomes)}
-                        for model, each in told.items()],
+        "populations": [
+            {"model": model, **each.as_dict(), "shared": _shared(model, result.shared.get(model), result.outcomes)}
+            for model, each in told.items()
+        ],
         "named": [vars(one) for one in _named(result, fits, told)],
         "causes": causes_found(result.outcomes),
         "failures": [{"job": job.name, "specimen": job.specimen, "reason": reason} for job, reason in _failed(result)],
-    }  # fmt: skip
+    }
 
 
 def _failed(result: CampaignResult) -> Iterator[tuple[Job, str]]:
@@ -57,17 +61,21 @@ def _specimen(
         "data": one.data,
         "digest": digests[0] if digests else None,
         "properties": dict(one.properties),
-        "models": {model: _fit(one.name, found[one.name], told.get(model)) for model, found in fits.items()
-                   if one.name in found},
+        "models": {
+            model: _fit(one.name, found[one.name], told.get(model))
+            for model, found in fits.items()
+            if one.name in found
+        },
         "verdicts": {job.models[0]: outcome["verdict"] for job, outcome in mine.items() if "verdict" in outcome},
         "reports": [job.name for job, outcome in mine.items() if outcome["report"]],
         "remarks": list(dict.fromkeys(remark for outcome in mine.values() for remark in outcome["remarks"])),
-    }  # fmt: skip
+    }
 
 
 def _fit(specimen: str, fit: Outcome, population: Population | None) -> dict[str, Any]:
-    numbers = {path: {key: number[key] for key in ("value", "unit", "interval")}
-               for path, number in fit["numbers"].items()}  # fmt: skip
+    numbers = {
+        path: {key: number[key] for key in ("value", "unit", "interval")} for path, number in fit["numbers"].items()
+    }
     place = {"unlike": None, "group": None} if population is None else population.place_of(specimen)
     return {"numbers": numbers, **{key: fit[key] for key in ("rmse", "noise_floor", "ending")}, **place}
 
@@ -92,16 +100,24 @@ def _shared(model: str, shared: Shared | None, outcomes: Mapping[Job, Outcome]) 
     """The parameters in common, and what each specimen comes to with them."""
     if shared is None:
         return None
-    again = {job.specimen: outcome["models"][0] for job, outcome in outcomes.items()
-             if job.held and job.models == (model,)}  # fmt: skip
+    again = {
+        job.specimen: outcome["models"][0] for job, outcome in outcomes.items() if job.held and job.models == (model,)
+    }
     free = models_of(outcomes, model)
     ratios = [again[name]["rmse"]["train"] / free[name]["rmse"]["train"] for name in again]
     return {
-        "numbers": {path: {"value": value, "interval": list(shared.intervals[path])}
-                    for path, value in shared.values.items()},
+        "numbers": {
+            path: {"value": value, "interval": list(shared.intervals[path])} for path, value in shared.values.items()
+        },
         "probability": shared.probability,
         "error_ratio": float(np.sqrt(np.mean(np.square(ratios)))) if ratios else None,
-        "specimens": {name: {"rmse": fit["rmse"], "numbers": {path: {key: number[key] for key in ("value", "interval")}
-                                                              for path, number in fit["numbers"].items()}}
-                      for name, fit in again.items()},
-    }  # fmt: skip
+        "specimens": {
+            name: {
+                "rmse": fit["rmse"],
+                "numbers": {
+                    path: {key: number[key] for key in ("value", "interval")} for path, number in fit["numbers"].items()
+                },
+            }
+            for name, fit in again.items()
+        },
+    }

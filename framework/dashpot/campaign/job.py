@@ -80,8 +80,9 @@ def _done(job: Job, specs: Sequence[NetworkSpec], dataset: Dataset, work: Work, 
 def with_held(spec: NetworkSpec, held: Mapping[str, float]) -> NetworkSpec:
     """The network with some numbers fixed at values in SI."""
     slots = {slot.path: slot.value for slot in spec.slots()}
-    return spec.with_values({path: replace(slots[path], number=number).as_role("fixed")
-                             for path, number in held.items()})  # fmt: skip
+    return spec.with_values(
+        {path: replace(slots[path], number=number).as_role("fixed") for path, number in held.items()}
+    )
 
 
 def _told(found: Found) -> Outcome:
@@ -102,8 +103,9 @@ def _model(fit: FitResult) -> dict[str, Any]:
     """The parameters of a model that specimens can be compared by, with the correlation of their errors."""
     searched = [slot for slot in fit.fitted.slots() if slot.value.searched]
     tables = {path for path, curve in fit.fitted.curves().items() if curve.form == "table"}
-    kept = [number for number, slot in enumerate(searched)
-            if slot.path.partition("[")[0] not in tables and _is_known(slot)]  # fmt: skip
+    kept = [
+        number for number, slot in enumerate(searched) if slot.path.partition("[")[0] not in tables and _is_known(slot)
+    ]
     correlation = fit.correlation
     return {
         "name": fit.declared.name,

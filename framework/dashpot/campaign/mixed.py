@@ -82,8 +82,16 @@ def _mean_moment(moments: Array, weights: Array) -> Array:
     return 0.5 * (found + found.T) + LEAST * np.eye(len(found))
 
 
-def _in_units(scale: Array, means: Array, covariance: Array, between: Array, deviations: Array, moments: Array,
-              noise: Array, weights: Array) -> Mixed:  # fmt: skip
+def _in_units(
+    scale: Array,
+    means: Array,
+    covariance: Array,
+    between: Array,
+    deviations: Array,
+    moments: Array,
+    noise: Array,
+    weights: Array,
+) -> Mixed:
     from scipy.special import stdtrit
 
     q = len(means)
@@ -93,9 +101,16 @@ def _in_units(scale: Array, means: Array, covariance: Array, between: Array, dev
     widths = stdtrit(freedom, LEVEL) * np.sqrt(covariance.diagonal()).reshape(-1, q).T
     typical = _typical(noise.diagonal(axis1=1, axis2=2), weights)
     square = np.outer(scale, scale)
-    return Mixed(means * scale, widths, between * square, deviations * scale,
-                 scale[:, None] * _scatter_interval(between.diagonal(), typical, freedom), covariance, freedom,
-                 moments * square)  # fmt: skip
+    return Mixed(
+        means * scale,
+        widths,
+        between * square,
+        deviations * scale,
+        scale[:, None] * _scatter_interval(between.diagonal(), typical, freedom),
+        covariance,
+        freedom,
+        moments * square,
+    )
 
 
 def _typical(variances: Array, weights: Array) -> Array:

@@ -15,8 +15,11 @@ from dashpot.text.quantity import pretty
 NAMED = 0.95  # probability from which a specimen is named
 NOTABLE = 3.0  # standard deviations
 MOST_NOTABLE = 4
-KINDS = {FORCE: "wrong gain of the force", TRAVEL: "wrong gain of the travel",
-         BOTH: "wrong gain of the force or the travel"}  # fmt: skip
+KINDS = {
+    FORCE: "wrong gain of the force",
+    TRAVEL: "wrong gain of the travel",
+    BOTH: "wrong gain of the force or the travel",
+}
 DAMAGED, MISFIT, FAULT = "damaged, or of another make", "damaged or mounted otherwise", "fault of the measurement"
 
 
@@ -66,8 +69,11 @@ def named_by_faults(remarks: Mapping[str, Sequence[str]], outcomes: Sequence[tup
 
 def _evidence(numbers: Numbers, found: Unlike, which: int, way: str) -> Iterator[str]:
     if way in KINDS:
-        likely = ", ".join(f"{other} {found.probability[which][k]:.2g}" for k, other in enumerate(found.ways)
-                           if found.probability[which][k] > 0.05)  # fmt: skip
+        likely = ", ".join(
+            f"{other} {found.probability[which][k]:.2g}"
+            for k, other in enumerate(found.ways)
+            if found.probability[which][k] > 0.05
+        )
         yield f"all parameters changed together as with a {KINDS[way]} (probabilities: {likely})"
     order = np.argsort(-np.abs(found.distances[which]))
     far = [k for k in order if abs(found.distances[which, k]) >= NOTABLE][:MOST_NOTABLE] or [order[0]]
@@ -81,5 +87,7 @@ def _moved(numbers: Numbers, which: int, specimen: int, shift: float, distance: 
     at = numbers.value(which, float(numbers.at[specimen, which]))
     expected = numbers.value(which, float(numbers.at[specimen, which]) - shift)
     unit = numbers.units[which]
-    return (f"{numbers.paths[which]} is {pretty(at, unit, 3)} where {pretty(expected, unit, 3)} is expected "
-            f"({distance:+.2g} standard deviations)")  # fmt: skip
+    return (
+        f"{numbers.paths[which]} is {pretty(at, unit, 3)} where {pretty(expected, unit, 3)} is expected "
+        f"({distance:+.2g} standard deviations)"
+    )

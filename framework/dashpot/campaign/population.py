@@ -48,14 +48,15 @@ class Population:
             "specimens": list(numbers.specimens),
             "numbers": [self._number(k) for k in range(len(numbers.paths))],
             "correlation": np.clip(ratio, -1.0, 1.0).tolist(),
-            "dependence": [self._effect(k, row) for row in range(len(numbers.effects))
-                           for k in range(len(numbers.paths))],
+            "dependence": [
+                self._effect(k, row) for row in range(len(numbers.effects)) for k in range(len(numbers.paths))
+            ],
             "ways": list(self.judged.ways),
             "probability": self.judged.probability.tolist(),
             "groups": self.groups.tolist(),
             "charts": list(self.charts),
             "remarks": list(self.remarks),
-        }  # fmt: skip
+        }
 
     def _number(self, which: int) -> dict[str, Any]:
         mixed, numbers = self.judged.population, self.numbers
@@ -76,9 +77,15 @@ class Population:
         slope, width = mixed.means[1 + row, which], mixed.widths[1 + row, which]
         ends = [slope, slope - width, slope + width]
         effect, low, high = np.expm1(ends) if numbers.log[which] else ends
-        return {"parameter": numbers.paths[which], "unit": numbers.units[which], "relative": bool(numbers.log[which]),
-                "property": numbers.effects[row], "effect": float(effect), "interval": [float(low), float(high)],
-                "certain": bool(abs(slope) > width)}  # fmt: skip
+        return {
+            "parameter": numbers.paths[which],
+            "unit": numbers.units[which],
+            "relative": bool(numbers.log[which]),
+            "property": numbers.effects[row],
+            "effect": float(effect),
+            "interval": [float(low), float(high)],
+            "certain": bool(abs(slope) > width),
+        }
 
 
 def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec) -> Population:
@@ -88,7 +95,9 @@ def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSp
     groups = np.zeros(len(sound), dtype=np.int64)
     groups[sound] = groups_alike(judged.population.deviations[sound], judged.population.between, campaign.seed)
     batch_of = {one.name: one.properties.get(campaign.batch) for one in campaign.specimens}
-    batches = [None if (batch := batch_of[name]) is None else f"{batch:g}" if isinstance(batch, float) else batch
-               for name in numbers.specimens]  # fmt: skip
+    batches = [
+        None if (batch := batch_of[name]) is None else f"{batch:g}" if isinstance(batch, float) else batch
+        for name in numbers.specimens
+    ]
     charts = control_charts(numbers, judged.population.means, batches, sound)
     return Population(numbers, judged, groups, charts, remarks)

@@ -39,8 +39,9 @@ def preview_campaign(campaign: CampaignSpec, jobs: Jobs = 1) -> list[Cost]:
     return [
         Cost(job, len(alike), seconds, memory, len(json.dumps(outcome)), outcome.get("failed", ""))
         for job, alike, (outcome, seconds, memory) in zip(
-            first, kinds.values(), pieces(timed_job, work, first, jobs), strict=True)
-    ]  # fmt: skip
+            first, kinds.values(), pieces(timed_job, work, first, jobs), strict=True
+        )
+    ]
 
 
 def timed_job(work: Work, job: Job) -> tuple[Outcome, float, int | None]:
@@ -67,9 +68,19 @@ def preview_content(campaign: CampaignSpec, costs: Sequence[Cost], workers: int)
         "specimens": len(campaign.specimens),
         "workers": workers,
         "seconds": sum(cost.count * cost.seconds for cost in costs) / workers,
-        "jobs": [{"verb": cost.job.verb, "models": list(cost.job.models), "count": cost.count, "seconds": cost.seconds,
-                  "memory": cost.memory, "result": cost.result, "failed": cost.failed or None} for cost in costs],
-    }  # fmt: skip
+        "jobs": [
+            {
+                "verb": cost.job.verb,
+                "models": list(cost.job.models),
+                "count": cost.count,
+                "seconds": cost.seconds,
+                "memory": cost.memory,
+                "result": cost.result,
+                "failed": cost.failed or None,
+            }
+            for cost in costs
+        ],
+    }
 
 
 def preview_text(content: dict[str, Any]) -> str:

@@ -48,8 +48,11 @@ def run_campaign(
     records.open(campaign.fingerprint)
     conduct = _Conduct(campaign, jobs, records, write, progress or silent)
     outcomes, failures = conduct.every(campaign.jobs)
-    shared = {model.name: found for model in campaign.models
-              if (found := pooled(model.name, campaign.shared, outcomes)) is not None}  # fmt: skip
+    shared = {
+        model.name: found
+        for model in campaign.models
+        if (found := pooled(model.name, campaign.shared, outcomes)) is not None
+    }
     again, lost = conduct.every([job for model, found in shared.items() for job in conduct.with_common(model, found)])
     return CampaignResult(campaign, {**outcomes, **again}, {**failures, **lost}, shared)
 
@@ -85,8 +88,11 @@ class _Conduct:
 
     def with_common(self, model: str, shared: Shared) -> list[Job]:
         """Every specimen once more, with the parameters held that all have in common."""
-        return [Job(one.name, one.address, "fit", (model,), shared.values) for one in self.campaign.specimens
-                if one.name in shared.specimens]  # fmt: skip
+        return [
+            Job(one.name, one.address, "fit", (model,), shared.values)
+            for one in self.campaign.specimens
+            if one.name in shared.specimens
+        ]
 
     def _recorded(self, job: Job) -> Outcome | None:
         known = self.records.stage(job.name).result()

@@ -28,14 +28,18 @@ def scheduled(word: str, memory: float | None = None) -> Iterator[Client]:
     try:
         import distributed
     except ImportError:
-        raise _wrong(word, "expected Dask for a scheduler, it is not installed",
-                     "pip install 'dashpot[cluster]', or leave --scheduler out") from None  # fmt: skip
+        raise _wrong(
+            word,
+            "expected Dask for a scheduler, it is not installed",
+            "pip install 'dashpot[cluster]', or leave --scheduler out",
+        ) from None
     with _local(word, memory) if word.startswith(LOCAL) else nullcontext(word) as place:
         try:
             client = distributed.Client(place, timeout=PATIENCE)
         except OSError:
-            raise _wrong(word, f"no scheduler answers within {PATIENCE:g} s", "is it running, and may you reach it?"
-                         ) from None  # fmt: skip
+            raise _wrong(
+                word, f"no scheduler answers within {PATIENCE:g} s", "is it running, and may you reach it?"
+            ) from None
         with client:
             _refuse_small(client, word, memory)
             yield client
@@ -56,8 +60,11 @@ def _refuse_small(client: Client, word: str, memory: float | None) -> None:
     workers = client.scheduler_info(n_workers=-1)["workers"].values()
     told = [worker["resources"].get(MEMORY, worker["memory_limit"] or float("inf")) for worker in workers]
     if memory and told and max(told) < memory:
-        raise _wrong(word, f"expected a worker with {memory:.3g} B of memory for a job, got at most {max(told):.3g} B",
-                     "start workers with more, or write less under 'memory'")  # fmt: skip
+        raise _wrong(
+            word,
+            f"expected a worker with {memory:.3g} B of memory for a job, got at most {max(told):.3g} B",
+            "start workers with more, or write less under 'memory'",
+        )
 
 
 def _wrong(word: str, message: str, hint: str = "") -> InputError:

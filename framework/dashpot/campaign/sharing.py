@@ -53,8 +53,10 @@ def pooled(model: str, patterns: Sequence[str], outcomes: Mapping[Job, Outcome])
     value = {path: (k, middle[j], widths[j]) for j, (k, path) in enumerate(zip(places, paths, strict=True))}
     return Shared(
         {path: numbers.value(k, center) for path, (k, center, _) in value.items()},
-        {path: (numbers.value(k, center - width), numbers.value(k, center + width))
-         for path, (k, center, width) in value.items()},
+        {
+            path: (numbers.value(k, center - width), numbers.value(k, center + width))
+            for path, (k, center, width) in value.items()
+        },
         float(chdtrc((len(fits) - 1) * len(places), statistic)) if len(fits) > 1 else 1.0,
         tuple(fits),
-    )  # fmt: skip
+    )

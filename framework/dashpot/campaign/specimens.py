@@ -27,15 +27,21 @@ def specimens_of_table(path: Path, data_needed: bool = True) -> tuple[Measured, 
     needed = (NAME, DATA) if data_needed else (NAME,)
     missing = [heading for heading in needed if heading not in headings]
     if missing:
-        raise InputError.at(Place(str(path)), f"expected a column '{missing[0]}', got: {', '.join(headings) or 'none'}",
-                            "its first line names the columns")  # fmt: skip
+        raise InputError.at(
+            Place(str(path)),
+            f"expected a column '{missing[0]}', got: {', '.join(headings) or 'none'}",
+            "its first line names the columns",
+        )
     numeric = {heading for heading in headings if all(_is_number(row[heading]) for _, row in rows if row[heading])}
     properties = [heading for heading in headings if heading not in (NAME, DATA)]
     found = [
-        Measured(row[NAME], _beside(row.get(DATA, ""), path.parent),
-                 {key: float(row[key]) if key in numeric else row[key] for key in properties if row[key]})
+        Measured(
+            row[NAME],
+            _beside(row.get(DATA, ""), path.parent),
+            {key: float(row[key]) if key in numeric else row[key] for key in properties if row[key]},
+        )
         for _, row in rows
-    ]  # fmt: skip
+    ]
     lines = [Place(str(path), line) for line, _ in rows]
     _refuse(found, lines, data_needed)
     return tuple(found)
@@ -48,8 +54,11 @@ def specimens_of_pattern(pattern: str, folder: Path, place: Place) -> tuple[Meas
     """
     full = pattern if is_remote(pattern) else str(folder / pattern)
     if "*" not in pattern or "**" in pattern:
-        raise InputError.at(place, f"expected a pattern with '*' for the name of the specimen, got '{pattern}'",
-                            "such as 'measured/*/dataset.yaml'")  # fmt: skip
+        raise InputError.at(
+            place,
+            f"expected a pattern with '*' for the name of the specimen, got '{pattern}'",
+            "such as 'measured/*/dataset.yaml'",
+        )
     expression = re.compile("([^/]*)".join(map(re.escape, full.replace("\\", "/").split("*"))))
     found = []
     for path in _matching(pattern, folder):

@@ -40,10 +40,22 @@ def _arguments(name: str, shown: str, completion: complete.Complete, one: bool, 
             raise click.UsageError(f"expected one {shown} and one DATASET, got {' '.join(words)}")
         return models[0] if one else models
 
-    words = click.argument(name, nargs=-1, required=True, metavar=f"{shown} {'[DATASET]' if optional else 'DATASET'}",
-                           callback=split, shell_complete=completion)  # fmt: skip
-    data = click.option("--data", "dataset", metavar="DATASET", is_eager=True, shell_complete=complete.datasets,
-                        help="The same as DATASET at the end of the arguments.")  # fmt: skip
+    words = click.argument(
+        name,
+        nargs=-1,
+        required=True,
+        metavar=f"{shown} {'[DATASET]' if optional else 'DATASET'}",
+        callback=split,
+        shell_complete=completion,
+    )
+    data = click.option(
+        "--data",
+        "dataset",
+        metavar="DATASET",
+        is_eager=True,
+        shell_complete=complete.datasets,
+        help="The same as DATASET at the end of the arguments.",
+    )
     return lambda verb: words(data(verb))
 
 

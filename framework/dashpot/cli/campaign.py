@@ -30,8 +30,9 @@ FILES = ("campaign.json", "campaign.html", "specimens.csv", "population.csv", "s
 @click.option("--scheduler", metavar="WHERE", help="local:N for N processes here, or the address of a Dask scheduler.")
 @click.option("--dry-run", is_flag=True, help="Run the first job of each kind, and estimate the time of all.")
 @click.option("--parquet", is_flag=True, help="Write the table of specimens as Parquet, too.")
-@output_option("Folder for campaign.json, campaign.html, the tables, a folder for each job and the checkpoint.",
-               required=False)  # fmt: skip
+@output_option(
+    "Folder for campaign.json, campaign.html, the tables, a folder for each job and the checkpoint.", required=False
+)
 @switches("jobs", "json", "quiet", "force", "backend")
 def verb(
     campaign: str, scheduler: str | None, dry_run: bool, parquet: bool, output: Path | None, switches: Switches

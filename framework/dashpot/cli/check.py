@@ -109,8 +109,16 @@ def differences(specs: tuple[str, ...], other: str, session: Session) -> list[di
 
     model = session.network(other)
     found = [(spec, compare_structures(session.network(spec), model)) for spec in specs]
-    return [{"spec": spec, "other": other, "same_structure": likeness.same_structure, "structure": likeness.structure,
-             "numbers": likeness.numbers} for spec, likeness in found]  # fmt: skip
+    return [
+        {
+            "spec": spec,
+            "other": other,
+            "same_structure": likeness.same_structure,
+            "structure": likeness.structure,
+            "numbers": likeness.numbers,
+        }
+        for spec, likeness in found
+    ]
 
 
 def tell(entry: dict[str, Any], other: str) -> list[str]:
@@ -122,5 +130,7 @@ def tell(entry: dict[str, Any], other: str) -> list[str]:
         ]
     if not entry["numbers"]:
         return [f"{entry['spec']} against {other}: the same structure and the same parameters"]
-    return [f"{entry['spec']} against {other}: the same structure, other parameters",
-            *(f"  {line}" for line in entry["numbers"])]  # fmt: skip
+    return [
+        f"{entry['spec']} against {other}: the same structure, other parameters",
+        *(f"  {line}" for line in entry["numbers"]),
+    ]

@@ -88,8 +88,12 @@ def python(wanted: str, version: Sequence[int] = sys.version_info[:3]) -> Iterat
     if Requirement("python", wanted, "").met_by(running):
         yield Finding("good", "Python", running)
     else:
-        yield Finding("fault", "Python", f"{running}, expected {wanted}",
-                      "install another Python and dashpot into an environment of it")  # fmt: skip
+        yield Finding(
+            "fault",
+            "Python",
+            f"{running}, expected {wanted}",
+            "install another Python and dashpot into an environment of it",
+        )
 
 
 def libraries(requirements: Iterable[Requirement], installed: Installed) -> Iterator[Finding]:
@@ -164,8 +168,12 @@ def specs(folder: Path) -> Iterator[Finding]:
         if count:
             yield Finding("good", f"shipped {name}", str(count))
         else:
-            yield Finding("fault", f"shipped {name}", f"expected YAML files in {folder / name}, found none",
-                          "install dashpot anew: pip install --force-reinstall dashpot")  # fmt: skip
+            yield Finding(
+                "fault",
+                f"shipped {name}",
+                f"expected YAML files in {folder / name}, found none",
+                "install dashpot anew: pip install --force-reinstall dashpot",
+            )
 
 
 def cache(folder: Path) -> Iterator[Finding]:

@@ -26,8 +26,9 @@ if TYPE_CHECKING:
 
 
 @click.command("demo")
-@click.option("--specimen", metavar="NAME", help="See `dashpot list specimens`.",
-              shell_complete=complete.installed("specimens"))  # fmt: skip
+@click.option(
+    "--specimen", metavar="NAME", help="See `dashpot list specimens`.", shell_complete=complete.installed("specimens")
+)
 @output_option("Folder for the data, the comparison and the diagnosis.", default="dashpot-demo", show_default=True)
 @switches("seed", "jobs", "json", "quiet", "force", "backend")
 def verb(specimen: str | None, output: Path, switches: Switches) -> None:

@@ -17,8 +17,14 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @model_and_dataset()
 @output_option("Folder for diagnosis.json, the extended network and report.html.")
 @optimizer_options
-@click.option("--relevance", metavar="PERCENT", type=click.FloatRange(0.0, 100.0), default=0.15, show_default=True,
-              help="Causes whose removal increases the error by less are not named.")  # fmt: skip
+@click.option(
+    "--relevance",
+    metavar="PERCENT",
+    type=click.FloatRange(0.0, 100.0),
+    default=0.15,
+    show_default=True,
+    help="Causes whose removal increases the error by less are not named.",
+)
 @switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     model: str,

@@ -18,8 +18,9 @@ WRITTEN = (".svg", ".txt")
 
 @click.command("draw")
 @click.argument("model", shell_complete=complete.networks)
-@output_option("A file ending in .svg for a picture, or in .txt; without it the terminal.", files=WRITTEN,
-               required=False)  # fmt: skip
+@output_option(
+    "A file ending in .svg for a picture, or in .txt; without it the terminal.", files=WRITTEN, required=False
+)
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @switches("json", "quiet", "force")
 def verb(model: str, output: Path | None, plain: bool, switches: Switches) -> None:

@@ -15,10 +15,22 @@ from dashpot.text.problem import nearest
 
 @click.command("export")
 @click.argument("model", shell_complete=complete.networks)
-@click.option("--to", "target", metavar="TARGET", required=True, help="See `dashpot list exports`.",
-              shell_complete=complete.installed("exports"))  # fmt: skip
-@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help="An option of the target.",
-              shell_complete=complete.settings)  # fmt: skip
+@click.option(
+    "--to",
+    "target",
+    metavar="TARGET",
+    required=True,
+    help="See `dashpot list exports`.",
+    shell_complete=complete.installed("exports"),
+)
+@click.option(
+    "--set",
+    "settings",
+    metavar="KEY=VALUE",
+    multiple=True,
+    help="An option of the target.",
+    shell_complete=complete.settings,
+)
 @output_option("A folder.")
 @switches("json", "quiet", "force", "backend")
 def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:

@@ -132,8 +132,10 @@ def channel_rows(run: ImportedRun) -> list[list[str]]:
 
 def column_rows(table: ImportedTable) -> list[list[str]]:
     """A line for each column of a table of dynamic stiffness: what it is, its name, unit, and what told it."""
-    return [[key, f"'{found.column}'", found.unit.unit, f"unit {found.unit.by}"]
-            for key, found in table.finding.columns.items()]  # fmt: skip
+    return [
+        [key, f"'{found.column}'", found.unit.unit, f"unit {found.unit.by}"]
+        for key, found in table.finding.columns.items()
+    ]
 
 
 def run_row(run: ImportedRun) -> list[str]:

@@ -64,8 +64,9 @@ class NetworkEntry(Entry):
 
 
 @click.command("list")
-@click.argument("kind", required=False, metavar="[KIND]",
-                shell_complete=lambda _, __, typed: beginning((*KINDS, *ALSO), typed))  # fmt: skip
+@click.argument(
+    "kind", required=False, metavar="[KIND]", shell_complete=lambda _, __, typed: beginning((*KINDS, *ALSO), typed)
+)
 @switches("json")
 def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed.
@@ -109,8 +110,10 @@ def networks(session: Session) -> list[Entry]:
     from dashpot.model.shipped import shipped_networks
 
     origin = Origin("specs", "dashpot", __version__)
-    return [NetworkEntry(name, origin, about_network(name, session), path.parent.name)
-            for name, path in shipped_networks().items()]  # fmt: skip
+    return [
+        NetworkEntry(name, origin, about_network(name, session), path.parent.name)
+        for name, path in shipped_networks().items()
+    ]
 
 
 def benches(registry: Registry) -> list[Entry]:

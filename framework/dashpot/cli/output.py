@@ -47,8 +47,11 @@ class OutputFolder:
             message = f"expected a folder that can be made, got: {error.strerror}"
             raise InputError.at(Place(str(self.path)), message, "choose another -o, or check its rights") from None
         if not os.access(self.path, os.W_OK | os.X_OK):
-            raise InputError.at(Place(str(self.path)), "expected a folder that may be written, got one that may not",
-                                "choose another -o, or change its rights")  # fmt: skip
+            raise InputError.at(
+                Place(str(self.path)),
+                "expected a folder that may be written, got one that may not",
+                "choose another -o, or change its rights",
+            )
 
     def _refuse_existing(self, patterns: tuple[str, ...]) -> None:
         unfinished = self._unfinished()
@@ -74,8 +77,11 @@ class OutputFolder:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise InputError.at(Place(str(self.path)), "another call of dashpot is writing into this folder",
-                                "wait for its end, or choose another -o") from None  # fmt: skip
+            raise InputError.at(
+                Place(str(self.path)),
+                "another call of dashpot is writing into this folder",
+                "wait for its end, or choose another -o",
+            ) from None
         except OSError:  # some network drives know no locks
             pass
 

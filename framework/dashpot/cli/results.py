@@ -131,8 +131,11 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
     told, found = diagnosis.after, measure_errors(network, setting, diagnosis.jobs)
     for one, other in ((told.train, found.train), (told.held_out, found.held_out)):
         if one is not None and other is not None and abs(one - other) > SAME_ERROR * one:
-            raise InputError.at(Place(str(folder.path / name)), f"expected an RMSE of {one:.9g} N, got {other:.9g} N",
-                                "the result does not hold: please report it with the dataset")  # fmt: skip
+            raise InputError.at(
+                Place(str(folder.path / name)),
+                f"expected an RMSE of {one:.9g} N, got {other:.9g} N",
+                "the result does not hold: please report it with the dataset",
+            )
     unseen = "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
     return f"check: {name} read again and simulated has the reported RMSE: {found.train:.4g} N on training runs{unseen}"
 
@@ -144,9 +147,12 @@ def comparison_text(comparison: Comparison) -> str:
     from dashpot.report.tables import plain_table
 
     content = comparison.as_dict()
-    told = [f"{model['name']}: {sentence}" for model in content["models"]
-            for known in [model.get("identifiability") or {"weak": (), "may_go": ()}]
-            for sentence in (*known["weak"], *known["may_go"])]  # fmt: skip
+    told = [
+        f"{model['name']}: {sentence}"
+        for model in content["models"]
+        for known in [model.get("identifiability") or {"weak": (), "may_go": ()}]
+        for sentence in (*known["weak"], *known["may_go"])
+    ]
     return "\n".join([plain_table(comparison_grid(content)), comparison_headline(content), *told])
 
 

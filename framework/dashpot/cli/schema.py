@@ -20,8 +20,7 @@ Schemas = dict[str, Callable[["Registry"], dict[str, Any]]]
 
 
 @click.command("schema")
-@click.argument("kind", required=False, metavar="[KIND]",
-                shell_complete=lambda _, __, typed: beginning(KINDS, typed))  # fmt: skip
+@click.argument("kind", required=False, metavar="[KIND]", shell_complete=lambda _, __, typed: beginning(KINDS, typed))
 @click.option("--all", "every", is_flag=True, help="Write the schemas of all kinds of files.")
 @output_option("A folder for KIND.schema.json; without it standard output.", required=False)
 @switches("quiet", "force")

@@ -50,11 +50,15 @@ class Session:
             return read_network(spec, self.registry.elements)
         except InputError:
             if spec in self.registry.elements:
-                raise InputError.at(Place(spec), "expected a network, got the name of an element",
-                                    "`dashpot list models` lists networks") from None  # fmt: skip
+                raise InputError.at(
+                    Place(spec),
+                    "expected a network, got the name of an element",
+                    "`dashpot list models` lists networks",
+                ) from None
             if self._is_data(Path(spec)):
-                raise InputError.at(Place(spec), "expected a network, got measured data",
-                                    "the models stand first: MODEL... DATASET") from None  # fmt: skip
+                raise InputError.at(
+                    Place(spec), "expected a network, got measured data", "the models stand first: MODEL... DATASET"
+                ) from None
             raise
 
     def _is_data(self, path: Path) -> bool:
@@ -154,8 +158,11 @@ def refuse_network(path: str | Path) -> None:
     from dashpot.text.problem import InputError, Place
 
     if str(path) in shipped_networks() and not Path(path).exists():
-        raise InputError.at(Place(str(path)), "expected a dataset, got the name of a network",
-                            "the dataset stands last: MODEL... DATASET")  # fmt: skip
+        raise InputError.at(
+            Place(str(path)),
+            "expected a dataset, got the name of a network",
+            "the dataset stands last: MODEL... DATASET",
+        )
 
 
 def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Registry) -> dict[str, Any]:

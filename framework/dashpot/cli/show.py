@@ -45,12 +45,24 @@ def as_text(network: NetworkSpec) -> str:
 
 def content_of(network: NetworkSpec) -> dict[str, Any]:
     """What ``--json`` tells; numbers in SI."""
-    return {"format": "dashpot-show/1", "network": network.name, "about": network.about, "source": network.source,
-            "file": network.file, "parameters": [_parameter(slot) for slot in network.slots()],
-            "curves": {path: curve.form for path, curve in network.curves().items()}}  # fmt: skip
+    return {
+        "format": "dashpot-show/1",
+        "network": network.name,
+        "about": network.about,
+        "source": network.source,
+        "file": network.file,
+        "parameters": [_parameter(slot) for slot in network.slots()],
+        "curves": {path: curve.form for path, curve in network.curves().items()},
+    }
 
 
 def _parameter(slot: Slot) -> dict[str, Any]:
     value = slot.value
-    return {"path": slot.path, "value": value.number, "unit": value.unit, "role": value.role, "bounds": value.bounds,
-            "interval": value.interval}  # fmt: skip
+    return {
+        "path": slot.path,
+        "value": value.number,
+        "unit": value.unit,
+        "role": value.role,
+        "bounds": value.bounds,
+        "interval": value.interval,
+    }

@@ -33,15 +33,32 @@ ROWS = 50_000  # that are written at a time
 
 @click.command("simulate")
 @model_and_dataset(optional=True)
-@click.option("--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.",
-              shell_complete=complete.rigs)  # fmt: skip
-@click.option("--set", "settings", metavar="KEY=VALUE", multiple=True, help='An option of the rig, e.g. depth="20 mm".',
-              shell_complete=complete.settings)  # fmt: skip
+@click.option(
+    "--rig", metavar="RIG", help="A test procedure or a bench file that gives the motion.", shell_complete=complete.rigs
+)
+@click.option(
+    "--set",
+    "settings",
+    metavar="KEY=VALUE",
+    multiple=True,
+    help='An option of the rig, e.g. depth="20 mm".',
+    shell_complete=complete.settings,
+)
 @click.option("--energy", is_flag=True, help="Also the energy balance of every run and part: energy.csv.")
-@click.option("--tolerance", metavar="SHARE", type=click.FloatRange(1e-9, 1.0), default=1e-3, show_default=True,
-              help="Allowed numerical error, as a share of the RMS force, where nodes are free to move.")  # fmt: skip
-@click.option("--refine", metavar="N", type=click.IntRange(1, 1000),
-              help="N times as many steps between two samples as usual, in place of a tolerance.")  # fmt: skip
+@click.option(
+    "--tolerance",
+    metavar="SHARE",
+    type=click.FloatRange(1e-9, 1.0),
+    default=1e-3,
+    show_default=True,
+    help="Allowed numerical error, as a share of the RMS force, where nodes are free to move.",
+)
+@click.option(
+    "--refine",
+    metavar="N",
+    type=click.IntRange(1, 1000),
+    help="N times as many steps between two samples as usual, in place of a tolerance.",
+)
 @click.option("--table", is_flag=True, help="Dynamic stiffness at the rows of the dataset's tables: stiffness.csv.")
 @output_option("A folder; with DATASET also a file ending in .npz.", files=(".npz",))
 @switches("seed", "json", "quiet", "force", "backend", "allow_outside")
@@ -87,8 +104,15 @@ def verb(
     return follow(dataset, network, output, session, energy, refine, tolerance)
 
 
-def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, energy: bool, refine: int | None,
-           tolerance: float) -> None:  # fmt: skip
+def follow(
+    dataset: str,
+    network: NetworkSpec,
+    output: Path,
+    session: Session,
+    energy: bool,
+    refine: int | None,
+    tolerance: float,
+) -> None:
     """Write the force along every measured run; no more than one of them is in memory at a time."""
     from dashpot.data.excitation import Excitation
     from dashpot.kernel.api import forces_by_name, solve_each
@@ -103,9 +127,7 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
     forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
     with folder.together() as results:
         with session.watch("compiling") as progress:
-            solved = solve_each(
-                network, runs, len(runs.names), refine=refine, tolerance=tolerance, progress=progress
-            )
+            solved = solve_each(network, runs, len(runs.names), refine=refine, tolerance=tolerance, progress=progress)
             for run, solution in solved:
                 if archive:
                     forces.add(forces_by_name({run.name: solution}))
@@ -120,8 +142,9 @@ def follow(dataset: str, network: NetworkSpec, output: Path, session: Session, e
             results.write_bytes(output.name, forces.content())
         if energy:
             write_energies(network, map(Excitation.of_run, runs), results, session.talk)
-    session.talk.result(f"simulated {len(names)} runs: {output}{told_error(error)}",
-                        content_of(network, names, output, error, beyond))  # fmt: skip
+    session.talk.result(
+        f"simulated {len(names)} runs: {output}{told_error(error)}", content_of(network, names, output, error, beyond)
+    )
 
 
 def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session, refine: int) -> None:
@@ -145,8 +168,10 @@ def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session,
     beyond = {run.name: beyond_range(network, run) for run in rows}
     warn_of_range(beyond, session)
     error = max(max(solution.error.values(), default=0.0) for _, solution in found)
-    session.talk.result(f"simulated {len(rows)} rows: {output / TABLE}{told_error(error)}",
-                        content_of(network, list(beyond), output, error, beyond))  # fmt: skip
+    session.talk.result(
+        f"simulated {len(rows)} rows: {output / TABLE}{told_error(error)}",
+        content_of(network, list(beyond), output, error, beyond),
+    )
 
 
 def measure_on(
@@ -212,14 +237,20 @@ def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
             session.talk.warn(f"run '{name}' lies outside of the range of identification: {'; '.join(words)}")
 
 
-def content_of(network: NetworkSpec, runs: list[str], output: Path, error: float | None,
-               beyond: Mapping[str, list[str]]) -> dict[str, Any]:  # fmt: skip
+def content_of(
+    network: NetworkSpec, runs: list[str], output: Path, error: float | None, beyond: Mapping[str, list[str]]
+) -> dict[str, Any]:
     """What ``--json`` tells: the network, its runs and where they are, the numerical ``error`` in N, and the runs that
     go ``beyond`` the range of identification.
     """
-    return {"format": "dashpot-simulation/1", "network": network.name, "runs": runs, "output": str(output),
-            "numerical_error": error,
-            "outside_of_identification": {name: words for name, words in beyond.items() if words}}  # fmt: skip
+    return {
+        "format": "dashpot-simulation/1",
+        "network": network.name,
+        "runs": runs,
+        "output": str(output),
+        "numerical_error": error,
+        "outside_of_identification": {name: words for name, words in beyond.items() if words},
+    }
 
 
 def csv_pieces(run: Run, solution: RunSolution) -> Iterator[str]:

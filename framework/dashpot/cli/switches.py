@@ -136,9 +136,11 @@ def output_option(
     def checked(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
         if path is not None and path.suffix in set(ENDINGS) - set(files) and not path.is_dir():
             other = f", or a file ending in {' or '.join(files)}" if files else ""
-            raise click.UsageError(f"-o expected a folder{other}, got '{path}', which looks like a file: "
-                                   f"say -o {path.with_suffix('')}")  # fmt: skip
+            raise click.UsageError(
+                f"-o expected a folder{other}, got '{path}', which looks like a file: say -o {path.with_suffix('')}"
+            )
         return path
 
-    return click.option("-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about,
-                        callback=checked, **more)  # fmt: skip
+    return click.option(
+        "-o", "--output", metavar="OUT", type=click.Path(path_type=Path), help=about, callback=checked, **more
+    )

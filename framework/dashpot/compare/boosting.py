@@ -64,7 +64,12 @@ def _grow(asked: Array, left: Array, weights: Array, trees: int, seed: int) -> A
     from sklearn.ensemble import HistGradientBoostingRegressor
 
     maker = HistGradientBoostingRegressor(
-        learning_rate=RATE, max_iter=trees, max_leaf_nodes=LEAVES, min_samples_leaf=FEWEST_IN_A_LEAF, max_bins=BINS,
-        early_stopping=False, random_state=seed,
-    )  # fmt: skip
+        learning_rate=RATE,
+        max_iter=trees,
+        max_leaf_nodes=LEAVES,
+        min_samples_leaf=FEWEST_IN_A_LEAF,
+        max_bins=BINS,
+        early_stopping=False,
+        random_state=seed,
+    )
     return maker.fit(asked, left, sample_weight=weights)

@@ -85,8 +85,9 @@ class Comparison:
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report: all models in loops and dynamic stiffness."""
         runs_shown, simulated = self.setting.dataset.runs, self.simulated
-        residuals = {label: {run.name: run.force - forces[run.name] for run in runs_shown}
-                     for label, forces in simulated.items()}  # fmt: skip
+        residuals = {
+            label: {run.name: run.force - forces[run.name] for run in runs_shown} for label, forces in simulated.items()
+        }
         return {
             **signal_evidence(runs_shown, residuals),
             "shapes": shapes_of(runs_shown, simulated),
@@ -131,8 +132,7 @@ def compare(
     found = fit_each(specs, setting, method, seed, jobs, progress or silent)
     failures = {spec.name: str(each) for spec, each in zip(specs, found, strict=True) if isinstance(each, InputError)}
     fits = tuple(each for each in found if isinstance(each, FitResult))
-    return Comparison(setting, fits, failures, seed, explainable_error(setting, seed),
-                      tuple(registry.metrics.values()))  # fmt: skip
+    return Comparison(setting, fits, failures, seed, explainable_error(setting, seed), tuple(registry.metrics.values()))
 
 
 def comparison_of(fit: FitResult) -> Comparison:

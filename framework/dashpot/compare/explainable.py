@@ -62,8 +62,13 @@ class Explainable:
     def as_dict(self) -> dict[str, Any]:
         """The entry of result files, in N."""
         numbers = {"held_out": self.held_out, "train": self.train, "cross_validated": self.cross_validated}
-        return {**numbers, "by": self.by, "per_run": dict(self.per_run), "remarks": list(self.remarks),
-                "reason": self.reason or None}  # fmt: skip
+        return {
+            **numbers,
+            "by": self.by,
+            "per_run": dict(self.per_run),
+            "remarks": list(self.remarks),
+            "reason": self.reason or None,
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,12 +107,16 @@ def explainable_error(setting: Setting, seed: int = 0, trees: bool = True) -> Ex
     runs = {run.name: run for run in setting.dataset.runs}
     several = [name for name, run in setting.scored.items() if len(run.motions) > 1 or (run.whole and run.whole.loads)]
     if several:
-        return Explainable(reason=f"'{several[0]}' moves or loads several nodes; the general model knows one "
-                                  "displacement and one force")  # fmt: skip
+        return Explainable(
+            reason=f"'{several[0]}' moves or loads several nodes; the general model knows one "
+            "displacement and one force"
+        )
     if any(run.kind == STEADY for run in setting.scored.values()):
         return Explainable(reason="rows of a table tell the fundamental alone, from which no general model learns")
-    records = {name: Record(run, runs[name].cluster, _conditions(runs[name].settings, runs[name].channels))
-               for name, run in setting.scored.items()}  # fmt: skip
+    records = {
+        name: Record(run, runs[name].cluster, _conditions(runs[name].settings, runs[name].channels))
+        for name, run in setting.scored.items()
+    }
     split = setting.split
     return explain([records[name] for name in split.train], [records[name] for name in split.held_out], seed, trees)
 
@@ -205,8 +214,10 @@ def _folds(groups: Sequence[str], taught: Sequence[_Sampled], rng: np.random.Gen
     names = [str(name) for name in rng.permutation(sorted(set(groups)))]
     if len(names) < FEWEST_FOLDED:
         folds = np.concatenate([np.minimum((each.place * PIECES).astype(np.intp), PIECES - 1) for each in taught])
-        return folds, (f"Only {len(names)} independent training run{'s' * (len(names) > 1)}: the general model was "
-                       f"chosen on quarters of runs left out in turn, which tells little of other runs.")  # fmt: skip
+        return folds, (
+            f"Only {len(names)} independent training run{'s' * (len(names) > 1)}: the general model was "
+            f"chosen on quarters of runs left out in turn, which tells little of other runs."
+        )
     fold_of = {name: number % min(len(names), MOST_FOLDS) for number, name in enumerate(names)}
     folds = np.concatenate(
         [np.full(each.force.size, fold_of[group]) for group, each in zip(groups, taught, strict=True)]

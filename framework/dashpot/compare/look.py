@@ -58,11 +58,13 @@ class Look:
             "explainable": self.explainable.as_dict(),
             "runs": [described(each) for each in self.seen],
             "metrics": list(self.metrics),
-            "faults": [{"run": fault.run, "kind": fault.kind, "evidence": fault.evidence, "cure": fault.cure}
-                       for fault in self.faults],
+            "faults": [
+                {"run": fault.run, "kind": fault.kind, "evidence": fault.evidence, "cure": fault.cure}
+                for fault in self.faults
+            ],
             "repeats": [{key: group[key] for key in ("runs", "rms")} for group in self.repeats()],
             "seed": self.seed,
-        }  # fmt: skip
+        }
 
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report."""
@@ -70,14 +72,19 @@ class Look:
         measured = {run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs}
         return {
             "loops": {"measured": measured, "simulated": {}},
-            "over_velocity": [{"run": each.name, "label": "measured", "x": each.velocity, "y": each.forces["measured"]}
-                              for each in self.seen],
+            "over_velocity": [
+                {"run": each.name, "label": "measured", "x": each.velocity, "y": each.forces["measured"]}
+                for each in self.seen
+            ],
             "shapes": shapes_of(runs),
             "spectra": [spectrum for each in self.seen for spectrum in spectra(each)],
             "repeats": self.repeats(),
-            "warnings": [*(f"Run '{fault.run}': {fault.evidence}. {fault.cure}." for fault in self.faults),
-                         *map(str, self.setting.dataset.problems), *false_repeats(self.setting.dataset)],
-        }  # fmt: skip
+            "warnings": [
+                *(f"Run '{fault.run}': {fault.evidence}. {fault.cure}." for fault in self.faults),
+                *map(str, self.setting.dataset.problems),
+                *false_repeats(self.setting.dataset),
+            ],
+        }
 
     def repeats(self) -> list[dict[str, Any]]:
         """Each group of repeated runs: their names, ``rms`` N, and ``departure`` (k, n) N of each from their mean.
@@ -94,8 +101,14 @@ class Look:
                 continue
             departure = compared.departure - compared.departure.mean(axis=1, keepdims=True)
             rms = float(np.sqrt(np.sum(np.mean(departure**2, axis=1)) / (len(group) - 1)))
-            told.append({"runs": [run.name for run in group], "rms": rms, "departure": compared.departure,
-                         "sample_time": group[0].sample_time})  # fmt: skip
+            told.append(
+                {
+                    "runs": [run.name for run in group],
+                    "rms": rms,
+                    "departure": compared.departure,
+                    "sample_time": group[0].sample_time,
+                }
+            )
         return told
 
 
@@ -104,8 +117,14 @@ def look(dataset: Dataset, seed: int = 0, metrics: Iterable[type[Metric]] = ()) 
     setting = prepare(dataset, seed)
     triage = examine(dataset)
     seen = tuple(see(run) for run in setting.dataset.runs)
-    return Look(setting, seen, explainable_error(setting, seed), seed, triage.faults[triage.read :],
-                tuple(metric_rows(metrics, setting.dataset.runs)))  # fmt: skip
+    return Look(
+        setting,
+        seen,
+        explainable_error(setting, seed),
+        seed,
+        triage.faults[triage.read :],
+        tuple(metric_rows(metrics, setting.dataset.runs)),
+    )
 
 
 def described(seen: Seen) -> dict[str, Any]:

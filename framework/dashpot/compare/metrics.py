@@ -25,10 +25,13 @@ def metric_rows(
         for run in runs:
             value = metric.measure(run)
             if value is not None:
-                models = {label: metric.measure(replace(run, channels={**run.channels, "force": forces[run.name]}))
-                          for label, forces in (simulated or {}).items()}  # fmt: skip
-                found.append({"metric": made.word, "unit": made.unit, "run": run.name, "measured": value,
-                              "models": models})  # fmt: skip
+                models = {
+                    label: metric.measure(replace(run, channels={**run.channels, "force": forces[run.name]}))
+                    for label, forces in (simulated or {}).items()
+                }
+                found.append(
+                    {"metric": made.word, "unit": made.unit, "run": run.name, "measured": value, "models": models}
+                )
     return found
 
 

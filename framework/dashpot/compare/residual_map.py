@@ -18,8 +18,16 @@ MOST = 40_000  # samples in all
 BLOCKS = 16  # of each run: means are taken from every other one and judged on those between
 FEWEST = 5  # samples of a bin
 # variables of each sample, with their units
-UNITS = {"deflection": "m", "velocity": "m/s", "speed": "m/s", "travel since reversal": "m", "time": "s",
-         "amplitude": "m", "preload": "m", "order of tests": ""}  # fmt: skip
+UNITS = {
+    "deflection": "m",
+    "velocity": "m/s",
+    "speed": "m/s",
+    "travel since reversal": "m",
+    "time": "s",
+    "amplitude": "m",
+    "preload": "m",
+    "order of tests": "",
+}
 NO_VARIABLES = ("warm_up", "start", "stop", "duration", "amplitude", "preload")
 
 
@@ -33,8 +41,9 @@ def residual_maps(seen: Sequence[Seen]) -> list[dict[str, Any]]:
     labels = list(dict.fromkeys(label for each in seen for label in each.forces if label != "measured"))
     rows = [_rows(each, MOST // len(seen)) for each in seen]
     variables = _variables(seen, rows)
-    taught = np.concatenate([(part * BLOCKS // each.run.time.size) % 2 == 0 for part, each in
-                             zip(rows, seen, strict=True)])  # fmt: skip
+    taught = np.concatenate(
+        [(part * BLOCKS // each.run.time.size) % 2 == 0 for part, each in zip(rows, seen, strict=True)]
+    )
     places = {name: _bins(values) for name, values in variables.items()}
     return [_map(label, _residual(label, seen, rows), places, taught) for label in labels]
 
@@ -46,10 +55,12 @@ def _rows(seen: Seen, most: int) -> NDArray[np.intp]:
 
 def _residual(label: str, seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> Array:
     nothing = np.full(max(each.run.time.size for each in seen), np.nan)
-    return np.concatenate([
-        (each.forces["measured"] - each.forces.get(label, nothing[: each.run.time.size]))[part]
-        for each, part in zip(seen, rows, strict=True)
-    ])  # fmt: skip
+    return np.concatenate(
+        [
+            (each.forces["measured"] - each.forces.get(label, nothing[: each.run.time.size]))[part]
+            for each, part in zip(seen, rows, strict=True)
+        ]
+    )
 
 
 def _variables(seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> dict[str, Array]:
@@ -98,8 +109,10 @@ def _map(
     place = kept[x][1] + wide * kept[y][1]
     hits = np.bincount(place, minlength=wide * high)
     means = np.where(hits >= FEWEST, np.bincount(place, residual, wide * high) / np.maximum(hits, 1), np.nan)
-    told = {which: {"name": name, "unit": UNITS.get(name, ""), "edges": kept[name][0]}
-            for which, name in (("x", x), ("y", y))}  # fmt: skip
+    told = {
+        which: {"name": name, "unit": UNITS.get(name, ""), "edges": kept[name][0]}
+        for which, name in (("x", x), ("y", y))
+    }
     return {"label": label, **told, "mean": means.reshape(high, wide), "explained": shares[x, y], "singles": singles}
 
 

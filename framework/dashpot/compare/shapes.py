@@ -66,8 +66,9 @@ def mid_stroke(seen: Seen) -> list[dict[str, Any]]:
     middles = [each for each in middles if each.size]
     if len(middles) < 2:
         return []
-    velocity, place = (np.array([values[each].mean() for each in middles])
-                       for values in (seen.velocity, seen.displacement))  # fmt: skip
+    velocity, place = (
+        np.array([values[each].mean() for each in middles]) for values in (seen.velocity, seen.displacement)
+    )
     spring = _slope(seen.displacement[seen.first :], seen.forces["measured"][seen.first :]) * (place - place.mean())
     curves = []
     for label, force in seen.forces.items():
@@ -121,8 +122,10 @@ def after_reversals(seen: Seen) -> list[dict[str, Any]]:
     ways = [np.maximum.accumulate(np.abs(x[a : b + 1] - x[a])) for a, b in strokes]
     curves = []
     for label, force in seen.forces.items():
-        rises = [np.sign(x[b] - x[a]) * (np.interp(travel, way, force[a : b + 1]) - force[a])
-                 for (a, b), way in zip(strokes, ways, strict=True)]  # fmt: skip
+        rises = [
+            np.sign(x[b] - x[a]) * (np.interp(travel, way, force[a : b + 1]) - force[a])
+            for (a, b), way in zip(strokes, ways, strict=True)
+        ]
         curves.append({"run": seen.name, "label": label, "x": travel, "y": np.mean(rises, axis=0) / travel})
     return curves
 
@@ -165,6 +168,7 @@ def _shades(seen: Sequence[Seen]) -> dict[str, Any]:
     common = set.intersection(*(set(each.run.settings) for each in seen)) - {*NO_CONDITIONS, "amplitude", "preload"}
     levels = {name: len({each.run.settings[name] for each in seen}) for name in sorted(common)}
     shaded_by = next((name for name, count in levels.items() if 1 < count <= MOST_SHADES), "amplitude")
-    runs = [{"run": each.name, "shade": each.run.settings.get(shaded_by, float(f"{each.amplitude:.2g}"))}
-            for each in seen]  # fmt: skip
+    runs = [
+        {"run": each.name, "shade": each.run.settings.get(shaded_by, float(f"{each.amplitude:.2g}"))} for each in seen
+    ]
     return {"shaded_by": shaded_by, "runs": runs}

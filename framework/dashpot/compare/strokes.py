@@ -61,8 +61,11 @@ class Seen:
         least = share * 2.0 * self.amplitude
         last = -1 if self.edges.size > 3 else None
         pairs = zip(self.edges[:last].tolist(), self.edges[1:last].tolist(), strict=False)
-        return [(a, b) for a, b in pairs if a >= self.first and b - a >= FEWEST
-                and abs(self.displacement[b] - self.displacement[a]) >= least]  # fmt: skip
+        return [
+            (a, b)
+            for a, b in pairs
+            if a >= self.first and b - a >= FEWEST and abs(self.displacement[b] - self.displacement[a]) >= least
+        ]
 
     def cycles(self) -> list[tuple[int, int]]:
         """First and last sample of the closed cycles, each from a reversal to the next but one."""
@@ -71,8 +74,11 @@ class Seen:
         x = self.displacement
         if len(points) < 3 and self.edges.size > 2:
             points = self.edges[:3].tolist()  # a single loop from the start
-        return [(a, c) for a, b, c in zip(points[::2], points[1::2], points[2::2], strict=False)
-                if c - a >= FEWEST and abs(x[c] - x[a]) <= CLOSED * abs(x[b] - x[a])]  # fmt: skip
+        return [
+            (a, c)
+            for a, b, c in zip(points[::2], points[1::2], points[2::2], strict=False)
+            if c - a >= FEWEST and abs(x[c] - x[a]) <= CLOSED * abs(x[b] - x[a])
+        ]
 
 
 def see(run: Run, simulated: Mapping[str, Mapping[str, Array]] | None = None) -> Seen:

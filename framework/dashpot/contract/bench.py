@@ -36,8 +36,11 @@ class Bench:
         planned = [run for rig in self.rigs for run in rig.runs()]
         twice = sorted({run.name for run in planned if sum(run.name == other.name for other in planned) > 1})
         if twice:
-            raise InputError.at(Place(), f"{self.name}: several runs are called {', '.join(twice)}",
-                                "no two procedures may plan the same")  # fmt: skip
+            raise InputError.at(
+                Place(),
+                f"{self.name}: several runs are called {', '.join(twice)}",
+                "no two procedures may plan the same",
+            )
         return planned
 
 
@@ -114,6 +117,7 @@ def option_text(node: Node) -> str:
 def _item_text(node: Node) -> str:
     text = "" if isinstance(node, Sequence) else option_text(node)
     if not text or "," in text:
-        raise ValueError(f"expected a list of single numbers or texts, got in it {node.describe()}; "
-                         "the decimal sign is a point")  # fmt: skip
+        raise ValueError(
+            f"expected a list of single numbers or texts, got in it {node.describe()}; the decimal sign is a point"
+        )
     return text

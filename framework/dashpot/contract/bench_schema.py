@@ -24,5 +24,8 @@ def bench_schema(rigs: Mapping[str, type[Rig]]) -> Schema:
         "measuring": with_options(Measuring, {}),
         "limits": with_options(Limits, {}),
     }
-    return s.document("rig", "A test bench: procedures with their options, and what it can do, and how it measures.",
-                      s.mapping(keys, ("format", "name", "tests")))  # fmt: skip
+    return s.document(
+        "rig",
+        "A test bench: procedures with their options, and what it can do, and how it measures.",
+        s.mapping(keys, ("format", "name", "tests")),
+    )

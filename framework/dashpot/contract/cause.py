@@ -216,9 +216,18 @@ def added_branch(
 
     quantity = next(iter(values(1.0, grid[0])))
     return Suspect(
-        form or element, tuple(grid), columns, extend, sign=sign, most=most, unknowns=unknowns,
-        quantity=quantity.replace("_", " "), unit=units[quantity], admits=admits, of_motion=True,
-    )  # fmt: skip
+        form or element,
+        tuple(grid),
+        columns,
+        extend,
+        sign=sign,
+        most=most,
+        unknowns=unknowns,
+        quantity=quantity.replace("_", " "),
+        unit=units[quantity],
+        admits=admits,
+        of_motion=True,
+    )
 
 
 def branch_lines(
@@ -234,8 +243,9 @@ def branch_lines(
 
     texts = {key: pretty(value, units[key], 6) for key, value in values.items()}
     within = {key: ", ".join(pretty(end, units[key], 6) for end in pair) for key, pair in bounds.items()}
-    starts = {key: f"{{start: {text}{f', bounds: [{within[key]}]' if key in within else ''}}}"
-              for key, text in texts.items()}  # fmt: skip
+    starts = {
+        key: f"{{start: {text}{f', bounds: [{within[key]}]' if key in within else ''}}}" for key, text in texts.items()
+    }
     numbers = [f"  {key}: {texts[key] if key in fixed else starts[key]}" for key in texts]
     return "\n".join([f"{name}:", f"  element: {element}", *numbers])
 

@@ -65,11 +65,17 @@ def _column(name: str, values: ArrayLike) -> NDArray[np.float64]:
     try:
         column = np.array(values, dtype=float)
     except (TypeError, ValueError):
-        raise InputError.at(Place(), f"the {name}: expected numbers, got {type(values).__name__} of something else",
-                            "hand in an array of floats") from None  # fmt: skip
+        raise InputError.at(
+            Place(),
+            f"the {name}: expected numbers, got {type(values).__name__} of something else",
+            "hand in an array of floats",
+        ) from None
     if column.ndim != 1:
-        raise InputError.at(Place(), f"the {name}: expected samples (n,), got an array of shape {column.shape}",
-                            "hand in one run at a time, with one axis")  # fmt: skip
+        raise InputError.at(
+            Place(),
+            f"the {name}: expected samples (n,), got an array of shape {column.shape}",
+            "hand in one run at a time, with one axis",
+        )
     return column
 
 
@@ -77,11 +83,17 @@ def _refuse_unclear(table: Table, keys: Mapping[str, Any]) -> None:
     sizes = {channel: column.size for channel, column in table.columns.items()}
     if len(set(sizes.values())) > 1:
         listed = ", ".join(f"{channel} {size}" for channel, size in sizes.items())
-        raise InputError.at(Place(), f"run '{keys['name']}': expected as many samples of each channel, got {listed}",
-                            "cut or resample them to one clock")  # fmt: skip
+        raise InputError.at(
+            Place(),
+            f"run '{keys['name']}': expected as many samples of each channel, got {listed}",
+            "cut or resample them to one clock",
+        )
     if ("time" in table.columns) == (keys.get("sampling") is not None):
-        raise InputError.at(Place(), f"run '{keys['name']}': expected either a time (n,) or a sampling rate",
-                            "hand in time=... in s, or sampling=... in Hz")  # fmt: skip
+        raise InputError.at(
+            Place(),
+            f"run '{keys['name']}': expected either a time (n,) or a sampling rate",
+            "hand in time=... in s, or sampling=... in Hz",
+        )
 
 
 def _declared(table: Table, units: Mapping[str, str], keys: Mapping[str, Any]) -> RunDeclaration:
@@ -140,5 +152,10 @@ def _like_first(run: Run, known: Mapping[str, Run]) -> Run:
         return run
     first = known[name]
     held_out = first.held_out if run.held_out is None else run.held_out
-    return replace(run, repeats=name, settings={**first.settings, **run.settings},
-                   notes={**first.notes, **run.notes}, held_out=held_out)  # fmt: skip
+    return replace(
+        run,
+        repeats=name,
+        settings={**first.settings, **run.settings},
+        notes={**first.notes, **run.notes},
+        held_out=held_out,
+    )

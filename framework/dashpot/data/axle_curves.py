@@ -77,8 +77,9 @@ def slow_curve(deflection: Array, force: Array, sample_time: float, damping: flo
     if not loop.complete:
         raise ValueError("expected a slow test in both directions, got one direction only; drive it back as well")
     speed = float(np.ptp(deflection) * _strokes(deflection) / (deflection.size * sample_time))
-    return SlowCurve(loop.deflection, loop.middle - end_bias(loop), loop.half_width,
-                     interior_width(loop) - damping * speed, speed)  # fmt: skip
+    return SlowCurve(
+        loop.deflection, loop.middle - end_bias(loop), loop.half_width, interior_width(loop) - damping * speed, speed
+    )
 
 
 def end_bias(loop: Loop) -> Array:

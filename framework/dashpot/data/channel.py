@@ -100,9 +100,10 @@ def _read_channel(below: Form, name: str) -> Channel | None:
         offset=form.quantity("offset", kind, 0.0),
         delay=form.quantity("delay", "s", 0.0),
         drift=0.0 if name == "time" else form.quantity("drift", kind, 0.0),
-        hum=() if name == "time" else form.take("hum", partial(read_hum, unit=kind, what=form.what,
-                                                               problems=form.problems), ()),
-    )  # fmt: skip
+        hum=()
+        if name == "time"
+        else form.take("hum", partial(read_hum, unit=kind, what=form.what, problems=form.problems), ()),
+    )
     form.close()
     return channel
 

@@ -55,8 +55,9 @@ class Correction:
         gain = self.gain * other.gain
         hum = [*self.hum, *other.hum]
         scaled = [value if number % 3 == 0 else gain * value for number, value in enumerate(hum)]
-        return Correction(gain, gain * (self.offset + other.offset), gain * (self.drift + other.drift), 0.0,
-                          tuple(scaled))  # fmt: skip
+        return Correction(
+            gain, gain * (self.offset + other.offset), gain * (self.drift + other.drift), 0.0, tuple(scaled)
+        )
 
     def kept(self, samples: int, dt: float) -> slice:
         """The samples of a run that are left: a delay costs some at one end."""
@@ -83,8 +84,9 @@ def corrected_run(run: Run, correction: Correction) -> Run:
     return replace(run, time=run.time[: force.size], channels=channels)
 
 
-def corrected_text(dataset: Dataset, corrections: Mapping[str, Correction], set_aside: Mapping[str, str],
-                   folder: Path) -> str:  # fmt: skip
+def corrected_text(
+    dataset: Dataset, corrections: Mapping[str, Correction], set_aside: Mapping[str, str], folder: Path
+) -> str:
     """The text of a dataset file to be written into `folder`, with runs corrected or set aside for a reason.
 
     Everything else stays as it is, comments too; `folder:` says where the measured files lie. What a run is corrected
@@ -115,8 +117,9 @@ def corrected_text(dataset: Dataset, corrections: Mapping[str, Correction], set_
     return text
 
 
-def corrected_files(dataset: Dataset, corrections: Mapping[str, Correction], set_aside: Mapping[str, str],
-                    folder: Path) -> dict[str, str]:  # fmt: skip
+def corrected_files(
+    dataset: Dataset, corrections: Mapping[str, Correction], set_aside: Mapping[str, str], folder: Path
+) -> dict[str, str]:
     """What has to be written into `folder`, by file name: `dataset.yaml` as in `corrected_text`.
 
     Before it stand the runs as they were measured where the dataset was made in memory.
@@ -162,8 +165,11 @@ def _channel_of(
     channels = {channel.name: channel for channel in declaration.channels}
     wanted = channel_at("force", node)
     if wanted not in channels:
-        raise InputError.at(declaration.place("channels"), f"run '{declaration.name}' has no channel '{wanted}'",
-                            nearest(wanted, channels) or f"it has: {', '.join(channels)}")  # fmt: skip
+        raise InputError.at(
+            declaration.place("channels"),
+            f"run '{declaration.name}' has no channel '{wanted}'",
+            nearest(wanted, channels) or f"it has: {', '.join(channels)}",
+        )
     return declaration, channels[wanted]
 
 
@@ -212,9 +218,13 @@ def _entries(known: Channel, wanted: Channel, unit: str) -> Iterator[tuple[str, 
         if getattr(known, key) != getattr(wanted, key):
             yield key, _number(getattr(wanted, key), own)
     if known.hum != wanted.hum:
-        lines = [", ".join(f"{field.name}: {_number(getattr(line, field.name), own)}"
-                           for field, own in zip(fields(Hum), ("Hz", unit, unit), strict=True))
-                 for line in wanted.hum]  # fmt: skip
+        lines = [
+            ", ".join(
+                f"{field.name}: {_number(getattr(line, field.name), own)}"
+                for field, own in zip(fields(Hum), ("Hz", unit, unit), strict=True)
+            )
+            for line in wanted.hum
+        ]
         yield "hum", f"{{{lines[0]}}}" if len(lines) == 1 else f"[{', '.join(f'{{{line}}}' for line in lines)}]"
 
 
@@ -223,8 +233,13 @@ def _number(value: float, unit: str) -> str:
     return f"{float(value)!r} {unit}".removesuffix(" 1")
 
 
-def _check(before: Description, after: Description, wanted: Mapping[str, Mapping[str, Channel]],
-           set_aside: Mapping[str, str], dataset: Dataset) -> None:  # fmt: skip
+def _check(
+    before: Description,
+    after: Description,
+    wanted: Mapping[str, Mapping[str, Channel]],
+    set_aside: Mapping[str, str],
+    dataset: Dataset,
+) -> None:
     """InputError where the new text does not say what it should, as of a channel that mixes with the defaults."""
     told = {problem.message for problem in before.problems}
     found = [problem for problem in after.problems if problem.message not in told]
@@ -235,8 +250,11 @@ def _check(before: Description, after: Description, wanted: Mapping[str, Mapping
         said = {channel.name: _meaning(channel) for channel in declaration.channels}
         for channel in channels.values():
             if said[channel.name] != _meaning(channel):
-                raise InputError.at(channel.place, f"run '{name}': its channel '{channel.name}' cannot be corrected in "
-                                    "place", "write the channel with its column and unit at the run")  # fmt: skip
+                raise InputError.at(
+                    channel.place,
+                    f"run '{name}': its channel '{channel.name}' cannot be corrected in place",
+                    "write the channel with its column and unit at the run",
+                )
     for name, reason in set_aside.items():
         assert _declaration(name, after.declarations, dataset).set_aside == reason
 

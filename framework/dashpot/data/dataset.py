@@ -71,5 +71,6 @@ def read_dataset(path: Path | str, readers: Mapping[str, FileReader], allow_outs
     """
     stream = open_dataset(path, readers, allow_outside)
     runs = group_repeats(list(stream))
-    return Dataset(stream.name, tuple(runs), stream.problems, stream.folder, stream.faults, stream.document,
-                   stream.source.file)  # fmt: skip
+    return Dataset(
+        stream.name, tuple(runs), stream.problems, stream.folder, stream.faults, stream.document, stream.source.file
+    )

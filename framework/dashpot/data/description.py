@@ -60,8 +60,11 @@ def read_description(document: Document, source: Source) -> Description:
     name = form.text("name", stem_of(source.file or source.folder.resolve().name))
     folder = form.text("folder", None)
     if form.node("allow_outside") is not None:
-        form.complain("allow_outside", "a dataset cannot allow itself to read files elsewhere",
-                      "say --allow-outside on the command line instead, where you trust it")  # fmt: skip
+        form.complain(
+            "allow_outside",
+            "a dataset cannot allow itself to read files elsewhere",
+            "say --allow-outside on the command line instead, where you trust it",
+        )
     tables = _tables(form)
     many = "runs" in form or "tables" in form or not source.file
     nodes, defaults = _many_runs(form) if many else _single_run(form)

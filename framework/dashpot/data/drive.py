@@ -60,8 +60,10 @@ def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
     # the polynomials of every step, or their derivatives, at equal parts of it
     u = np.arange(parts) / parts
     powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(len(ascending))]
-    terms = [np.outer(part, np.polynomial.polynomial.polyval(u, power))
-             for part, power in zip(ascending, powers, strict=True)]  # fmt: skip
+    terms = [
+        np.outer(part, np.polynomial.polynomial.polyval(u, power))
+        for part, power in zip(ascending, powers, strict=True)
+    ]
     return sum(terms, np.zeros(())).ravel()
 
 
@@ -106,21 +108,30 @@ def _rates(dt: float, x: Array) -> tuple[Array, Array]:
 
 def _refuse_single(displacement: Array) -> None:
     if displacement.size < 2:
-        raise InputError.at(Place(), f"expected a motion of two samples at least, got {displacement.size}",
-                            "give the samples of a whole record")  # fmt: skip
+        raise InputError.at(
+            Place(),
+            f"expected a motion of two samples at least, got {displacement.size}",
+            "give the samples of a whole record",
+        )
 
 
 def moved_drive(drive: Drive, change: Array) -> Drive:
     """The drive with a change (n,) of its displacement in m; the drive itself is not smoothed once more."""
     by = drive_from_samples(drive.dt, change)
-    return drive_from_path(drive.dt, drive.displacement + by.displacement, drive.velocity + by.velocity,
-                           drive.acceleration + by.acceleration)  # fmt: skip
+    return drive_from_path(
+        drive.dt,
+        drive.displacement + by.displacement,
+        drive.velocity + by.velocity,
+        drive.acceleration + by.acceleration,
+    )
 
 
 def find_turns(dt: float, x: Array, v: Array) -> tuple[NDArray[np.int64], Array]:
     """Where the cubic path turns between samples: step (index of its end) and displacement, in the order of time."""
-    pieces = [(first, *_turns(dt, x[first : first + PIECE + 1], v[first : first + PIECE + 1]))
-              for first in range(0, x.size - 1, PIECE)]  # fmt: skip
+    pieces = [
+        (first, *_turns(dt, x[first : first + PIECE + 1], v[first : first + PIECE + 1]))
+        for first in range(0, x.size - 1, PIECE)
+    ]
     steps, places = [first + step for first, step, _ in pieces], [place for *_, place in pieces]
     return np.concatenate(steps).astype(np.int64), np.concatenate(places)
 

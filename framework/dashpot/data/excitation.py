@@ -50,10 +50,16 @@ class Excitation:
     @classmethod
     def of_run(cls, run: Run) -> Excitation:
         """The measured motions of a run, and the forces at nodes whose motion is not measured."""
-        motions = {_node(name): drive_from_samples(run.sample_time, np.array(samples))
-                   for name, samples in run.channels.items() if name.partition("@")[0] == "displacement"}  # fmt: skip
-        loads = {_node(name): np.array(samples) for name, samples in run.channels.items()
-                 if name.partition("@")[0] == "force" and _node(name) not in motions}  # fmt: skip
+        motions = {
+            _node(name): drive_from_samples(run.sample_time, np.array(samples))
+            for name, samples in run.channels.items()
+            if name.partition("@")[0] == "displacement"
+        }
+        loads = {
+            _node(name): np.array(samples)
+            for name, samples in run.channels.items()
+            if name.partition("@")[0] == "force" and _node(name) not in motions
+        }
         return cls(motions, loads, settings_of(run), run.sample_time, run.time.size, run.record, run.source)
 
     def at(self, driven: Sequence[str], loaded: Sequence[str]) -> Excitation:
@@ -67,16 +73,23 @@ class Excitation:
         for quantity, known, nodes in (("displacement", motions, driven), ("force", self.loads, loaded)):
             for node in nodes:
                 if node not in known:
-                    raise InputError.at(Place(self.source or None), f"run '{self.name}' has no channel "
-                                        f"'{channel_at(quantity, node)}', which the network needs; it has motions of "
-                                        f"{_names(self.motions)}", "declare it under 'channels'")  # fmt: skip
+                    raise InputError.at(
+                        Place(self.source or None),
+                        f"run '{self.name}' has no channel "
+                        f"'{channel_at(quantity, node)}', which the network needs; it has motions of "
+                        f"{_names(self.motions)}",
+                        "declare it under 'channels'",
+                    )
         return replace(self, motions=motions)
 
 
 def settings_of(run: Run) -> dict[str, float]:
     """The settings of a run, its ``order`` in the dataset, and the means of its further channels."""
-    means = {mean_of(name): float(np.mean(samples)) for name, samples in run.channels.items()
-             if name.partition("@")[0] not in MOVING}  # fmt: skip
+    means = {
+        mean_of(name): float(np.mean(samples))
+        for name, samples in run.channels.items()
+        if name.partition("@")[0] not in MOVING
+    }
     return {ORDER: float(run.order), **run.settings, **means}
 
 

@@ -36,16 +36,20 @@ def motion_range(drives: Sequence[Drive], smallest: float | None = None) -> dict
         return found | {"amplitude": (min(usual), max(usual))}
     amplitude, preload, frequency = cycles.T
     largest = float(np.max(amplitude))
-    return found | {"amplitude": (min(*usual, largest), largest), "preload": _ends([preload]),
-                    "frequency": _ends([frequency])}  # fmt: skip
+    return found | {
+        "amplitude": (min(*usual, largest), largest),
+        "preload": _ends([preload]),
+        "frequency": _ends([frequency]),
+    }
 
 
 def _half_cycles(drive: Drive, least: float) -> np.ndarray:
     """Amplitude, preload and frequency (cycles, 3) of the half cycles whose strokes are longer than ``least``."""
     at = turning_points(drive.displacement, least)
     place = drive.displacement[at]
-    return np.column_stack([0.5 * np.abs(np.diff(place)), 0.5 * (place[1:] + place[:-1]),
-                            0.5 / (drive.dt * np.diff(at))])  # fmt: skip
+    return np.column_stack(
+        [0.5 * np.abs(np.diff(place)), 0.5 * (place[1:] + place[:-1]), 0.5 / (drive.dt * np.diff(at))]
+    )
 
 
 def _typical(drive: Drive, noise: float) -> float:

@@ -106,8 +106,10 @@ def _single_run(document: Document, root: Mapping, file: str) -> str:
 
 def _without_aliases(document: Document) -> str:
     """An anchor may be edited when nothing refers to it any more."""
-    return apply_edits(document.text, [Edit(node.start, node.end, flow_text(node, document.text))
-                                       for node in _aliases(document.root, document.text)])  # fmt: skip
+    return apply_edits(
+        document.text,
+        [Edit(node.start, node.end, flow_text(node, document.text)) for node in _aliases(document.root, document.text)],
+    )
 
 
 def _aliases(node: Node, text: str) -> Iterator[Node]:

@@ -47,22 +47,34 @@ def dataset_schema(readers: Collection[str]) -> Schema:
 
 def _table(readers: Collection[str]) -> Schema:
     column = {**s.text(), "description": "its name in the file, or its number from 1"}
-    one = {"if": {"type": "object"}, "then": s.mapping({"column": column, "unit": s.text("that of the file")}),
-           "else": column}  # fmt: skip
+    one = {
+        "if": {"type": "object"},
+        "then": s.mapping({"column": column, "unit": s.text("that of the file")}),
+        "else": column,
+    }
     keys = {
         "name": s.text("by default that of the file"),
         "file": s.text("in the folder of the dataset or below it"),
-        "columns": {"type": "object", "properties": dict.fromkeys(UNITS, one), "additionalProperties": one,
-                    "description": "which column is what; other names are settings of the rows"},
+        "columns": {
+            "type": "object",
+            "properties": dict.fromkeys(UNITS, one),
+            "additionalProperties": one,
+            "description": "which column is what; other names are settings of the rows",
+        },
         "settings": _settings(),
-        "static": s.mapping({key: s.items(s.quantity(unit), s.in_unit("growing", unit), minItems=2)
-                             for key, unit in (("deflection", "m"), ("force", "N"))}, ("deflection", "force"),
-                            "the static curve, by which preloads told as forces become deflections"),
+        "static": s.mapping(
+            {
+                key: s.items(s.quantity(unit), s.in_unit("growing", unit), minItems=2)
+                for key, unit in (("deflection", "m"), ("force", "N"))
+            },
+            ("deflection", "force"),
+            "the static curve, by which preloads told as forces become deflections",
+        ),
         "scatter": s.text("standard deviation of the stiffness, as 3 N/mm or 2 %: rows count by it"),
         "held_out": s.flag("keep it out of every fit"),
         "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
         "file_options": {"type": "object", "description": "what the reader should know"},
-    }  # fmt: skip
+    }
     return s.mapping(keys, ("file", "columns"))
 
 
@@ -84,32 +96,46 @@ def _run_keys(readers: Collection[str], channels: str) -> dict[str, Schema]:
         "held_out": s.flag("keep it out of every fit"),
         "set_aside": s.text("why the run is not read"),
         "sensors": _sensors(),
-        "rows": {"type": "array", "items": [s.integer(minimum=1), {"type": ["integer", "null"]}], "minItems": 2,
-                 "maxItems": 2, "description": "[first, last] from 1; null: to the end"},
+        "rows": {
+            "type": "array",
+            "items": [s.integer(minimum=1), {"type": ["integer", "null"]}],
+            "minItems": 2,
+            "maxItems": 2,
+            "description": "[first, last] from 1; null: to the end",
+        },
         "start": s.quantity("s", "from this time on"),
         "stop": s.quantity("s", "up to this time"),
         "decimate": s.integer("every n-th sample after a low-pass", minimum=1, maximum=1000),
         "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
         "file_options": {"type": "object", "description": "what the reader should know"},
         "accept": s.items(s.choice(ACCEPTABLE), "what is known and harmless"),
-    }  # fmt: skip
+    }
 
 
 def _settings() -> Schema:
     known = {key: s.quantity(unit, "of the test") for key, unit in SETTING_UNITS.items()}
-    return {"type": "object", "properties": known, "additionalProperties": s.text(),
-            "description": "of the test; any others may be added"}  # fmt: skip
+    return {
+        "type": "object",
+        "properties": known,
+        "additionalProperties": s.text(),
+        "description": "of the test; any others may be added",
+    }
 
 
 def _sensors() -> Schema:
-    return s.named(s.mapping({key: s.quantity("", about) for key, about in SENSOR_KEYS.items()}),
-                   "the data sheet of each channel: an error within it is ordinary")  # fmt: skip
+    return s.named(
+        s.mapping({key: s.quantity("", about) for key, about in SENSOR_KEYS.items()}),
+        "the data sheet of each channel: an error within it is ordinary",
+    )
 
 
 def _channels(*required: str) -> Schema:
     known = {name: _channel(unit, required) for name, unit in CHANNEL_UNITS.items()}
-    found = {"type": "object", "properties": {"sampling": s.quantity("Hz", "in place of a time channel"), **known},
-             "additionalProperties": _channel("", required)}  # fmt: skip
+    found = {
+        "type": "object",
+        "properties": {"sampling": s.quantity("Hz", "in place of a time channel"), **known},
+        "additionalProperties": _channel("", required),
+    }
     if not required:
         return found
     at_nodes = {"not": {"propertyNames": {"pattern": "^[^@]*$"}}}

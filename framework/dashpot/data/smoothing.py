@@ -65,8 +65,10 @@ def gains(x: Array, noise: float, half: int) -> bool:
     smoothed = np.sin(2.0 * np.pi * np.outer(frequency, steps)) @ weights
     angle = 2.0 * np.pi * frequency
     spline = (50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)) / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
-    lost, spoilt = (np.sum(power[moving] * (response - angle)[moving] ** 2) + 2.0 * noise**2 * np.sum(response**2)
-                    for response in (smoothed, spline))  # fmt: skip
+    lost, spoilt = (
+        np.sum(power[moving] * (response - angle)[moving] ** 2) + 2.0 * noise**2 * np.sum(response**2)
+        for response in (smoothed, spline)
+    )
     return bool(lost < spoilt)
 
 

@@ -47,8 +47,11 @@ def _in_folder(folder: Path) -> Source:
     for name in DESCRIPTIONS:
         if (folder / name).is_file():
             return Source(folder / name, folder)
-    raise InputError.at(Place(str(folder)), "the folder holds no dataset.yaml",
-                        f"`dashpot import {folder}` writes a first one over the measured files in it")  # fmt: skip
+    raise InputError.at(
+        Place(str(folder)),
+        "the folder holds no dataset.yaml",
+        f"`dashpot import {folder}` writes a first one over the measured files in it",
+    )
 
 
 def _neighbour(path: Path) -> str:

@@ -25,8 +25,13 @@ from dashpot.text.quantity import base_unit, factor, si
 Array = NDArray[np.float64]
 
 ANSWERS = {"storage": "N/m", "loss": "N/m", "stiffness": "N/m", "loss_angle": "rad", "loss_factor": "1"}
-PAIRS = (("storage", "loss"), ("stiffness", "loss_angle"), ("stiffness", "loss_factor"), ("storage", "loss_angle"),
-         ("storage", "loss_factor"))  # fmt: skip
+PAIRS = (
+    ("storage", "loss"),
+    ("stiffness", "loss_angle"),
+    ("stiffness", "loss_factor"),
+    ("storage", "loss_angle"),
+    ("storage", "loss_factor"),
+)
 NEEDED, CONDITIONS, SCATTER = ("frequency", "amplitude"), ("frequency", "amplitude", "preload"), "scatter"
 UNITS = {**ANSWERS, **{key: SETTING_UNITS[key] for key in CONDITIONS}, SCATTER: "N/m"}
 
@@ -92,18 +97,31 @@ def read_table(declaration: TableDeclaration, table: Table, order: int) -> tuple
     values |= _deflected(declaration, table, columns, values)
     shares = {each.name: _is_share(table, each, columns[each.name]) for each in declaration.columns}
     whole = np.isfinite(list(values.values())).all(axis=0)
-    conditions = {**dict.fromkeys(CONDITIONS, np.zeros(count)),
-                  **{key: np.full(count, value) for key, value in declaration.settings.items()},
-                  **{key: column for key, column in values.items() if key not in (*ANSWERS, SCATTER)}}  # fmt: skip
-    refuse(Trouble(f"expected a {key} above 0, got {conditions[key][row]:g} in {table.where(row)}", "correct the table")
-           for key in NEEDED for row in np.flatnonzero(whole & ~(conditions[key] > 0.0))[:1])  # fmt: skip
+    conditions = {
+        **dict.fromkeys(CONDITIONS, np.zeros(count)),
+        **{key: np.full(count, value) for key, value in declaration.settings.items()},
+        **{key: column for key, column in values.items() if key not in (*ANSWERS, SCATTER)},
+    }
+    refuse(
+        Trouble(f"expected a {key} above 0, got {conditions[key][row]:g} in {table.where(row)}", "correct the table")
+        for key in NEEDED
+        for row in np.flatnonzero(whole & ~(conditions[key] > 0.0))[:1]
+    )
     if not whole.any():
         raise Unusable([Trouble("none of its rows has all numbers", "check its columns")])
     answers = complex_stiffness(values)
     deviations = _deviations(declaration, values, shares, np.abs(answers))
-    runs = [_run(declaration, row, {key: float(column[row]) for key, column in conditions.items()}, answers[row],
-                 None if deviations is None else float(deviations[row]), order + number)
-            for number, row in enumerate(np.flatnonzero(whole).tolist())]  # fmt: skip
+    runs = [
+        _run(
+            declaration,
+            row,
+            {key: float(column[row]) for key, column in conditions.items()},
+            answers[row],
+            None if deviations is None else float(deviations[row]),
+            order + number,
+        )
+        for number, row in enumerate(np.flatnonzero(whole).tolist())
+    ]
     missing = np.flatnonzero(~whole)
     left_out = f"{missing.size} of its rows lack a number and are left out, the first is " if missing.size else ""
     return runs, [Trouble(left_out + table.where(row), "", severity="warning") for row in missing[:1].tolist()]
@@ -180,9 +198,15 @@ def _deflected(
         hint = "give the deflections at these forces, or the curve: 'static: {deflection: [...], force: [...]}'"
         raise Unusable([Trouble("expected the preload as a deflection, got a force", hint, told.place)])
     loads, (deflection, force) = values["preload"], declaration.static
-    refuse(Trouble(f"the preload of {loads[row]:g} N in {table.where(row)} lies beyond the static curve, which goes "
-                   f"from {force[0]:g} to {force[-1]:g} N", "give a longer curve", told.place)
-           for row in np.flatnonzero((loads < force[0]) | (loads > force[-1]))[:1])  # fmt: skip
+    refuse(
+        Trouble(
+            f"the preload of {loads[row]:g} N in {table.where(row)} lies beyond the static curve, which goes "
+            f"from {force[0]:g} to {force[-1]:g} N",
+            "give a longer curve",
+            told.place,
+        )
+        for row in np.flatnonzero((loads < force[0]) | (loads > force[-1]))[:1]
+    )
     return {"preload": np.interp(loads, force, deflection)}
 
 
@@ -201,8 +225,11 @@ def _check(form: Form, columns: set[str], settings: set[str]) -> None:
         form.complain("columns", f"{form.what} does not say the dynamic stiffness", f"give the columns {shown}")
     for key in NEEDED:
         if key not in columns | settings:
-            form.complain("columns", f"{form.what} lacks '{key}'",
-                          f"give its column, or one for all rows under 'settings: {{{key}: ...}}'")  # fmt: skip
+            form.complain(
+                "columns",
+                f"{form.what} lacks '{key}'",
+                f"give its column, or one for all rows under 'settings: {{{key}: ...}}'",
+            )
     for key in sorted(columns & settings):
         form.complain("settings", f"{form.what} has '{key}' as a column and as a setting", "remove one of them")
 
@@ -212,8 +239,9 @@ def _in_si(table: Table, column: Channel, name: str, count: int) -> Array:
     try:
         scale, zero = (1.0, 0.0) if unit is None else _factor(unit, column.name)
     except ValueError as error:
-        raise Unusable([Trouble(f"column '{name}': {error}", f"say the unit of '{column.name}'", column.place)]
-                       ) from None  # fmt: skip
+        raise Unusable(
+            [Trouble(f"column '{name}': {error}", f"say the unit of '{column.name}'", column.place)]
+        ) from None
     return read_numbers(table, column, name, np.arange(count)) * scale + zero
 
 
@@ -252,6 +280,15 @@ def _run(
     for values in (time, path, force):
         values.flags.writeable = False
     return Run(
-        name, STEADY, time, {"displacement": path, "force": force}, settings, group=name,
-        held_out=declaration.held_out, sensors=noise, source=declaration.file, order=order, notes=declaration.notes,
-    )  # fmt: skip
+        name,
+        STEADY,
+        time,
+        {"displacement": path, "force": force},
+        settings,
+        group=name,
+        held_out=declaration.held_out,
+        sensors=noise,
+        source=declaration.file,
+        order=order,
+        notes=declaration.notes,
+    )

@@ -71,9 +71,14 @@ class RunStream:
         The means of further channels are not known yet: NaN.
         """
         resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
-        return {each.name: {ORDER: float(each.order), **each.settings,
-                            **{mean_of(channel.name): math.nan for channel in each.channels}}
-                for each in resolved} | {run.name: settings_of(run) for run in self._rows()[0]}  # fmt: skip
+        return {
+            each.name: {
+                ORDER: float(each.order),
+                **each.settings,
+                **{mean_of(channel.name): math.nan for channel in each.channels},
+            }
+            for each in resolved
+        } | {run.name: settings_of(run) for run in self._rows()[0]}
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -129,8 +134,11 @@ class RunStream:
             first = len(self._description.declarations) + len(runs)
             try:
                 found, troubles = read_table(declaration, self._table(declaration), first)
-                refuse(Trouble(f"one of its rows is called '{run.name}', as a run is", "give the table another name")
-                       for run in found if run.name in self._description.names)  # fmt: skip
+                refuse(
+                    Trouble(f"one of its rows is called '{run.name}', as a run is", "give the table another name")
+                    for run in found
+                    if run.name in self._description.names
+                )
             except Unusable as error:
                 found, troubles = [], list(error.troubles)
             runs += found

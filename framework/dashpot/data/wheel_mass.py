@@ -51,16 +51,18 @@ def wheel_mass(runs: Sequence[WheelRun], elastic: bool = False) -> WheelMass:
     """
     rows = [_points(run) for run in runs]
     omega, amplitude, storage, loss = np.concatenate(rows, axis=1)
-    clusters = np.concatenate([
-        np.floor(row[0] / (2.0 * np.pi * CLUSTER)) + 1e3 * number for number, row in enumerate(rows)
-    ])  # fmt: skip
+    clusters = np.concatenate(
+        [np.floor(row[0] / (2.0 * np.pi * CLUSTER)) + 1e3 * number for number, row in enumerate(rows)]
+    )
     columns = [-(omega**2), np.ones_like(omega), (amplitude / REFERENCE) ** -1.5] + [loss**2] * elastic
     design = np.column_stack(columns)
     size = np.sqrt(np.mean(design**2, axis=0))
     found, _, rank, _ = np.linalg.lstsq(design / size, storage, rcond=1e-10)
     if rank < design.shape[1] or np.unique(clusters).size <= 2 * design.shape[1]:
-        raise ValueError("expected sweeps over a range of frequencies and amplitudes, got too little to tell mass from "
-                         "spring; sweep through the wheel resonance")  # fmt: skip
+        raise ValueError(
+            "expected sweeps over a range of frequencies and amplitudes, got too little to tell mass from "
+            "spring; sweep through the wheel resonance"
+        )
     residual = storage - design / size @ found
     width = _half_width(design / size, residual, clusters)
     mass, half = float(found[0] / size[0]), float(width / size[0])

@@ -60,8 +60,13 @@ def _channel(name: str) -> str:
 
 
 def _sensor(channel: str, sheet: Mapping[str, float]) -> str:
-    units = {"gain": "1", "zero": unit_of_channel(channel) or "1", "delay": "s", "noise": unit_of_channel(channel),
-             "compliance": "m/N"}  # fmt: skip
+    units = {
+        "gain": "1",
+        "zero": unit_of_channel(channel) or "1",
+        "delay": "s",
+        "noise": unit_of_channel(channel),
+        "compliance": "m/N",
+    }
     return _flow({key: _number(value, units[key] or "1") for key, value in sheet.items()})
 
 

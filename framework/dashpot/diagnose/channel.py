@@ -197,15 +197,25 @@ def accuse(
     """
     rows = rows_of(refitter, look, kinds, look.noise)
     alone = rows_of(refitter, look, kinds, _plain(look))
-    solver = _Solver(rows, {number: doubt.strengths for number, kind in enumerate(kinds)
-                            for doubt in doubted if doubt.fault is kind.fault})  # fmt: skip
+    solver = _Solver(
+        rows,
+        {
+            number: doubt.strengths
+            for number, kind in enumerate(kinds)
+            for doubt in doubted
+            if doubt.fault is kind.fault
+        },
+    )
     price = Odds(len(rows.shapes)).price("measurement")
     pairs = repeats_of(refitter, groups)
     shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
     chosen: dict[Key, str] = {}
     while True:
-        gains = {key: shares[key] * solver.gain(key, chosen) - 0.5 * len(shapes) * np.log(shapes.shape[1])
-                 for key, shapes in rows.shapes.items() if key not in chosen}  # fmt: skip
+        gains = {
+            key: shares[key] * solver.gain(key, chosen) - 0.5 * len(shapes) * np.log(shapes.shape[1])
+            for key, shapes in rows.shapes.items()
+            if key not in chosen
+        }
         for key in sorted(gains, key=lambda key: -gains[key]):
             least = max(price, relevance * rows.residual[key[0]].size)
             if gains[key] < least:

@@ -74,8 +74,9 @@ def diagnose(
     triage = examine(records_of(one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
-    fit, restarts = fit_to_rest(lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress),
-                                setting.swing)  # fmt: skip
+    fit, restarts = fit_to_rest(
+        lambda attempt: fit_prepared(spec, setting, method, seed + attempt, jobs, progress), setting.swing
+    )
     causes = [registry.causes[word] for word in sorted(registry.causes)]
     groups = {run.name: run.cluster for run in triage.dataset.runs}
     sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
@@ -113,8 +114,11 @@ def records_of(dataset: Dataset) -> Dataset:
     """The runs that were recorded over time. Raises InputError where there are rows of tables alone."""
     records = [run.name for run in dataset.runs if run.kind != STEADY]
     if not records:
-        raise InputError.at(Place(dataset.name), "a diagnosis needs runs over time, got rows of tables alone, which "
-                            "tell the fundamental of the force only", "fit and compare networks on them")  # fmt: skip
+        raise InputError.at(
+            Place(dataset.name),
+            "a diagnosis needs runs over time, got rows of tables alone, which tell the fundamental of the force only",
+            "fit and compare networks on them",
+        )
     return dataset if len(records) == len(dataset.runs) else dataset.select(records)
 
 
@@ -216,8 +220,11 @@ def _fault_of(fit: FitResult, swing: float) -> str:
 def limits_of(spec: NetworkSpec) -> list[str]:
     """What is not looked for in a network of this kind."""
     chains = [member.name for member in spec.root.members if isinstance(member, Group) and member.kind == "series"]
-    found = [f"Between the parts of the series connection '{name}' no cause is looked for, only between its ends; "
-             "give the node between them a name under 'nodes:'." for name in chains]  # fmt: skip
+    found = [
+        f"Between the parts of the series connection '{name}' no cause is looked for, only between its ends; "
+        "give the node between them a name under 'nodes:'."
+        for name in chains
+    ]
     if spec.joints:
         found.append("No further run is simulated to tell causes apart: that is done for networks with two ends only.")
     return found
@@ -228,10 +235,13 @@ def remarks_on(pursuit: Pursuit) -> list[str]:
     found = [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
     groups = pursuit.look.folds.groups
     if groups < FEWEST:
-        found.append(f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
-                     "whether the causes hold under other conditions is not known.")  # fmt: skip
-    refused = dict.fromkeys(f"'{term.cause.word}' could not be written into the network: {reason}"
-                            for term, reason in pursuit.refused)  # fmt: skip
+        found.append(
+            f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
+            "whether the causes hold under other conditions is not known."
+        )
+    refused = dict.fromkeys(
+        f"'{term.cause.word}' could not be written into the network: {reason}" for term, reason in pursuit.refused
+    )
     return [*found, *refused]
 
 

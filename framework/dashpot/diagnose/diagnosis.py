@@ -54,12 +54,20 @@ class Diagnosis(Findings):
         gain, removal = self._worth(removals)
         rivals = tuple(word for word, _ in pursuit.replacements(name))
         return NamedCause(
-            cause, tuple(model.terms[number] for number in mine),
-            slots_of(self.written, [path for number in mine for path in model.owned[number]]), (),
-            probability, self.presence(model.terms[mine[0]]), float(cost.sum()),
-            (int(np.sum(cost > 0.0)), cost.size), gain, removal, rivals, evidence_of,
+            cause,
+            tuple(model.terms[number] for number in mine),
+            slots_of(self.written, [path for number in mine for path in model.owned[number]]),
+            (),
+            probability,
+            self.presence(model.terms[mine[0]]),
+            float(cost.sum()),
+            (int(np.sum(cost > 0.0)), cost.size),
+            gain,
+            removal,
+            rivals,
+            evidence_of,
             told(model.terms[mine[0]]) if evidence_of else "",
-        )  # fmt: skip
+        )
 
     def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
         """What the final network gains by a cause, and by how much the error grows without it."""
@@ -69,9 +77,13 @@ class Diagnosis(Findings):
             return None, None
         cut = {run.name: run.first for run in self.after_setting.scored.values()}
         before, after = (
-            {run: values[cut[run] :] for run, values in self.residuals(network, self.after_setting).items()
-             if run in held_out} for network in (best, self.written)
-        )  # fmt: skip
+            {
+                run: values[cut[run] :]
+                for run, values in self.residuals(network, self.after_setting).items()
+                if run in held_out
+            }
+            for network in (best, self.written)
+        )
         paths = {run: self.setting.scored[run].drive.displacement[cut[run] :] for run in held_out}
         groups = {run.name: run.cluster for run in self.setting.dataset.runs}
         gain = measure_gain(before, after, groups, paths, "held-out runs", self.seed)
@@ -83,10 +95,23 @@ class Diagnosis(Findings):
         for word in words:
             mine = tuple(one for one in self.accused if one.kind.cause.word == word)
             proof, sure = "; ".join(dict.fromkeys(one.words for one in mine)), max(one.probability for one in mine)
-            found.append(NamedCause(
-                mine[0].kind.cause, (), {}, mine, sure, sure, sum(one.nats for one in mine), (0, 0), None, None, (),
-                mine[0].evidence_of, proof,
-            ))  # fmt: skip
+            found.append(
+                NamedCause(
+                    mine[0].kind.cause,
+                    (),
+                    {},
+                    mine,
+                    sure,
+                    sure,
+                    sum(one.nats for one in mine),
+                    (0, 0),
+                    None,
+                    None,
+                    (),
+                    mine[0].evidence_of,
+                    proof,
+                )
+            )
         return found
 
     @cached_property
@@ -182,8 +207,10 @@ class Diagnosis(Findings):
         """The structures that were compared at the end, by score in nats below the best."""
         pursuit = self.pursuit
         pool = [pursuit.best, *(one.scored for one in pursuit.without), *(rival for _, rival in pursuit.rivals)]
-        found = [{"causes": sorted(word for word, _ in one.model.names), "score": one.score - pursuit.best.score}
-                 for one in pool]  # fmt: skip
+        found = [
+            {"causes": sorted(word for word, _ in one.model.names), "score": one.score - pursuit.best.score}
+            for one in pool
+        ]
         return sorted(found, key=lambda one: one["score"])
 
     def _rejected(self) -> list[dict[str, Any]]:
@@ -192,19 +219,27 @@ class Diagnosis(Findings):
         for term, rival in self.pursuit.rivals:
             new = [other for other in rival.model.terms if other.name not in self.pursuit.best.model.names]
             share = float(np.mean(rival.drawn(self.pursuit.weights) < self.pursuit.best.drawn(self.pursuit.weights)))
-            found += [{
-                "cause": other.cause.word, "title": other.title, "place": other.site.words if other.site else None,
-                "reason": f"in place of {term.title} it is better in {share:.0%} of the draws of runs",
-                "expected_gain": None, "gain": None,
-            } for other in new]  # fmt: skip
+            found += [
+                {
+                    "cause": other.cause.word,
+                    "title": other.title,
+                    "place": other.site.words if other.site else None,
+                    "reason": f"in place of {term.title} it is better in {share:.0%} of the draws of runs",
+                    "expected_gain": None,
+                    "gain": None,
+                }
+                for other in new
+            ]
         return found
 
     def limits(self) -> list[dict[str, Any]]:
         """The smallest effects that would have been found; nothing where the model errs by more than the noise."""
         if not self._near_floor:
             return []
-        return [_limit(candidate.cause.word, candidate.cause.about, candidate.site.words if candidate.site else None,
-                       limit) for candidate, limit in find_limits(self.pursuit.look, self.relevance)]  # fmt: skip
+        return [
+            _limit(candidate.cause.word, candidate.cause.about, candidate.site.words if candidate.site else None, limit)
+            for candidate, limit in find_limits(self.pursuit.look, self.relevance)
+        ]
 
     # the report
 
@@ -241,8 +276,9 @@ class Diagnosis(Findings):
     def _next_measurements(self) -> list[str]:
         found = []
         for named in self.named:
-            words = [self.causes[word].about if word in self.causes else word.replace("_", " ")
-                     for word in named.rivals]  # fmt: skip
+            words = [
+                self.causes[word].about if word in self.causes else word.replace("_", " ") for word in named.rivals
+            ]
             about = f"{named.title} or {' or '.join(words)}" if words else named.title
             found += [f"{about}: {text}" for text in self._next_for(named)]
         return found
@@ -251,8 +287,14 @@ class Diagnosis(Findings):
 def _limit(word: str, about: str, place: str | None, limit: Limit | None) -> dict[str, Any]:
     found: dict[str, Any] = {"cause": word, "title": about, "place": place}
     if limit is None:
-        return {**found, "quantity": "would not show beside the numbers of the model", "value": None, "unit": None,
-                "force": None, "left": None}  # fmt: skip
+        return {
+            **found,
+            "quantity": "would not show beside the numbers of the model",
+            "value": None,
+            "unit": None,
+            "force": None,
+            "left": None,
+        }
     suspect = limit.candidate.suspect
     return {
         **found,
@@ -280,12 +322,15 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "gain": None,
         "gain_interval": None,
         "removal": {"held_out": None},
-        "parameters": {fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
-                       for fault in faults if fault.factor is not None},
+        "parameters": {
+            fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
+            for fault in faults
+            if fault.factor is not None
+        },
         "indistinguishable_from": [],
         "alternatives": [],
         "next_measurement": faults[0].cure,
-    }  # fmt: skip
+    }
 
 
 def digest_of(spec: NetworkSpec) -> str:

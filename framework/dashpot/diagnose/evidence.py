@@ -36,8 +36,7 @@ def is_determined(scores: Scores, number: int) -> bool:
     model, paths = look.model, look.model.coordinates.paths
     if model.terms[number].cause.kind != "measurement":
         return True
-    if any(at and path in model.owned[number]
-           for at, path in zip(model.at_bound, paths, strict=True)):  # fmt: skip
+    if any(at and path in model.owned[number] for at, path in zip(model.at_bound, paths, strict=True)):
         return False
     columns = scores.columns(Structure())
     errors = np.sqrt(np.diag(np.linalg.pinv(scores.gram[np.ix_(columns, columns)], rcond=1e-12, hermitian=True)))

@@ -152,8 +152,11 @@ class Findings:
     @property
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
-        found = {fault.run: Correction(gain=fault.factor) for fault in self.triage.faults
-                 if fault.factor is not None and fault.channel == "force"}  # fmt: skip
+        found = {
+            fault.run: Correction(gain=fault.factor)
+            for fault in self.triage.faults
+            if fault.factor is not None and fault.channel == "force"
+        }
         for one in self.accused:
             known = found.get(one.run)
             found[one.run] = known.then(one.correction) if known else one.correction
@@ -163,8 +166,9 @@ class Findings:
     def set_aside(self) -> dict[str, str]:
         """The runs that triage set aside, with the reason."""
         kept = {run.record for run in self.setting.dataset.runs}
-        return {fault.run: fault.evidence for fault in self.triage.faults
-                if fault.factor is None and fault.run not in kept}  # fmt: skip
+        return {
+            fault.run: fault.evidence for fault in self.triage.faults if fault.factor is None and fault.run not in kept
+        }
 
     @property
     def corrected_name(self) -> str | None:
@@ -239,9 +243,12 @@ class Findings:
         """What the report says of the data and the search; a fault that only a held-out run has stands here alone."""
         errors = self.after.per_run
         worst = max(errors[run] for run in self.setting.split.train)
-        alone = [f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
-                 "it has a fault, or was made under conditions that these do not have. It decided nothing."
-                 for run in self.setting.split.held_out if errors[run] > ALONE * worst]  # fmt: skip
+        alone = [
+            f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
+            "it has a fault, or was made under conditions that these do not have. It decided nothing."
+            for run in self.setting.split.held_out
+            if errors[run] > ALONE * worst
+        ]
         names = " and ".join(f"'{name}'" for name in self.spare)
         spare = [f"Of the diagnosed network {names} may go: without, all else refitted, nothing is predicted worse."]
         return [*self.triage.remarks, *spare * bool(self.spare), *alone]

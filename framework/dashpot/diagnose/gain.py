@@ -43,15 +43,23 @@ def measure_gain(
     names = list(dict.fromkeys(groups[run] for run in without))
     rng = np.random.default_rng(seed)
     if len(names) >= FEWEST:
-        squares = np.array([[np.mean([np.mean(of[run] ** 2) for run in without if groups[run] == name])
-                             for name in names] for of in (without, with_it)])  # fmt: skip
+        squares = np.array(
+            [
+                [np.mean([np.mean(of[run] ** 2) for run in without if groups[run] == name]) for name in names]
+                for of in (without, with_it)
+            ]
+        )
         draws = squares[:, rng.integers(0, len(names), (DRAWS, len(names)))].mean(axis=2).T
     else:
         draws = np.zeros((DRAWS, 2))
         for run in without:
             edges = whole_cycles(displacement[run], PIECES)
-            means = np.array([[np.mean(of[run][first:last] ** 2) for first, last in zip(edges, edges[1:], strict=False)]
-                              for of in (without, with_it)])  # fmt: skip
+            means = np.array(
+                [
+                    [np.mean(of[run][first:last] ** 2) for first, last in zip(edges, edges[1:], strict=False)]
+                    for of in (without, with_it)
+                ]
+            )
             draws += means[:, rng.integers(0, means.shape[1], (DRAWS, means.shape[1]))].mean(axis=2).T
     total = np.array([np.mean([np.mean(of[run] ** 2) for run in without]) for of in (without, with_it)])
     low, high = np.quantile([_gain(draw) for draw in draws], [0.025, 0.975])

@@ -40,8 +40,11 @@ class SiteView(ModelView):
 
     def moved(self, run: str, change: Array) -> Array:
         """Not known inside a network: raises InputError."""
-        raise InputError.at(Place(), "how the network would answer another deflection is known at the rig only",
-                            "declare such a suspect as 'measured'")  # fmt: skip
+        raise InputError.at(
+            Place(),
+            "how the network would answer another deflection is known at the rig only",
+            "declare such a suspect as 'measured'",
+        )
 
     @cached_property
     def _carried(self) -> dict[str, Array]:

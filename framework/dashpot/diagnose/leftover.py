@@ -144,8 +144,11 @@ def general_functions(view: ModelView, run: str) -> dict[str, Array]:
         "force times velocity": view.force(run) * v,
     }
     past = {"deflection": local, "square of the deflection": local**2, "size of the velocity": np.abs(v)}
-    remembered = {f"the {name} of the last {lag:g} s": _low_pass(signal, view.step(run) / lag)
-                  for lag in LAGS for name, signal in past.items()}  # fmt: skip
+    remembered = {
+        f"the {name} of the last {lag:g} s": _low_pass(signal, view.step(run) / lag)
+        for lag in LAGS
+        for name, signal in past.items()
+    }
     return plain | remembered
 
 

@@ -6,7 +6,7 @@ is worth, and what a structure predicts of runs that took no part in its fit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -14,51 +14,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
-from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.columns import Layout, Rows, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
-from dashpot.diagnose.whitening import Noise, independent_share, learn_filter, reduction
+from dashpot.diagnose.whitening import Noise, independent_share, learn_filter
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.workers import spread
 
 Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
 RIDGE = 1e-9
 LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
-HELD_BYTES = 250e6  # of rows of a look
 REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
-
-
-@dataclass(frozen=True)
-class Layout:
-    """Where columns stand: the residual first, then the tangents of the terms' numbers, what each term adds to the
-    force, and the candidates.
-    """
-
-    tangents: int
-    terms: int
-    bank: int
-
-    def term(self, number: int) -> int:
-        """The column of what a term adds to the force."""
-        return 1 + self.tangents + number
-
-    @property
-    def first_candidate(self) -> int:
-        """The first column of the candidates."""
-        return 1 + self.tangents + self.terms
-
-    @property
-    def size(self) -> int:
-        """How many columns there are."""
-        return self.first_candidate + self.bank
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,76 +94,46 @@ def look_at(
     look.
     """
     runs, view = refitter.runs, view_of(model.fitted, refitter.runs, refitter.elements, refitter.jobs)
-    steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
-    plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
-    residual, tangents = refitter.linearise(model, plain)
     inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
     if known is None:
         candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside), refitter.sheet)
     else:
         candidates, unavailable = renumbered(known, causes), ()
-    bends = bends_of_tables(runs, view, model.fitted)
-    own, base = _own_and_base(model)
-    forces = refitter.term_forces(model) if causes else []
-    layout = Layout(own.size, len(forces), candidates[-1].columns.stop if candidates else 0)
-    inner = inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None
-    faults, free = [doubt.fault for doubt in doubted], base.size + len(next(iter(bends.values())))
+    columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted], bool(causes))
+    layout, free, plain = columns.layout, columns.free, columns.plain
     precision = _known_beforehand(free, doubted, len(runs))
     first = precision.size  # columns in front, which are projected out
-    each = (first - free) // len(runs)
-    numbers = {run.name: number for number, run in enumerate(runs)}
-
-    def rows_of(run: ScoredRun) -> Array:
-        name = run.name
-        rows = np.zeros((first + layout.size, plain.kept(name, run.samples)))
-        rows[: base.size] = tangents[name][base]
-        rows[base.size : free] = plain.reduce(name, bends[name])
-        at = free + each * numbers[name]
-        rows[at : at + each] = _shapes(faults, view, run, plain)
-        rows[first] = residual[name]
-        rows[first + 1 : first + 1 + own.size] = tangents[name][own]
-        for number, force in enumerate(forces):
-            rows[first + layout.term(number)] = plain.reduce(name, force[name][run.first :])
-        bank = rows[first + layout.first_candidate :]
-        for candidate in (candidate for candidate in candidates if candidate.site is None):
-            bank[candidate.columns] = refitter.columns(candidate, view, run, plain)
-        if inner is not None:
-            places, values = inner[name]
-            bank[places] = plain.reduce(name, values)
-        return rows
-
-    rows = Rows(runs, rows_of, lambda run: 8 * (first + layout.size) * plain.kept(run.name, run.samples), refitter.jobs)
+    rows = Rows(columns, refitter.jobs)
     alone, rich = noise, 0.0
     if noise is None:
         noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
     grams, samples, squares = _grams(rows, noise, folds)
     del rows
-    exact = beside_base(grams[:, : first + 1 + own.size, : first + 1 + own.size], precision, free)[0]
+    terms = 1 + layout.tangents
+    exact = beside_base(grams[:, : first + terms, : first + terms], precision, free)[0]
     grams, errors = with_form_errors(grams, first, layout, model, candidates)
     projected, moves, prior, occam = beside_base(grams, np.concatenate([precision, errors]), free)
-    prior[range(1, 1 + own.size), range(1, 1 + own.size)] += REACH**-2.0
-    return Look(model, noise, view, tuple(candidates), layout, projected, exact, prior, occam, samples, folds,
-                np.sqrt(squares[first:]), unavailable, alone or noise, rich, own, base, moves[: base.size])  # fmt: skip
-
-
-class Rows(Mapping[str, Array]):
-    """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time."""
-
-    def __init__(self, runs: Sequence[ScoredRun], make: Callable[[ScoredRun], Array], size: Callable[[ScoredRun], int],
-                 jobs: int) -> None:  # fmt: skip
-        self._runs, self._make = {run.name: run for run in runs}, make
-        ends = np.cumsum([size(run) for run in runs])
-        held = [run for run, end in zip(runs, ends, strict=True) if end < HELD_BYTES]
-        self._held = dict(zip((run.name for run in held), spread(make, held, jobs=jobs), strict=True))
-
-    def __getitem__(self, name: str) -> Array:
-        return self._held[name] if name in self._held else self._make(self._runs[name])
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._runs)
-
-    def __len__(self) -> int:
-        return len(self._runs)
+    prior[range(1, terms), range(1, terms)] += REACH**-2.0
+    return Look(
+        model=model,
+        noise=noise,
+        view=view,
+        candidates=tuple(candidates),
+        layout=layout,
+        grams=projected,
+        exact=exact,
+        prior=prior,
+        occam=occam,
+        samples=samples,
+        folds=folds,
+        sizes=np.sqrt(squares[first:]),
+        unavailable=unavailable,
+        measured_noise=alone or noise,
+        rich=rich,
+        own=columns.own,
+        base=columns.base,
+        base_moves=moves[: columns.base.size],
+    )
 
 
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
@@ -199,24 +142,12 @@ def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
     return np.concatenate([np.zeros(free), *(each * runs)])
 
 
-def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """The coordinates of the terms' numbers, and those of the base."""
-    mine = {path for owned in model.owned for path in owned}
-    own = np.array([path in mine for path in model.coordinates.paths], dtype=bool)
-    return np.flatnonzero(own), np.flatnonzero(~own)
-
-
-def _shapes(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noise: Noise) -> Array:
-    """What faults of the channel add to a run (k, kept) at unit strength, reduced."""
-    shapes = [np.atleast_2d(fault.shapes(view, run.name))[:, run.first :] for fault in faults]
-    return noise.reduce_shapes(run.name, np.concatenate([np.zeros((0, run.samples)), *shapes]))
-
-
-def _shown_at_rest(causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
-                   ) -> dict[str, Array]:  # fmt: skip
+def _shown_at_rest(
+    causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
+) -> dict[str, Array]:
     """What faults that need no motion would add to each run (k, kept)."""
     still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
-    return {run.name: _shapes(still, view, run, noise) for run in runs}
+    return {run.name: shapes_of(still, view, run, noise) for run in runs}
 
 
 def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array, Array, Array]:
@@ -235,8 +166,9 @@ def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array
     return grams, samples, squares
 
 
-def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
-                     ) -> tuple[Array, Array]:  # fmt: skip
+def with_form_errors(
+    grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
+) -> tuple[Array, Array]:
     """Gram matrices with the errors of the forms of the terms behind the first columns, and their precision (k,).
 
     The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
@@ -248,8 +180,7 @@ def with_form_errors(grams: Array, first: int, layout: Layout, model: Model, can
         size = total[first + layout.term(number)]
         if size < RIDGE * total[first]:
             continue  # a term without a force has no form that could err
-        alike = [at for one in candidates if one.name == term.name
-                 for at in range(one.columns.start, one.columns.stop)]  # fmt: skip
+        alike = [at for one in candidates if one.name == term.name for at in range(one.columns.start, one.columns.stop)]
         columns = first + layout.first_candidate + np.array(alike, dtype=np.intp)
         columns = columns[total[columns] > 0.0]
         places += columns.tolist()
@@ -293,8 +224,9 @@ def _beside(gram: Array, moves: Array) -> Array:
     return left
 
 
-def learn_noise(rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
-                ) -> tuple[Noise, Noise, float]:  # fmt: skip
+def learn_noise(
+    rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
+) -> tuple[Noise, Noise, float]:
     """The noise of each run from what all columns together leave, with the error of the model and without; its RMS, N.
 
     The residual is row ``first``; ``lines`` (k, kept) that a run may show at rest are neither. What the columns take up

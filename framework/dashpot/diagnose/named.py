@@ -66,8 +66,9 @@ class NamedCause:
     @property
     def evidence(self) -> str:
         """How it shows, and how sure that is."""
-        forms = list(dict.fromkeys([*(term.suspect.form for term in self.terms),
-                                    *(one.kind.fault.form for one in self.accused)]))  # fmt: skip
+        forms = list(
+            dict.fromkeys([*(term.suspect.form for term in self.terms), *(one.kind.fault.form for one in self.accused)])
+        )
         shown = f"{self.cause.shows}. As {', then '.join(forms)} it has a probability of {self.probability:.2g}"
         better, all_groups = self.groups
         where = f" and predicts {better} of {all_groups} groups of runs better that were left out" if all_groups else ""
@@ -80,8 +81,10 @@ class NamedCause:
             hum = one.correction.hum
             size = float(np.hypot(hum[1], hum[2])) if hum else float(one.strengths[0])
             found[f"{one.kind.fault.quantity} of {one.run}"] = {
-                "value": size, "unit": one.kind.fault.unit, "interval": None,
-            }  # fmt: skip
+                "value": size,
+                "unit": one.kind.fault.unit,
+                "interval": None,
+            }
         for path, value in self.slots.items():
             branch, _, name = path.partition(".")
             found[name if branch == self.branch else path] = {

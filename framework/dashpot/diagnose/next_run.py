@@ -97,8 +97,9 @@ class _Pair:
         fewest = min(model.point.size for model in self.models)
         distances = [
             _distance(forces[1] - forces[0], _tangents(model, run), directions, self.deviation)
-            for model, directions in zip(self.models, self.known, strict=True) if model.point.size == fewest
-        ]  # fmt: skip
+            for model, directions in zip(self.models, self.known, strict=True)
+            if model.point.size == fewest
+        ]
         depends = any(used_settings(model.fitted, settings) for model in self.models)
         return NextRun(proposal, min(distances), self.like.name if depends else "")
 

@@ -38,8 +38,9 @@ def polished(model: Model, runs: Sequence[ScoredRun], jobs: Jobs, steps: int = S
     return ordered(model.fitted, with_point(model.fitted, model.coordinates, found.point))
 
 
-def left_out_error(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: Jobs
-                   ) -> float | None:  # fmt: skip
+def left_out_error(
+    network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: Jobs
+) -> float | None:
     """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group."""
     names = list(dict.fromkeys(groups[run.name] for run in runs))
     if len(names) < 2:
@@ -63,8 +64,14 @@ def _left_out(
     return [float(error) ** 2] * len(left_out)
 
 
-def known(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int,
-          floor: float | None) -> NetworkSpec:  # fmt: skip
+def known(
+    network: NetworkSpec,
+    model: Model,
+    runs: Sequence[ScoredRun],
+    groups: Mapping[str, str],
+    jobs: int,
+    floor: float | None,
+) -> NetworkSpec:
     """The network with the intervals of its numbers: by the scatter between pieces of runs, or between whole runs.
 
     The wider one counts: what differs from run to run does not show within them.
@@ -78,8 +85,11 @@ def known(network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups:
     for k, path in enumerate(coordinates.paths):
         low, high = found.intervals[k]
         if np.isfinite(found.widths[k]) and between[k] > found.widths[k]:
-            ends = np.clip(point[k] + np.array([-1.0, 1.0]) * between[k] * coordinates.unit[k],
-                           coordinates.low[k], coordinates.high[k])  # fmt: skip
+            ends = np.clip(
+                point[k] + np.array([-1.0, 1.0]) * between[k] * coordinates.unit[k],
+                coordinates.low[k],
+                coordinates.high[k],
+            )
             low, high = (coordinates.number(k, end) for end in ends)
         intervals[path] = low, high
     return with_intervals(network, intervals)

@@ -188,8 +188,9 @@ class Pursuer:
             onward = self._next_look(fresh, present) if ended else None
             if onward is None:
                 weights = self.weights(len(look.folds.names))
-                return Pursuit(present, look, first, without, rivals, tuple(others), weights, looks, ended,
-                               tuple(self.refused))  # fmt: skip
+                return Pursuit(
+                    present, look, first, without, rivals, tuple(others), weights, looks, ended, tuple(self.refused)
+                )
             look = onward
 
     def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool, list[Scored]]:

@@ -97,8 +97,9 @@ class Refitter:
         root = model.fitted.root
         kept = tuple(member for member in root.members if member.name != branch)
         start = replace(model.fitted, root=replace(root, members=kept))
-        return self._fitted(model.base, model.terms, model.declared, model.owned, start, noise, TRIAL_STEPS,
-                            TRIAL_TOLERANCE)  # fmt: skip
+        return self._fitted(
+            model.base, model.terms, model.declared, model.owned, start, noise, TRIAL_STEPS, TRIAL_TOLERANCE
+        )
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
@@ -106,8 +107,10 @@ class Refitter:
         misfit, jacobian = linearise(objective, model.coordinates, model.point)
         jacobian = np.where(model.at_bound[:, None] | ~np.isfinite(jacobian), 0.0, jacobian)
         pieces = dict(zip((run.name for run in self.runs), objective.pieces, strict=True))
-        return ({name: -misfit[piece] for name, piece in pieces.items()},
-                {name: jacobian[:, piece] for name, piece in pieces.items()})  # fmt: skip
+        return (
+            {name: -misfit[piece] for name, piece in pieces.items()},
+            {name: jacobian[:, piece] for name, piece in pieces.items()},
+        )
 
     def forces(self, network: NetworkSpec) -> dict[str, Array]:
         """The force (n,) in N that a network with its numbers shows, by run."""
@@ -156,8 +159,13 @@ class Refitter:
         stuck = {path for path, at in zip(model.coordinates.paths, model.at_bound, strict=True) if at}
         declared = {slot.path: slot.value.number for slot in with_ranges(model.declared, self.sizes).slots()}
         freed = stuck & set(declared)
-        return model.fitted.with_values({slot.path: replace(slot.value, number=declared[slot.path])
-                                         for slot in model.fitted.slots() if slot.path in freed})  # fmt: skip
+        return model.fitted.with_values(
+            {
+                slot.path: replace(slot.value, number=declared[slot.path])
+                for slot in model.fitted.slots()
+                if slot.path in freed
+            }
+        )
 
     def _start(
         self, model: Model, terms: Sequence[Term], numbers: NetworkSpec
@@ -177,9 +185,17 @@ class Refitter:
     def _objective(self, network: NetworkSpec, noise: Noise) -> Objective:
         return Objective(compile_network(network), self.runs, self.jobs, noise)
 
-    def _fitted(self, base: NetworkSpec, terms: tuple[Term, ...], declared: NetworkSpec,
-                owned: tuple[tuple[str, ...], ...], start: NetworkSpec, noise: Noise,
-                steps: int = STEPS, tolerance: float = TOLERANCE) -> Model:  # fmt: skip
+    def _fitted(
+        self,
+        base: NetworkSpec,
+        terms: tuple[Term, ...],
+        declared: NetworkSpec,
+        owned: tuple[tuple[str, ...], ...],
+        start: NetworkSpec,
+        noise: Noise,
+        steps: int = STEPS,
+        tolerance: float = TOLERANCE,
+    ) -> Model:
         coordinates = search_coordinates(start)
         found = refine(self._objective(start, noise), coordinates, coordinates.start, steps, tolerance)
         fitted = with_point(start, coordinates, found.point)

@@ -91,8 +91,11 @@ class Scores:
     def atoms(self, structure: Structure) -> list[int]:
         """The columns that join."""
         first = self.look.layout.first_candidate
-        return [first + self.look.candidates[k].columns.start + place
-                for k, places in sorted(structure.added) for place in places]  # fmt: skip
+        return [
+            first + self.look.candidates[k].columns.start + place
+            for k, places in sorted(structure.added)
+            for place in places
+        ]
 
     def target(self, structure: Structure) -> Array:
         """The residual as a combination (c,) of the scaled columns: what dropped terms explained comes back."""

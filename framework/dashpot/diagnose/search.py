@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.look import Candidate
+from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.score import Added, Scores, Structure
 
 Array = NDArray[np.float64]
@@ -39,8 +39,11 @@ def search(scores: Scores) -> list[Structure]:
 
 def moves_from(scores: Scores, structure: Structure) -> set[Structure]:
     """All structures one step away that the score test proposes."""
-    found = {Structure(structure.dropped | {number}, structure.added)
-             for number in range(len(scores.kinds)) if number not in structure.dropped}  # fmt: skip
+    found = {
+        Structure(structure.dropped | {number}, structure.added)
+        for number in range(len(scores.kinds))
+        if number not in structure.dropped
+    }
     found |= {Structure(structure.dropped - {number}, structure.added) for number in structure.dropped}
     if len(structure.added) < MOST_ADDED:
         found |= {Structure(structure.dropped, structure.added | {one}) for one in additions(scores, structure)}
@@ -136,8 +139,9 @@ def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, .
     return best
 
 
-def _jointly(own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected,
-             positive: bool) -> tuple[float, tuple[int, ...]] | None:  # fmt: skip
+def _jointly(
+    own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected, positive: bool
+) -> tuple[float, tuple[int, ...]] | None:
     from scipy.optimize import nnls
 
     at = own[alive]

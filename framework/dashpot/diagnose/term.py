@@ -124,16 +124,20 @@ def extended(
     return declared, tuple(slot.path for slot in declared.slots() if slot.path not in known)
 
 
-def inherited(declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Term], model: Model,
-              sizes: Sizes) -> NetworkSpec:  # fmt: skip
+def inherited(
+    declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Term], model: Model, sizes: Sizes
+) -> NetworkSpec:
     """A declared structure with the fitted numbers of a model wherever the two share a term or the base."""
     homes = {path: path for path in (slot.path for slot in model.base.slots())}
     for term, paths in zip(terms, owned, strict=True):
         if term in model.terms:
             old = model.owned[model.terms.index(term)]
             homes.update(zip(paths, old, strict=False) if len(old) == len(paths) else ())
-    curves = {f"{branch.name}.{key}": curve
-              for branch in model.fitted.leaves() for key, curve in branch.characteristics().items()}  # fmt: skip
+    curves = {
+        f"{branch.name}.{key}": curve
+        for branch in model.fitted.leaves()
+        for key, curve in branch.characteristics().items()
+    }
     for path in declared.data_curves():
         declared = declared.with_curve(path, curves[path])
     known = {slot.path: slot.value for slot in model.fitted.slots()}

@@ -35,8 +35,11 @@ class Recipe:
         self._roots = [place[root.serial] for root in roots]
         self._begin = [node.payload if node.operation == "constant" else None for node in nodes]
         self._symbols = [(place[node.serial], node.payload) for node in nodes if node.operation == "symbol"]
-        self._steps = [(place[node.serial], _function(node), [place[argument.serial] for argument in node.arguments])
-                       for node in nodes if node.arguments]  # fmt: skip
+        self._steps = [
+            (place[node.serial], _function(node), [place[argument.serial] for argument in node.arguments])
+            for node in nodes
+            if node.arguments
+        ]
 
     def __call__(self, values: Mapping[str, Any], tables: Tables | None = None) -> list[Any]:
         """The values of the roots."""

@@ -19,15 +19,40 @@ _symbols: dict[int, frozenset[str]] = {}
 
 # numpy's name of a ufunc -> our name; the two differ only where numpy has aliases
 UFUNCS = {
-    "add": "add", "subtract": "subtract", "multiply": "multiply", "divide": "divide", "true_divide": "divide",
-    "negative": "negative", "absolute": "absolute", "fabs": "absolute", "sqrt": "sqrt", "exp": "exp",
-    "expm1": "expm1", "log": "log", "log1p": "log1p", "tanh": "tanh", "sin": "sin", "cos": "cos",
-    "minimum": "minimum", "maximum": "maximum", "power": "power", "sign": "sign",
-    "less": "less", "less_equal": "less_equal", "greater": "greater", "greater_equal": "greater_equal",
-    "equal": "equal", "not_equal": "not_equal", "logical_and": "logical_and", "logical_or": "logical_or",
-    "bitwise_and": "logical_and", "bitwise_or": "logical_or", "logical_not": "logical_not", "invert": "logical_not",
+    "add": "add",
+    "subtract": "subtract",
+    "multiply": "multiply",
+    "divide": "divide",
+    "true_divide": "divide",
+    "negative": "negative",
+    "absolute": "absolute",
+    "fabs": "absolute",
+    "sqrt": "sqrt",
+    "exp": "exp",
+    "expm1": "expm1",
+    "log": "log",
+    "log1p": "log1p",
+    "tanh": "tanh",
+    "sin": "sin",
+    "cos": "cos",
+    "minimum": "minimum",
+    "maximum": "maximum",
+    "power": "power",
+    "sign": "sign",
+    "less": "less",
+    "less_equal": "less_equal",
+    "greater": "greater",
+    "greater_equal": "greater_equal",
+    "equal": "equal",
+    "not_equal": "not_equal",
+    "logical_and": "logical_and",
+    "logical_or": "logical_or",
+    "bitwise_and": "logical_and",
+    "bitwise_or": "logical_or",
+    "logical_not": "logical_not",
+    "invert": "logical_not",
     "wrightomega": "wrightomega",
-}  # fmt: skip
+}
 
 
 # operations that answer true or false
@@ -56,8 +81,10 @@ class Node(np.lib.mixins.NDArrayOperatorsMixin):
         if operation is None:
             raise TraceError(f"a law may not use numpy.{ufunc.__name__}; usable are {', '.join(sorted(UFUNCS))}")
         if method != "__call__" or kwargs:
-            raise TraceError(f"a law may call numpy.{ufunc.__name__} with its arguments only; "
-                             "instead of changing a value in place (a += b) write a = a + b")  # fmt: skip
+            raise TraceError(
+                f"a law may call numpy.{ufunc.__name__} with its arguments only; "
+                "instead of changing a value in place (a += b) write a = a + b"
+            )
         return apply(operation, *(as_node(value) for value in inputs))
 
     def __array_function__(self, function: Callable[..., Any], types: Any, args: Any, kwargs: Any) -> Node:
@@ -65,8 +92,10 @@ class Node(np.lib.mixins.NDArrayOperatorsMixin):
             return apply("where", *(as_node(value) for value in args))
         if function is np.clip and len(args) == 3:
             return np.minimum(np.maximum(args[0], args[1]), args[2])
-        raise TraceError(f"a law may not use numpy.{function.__name__}; traced are where, clip and the ufuncs "
-                         f"{', '.join(sorted(UFUNCS))}")  # fmt: skip
+        raise TraceError(
+            f"a law may not use numpy.{function.__name__}; traced are where, clip and the ufuncs "
+            f"{', '.join(sorted(UFUNCS))}"
+        )
 
     def __bool__(self) -> bool:
         raise TraceError("a law may not branch on a traced value; use np.where(condition, yes, no)")

@@ -144,9 +144,7 @@ def fit_each(
     return pieces(_fitted, (setting, method, seed, threads(jobs), progress), specs, jobs)
 
 
-def _fitted(
-    shared: tuple[Setting, Optimizer | None, int, int, Progress], spec: NetworkSpec
-) -> FitResult | InputError:
+def _fitted(shared: tuple[Setting, Optimizer | None, int, int, Progress], spec: NetworkSpec) -> FitResult | InputError:
     try:
         return fit_prepared(spec, *shared)
     except InputError as error:

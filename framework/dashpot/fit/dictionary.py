@@ -50,8 +50,11 @@ def dictionary_start(objective: Objective, coordinates: Coordinates) -> Start | 
         return None
     searched = set(coordinates.which.tolist())
     sizes = natural_sizes(objective.runs)
-    kinds = [kind for number, part in enumerate(objective.parts[0].members)
-             for kind in _kinds(number, part, network.start, searched, sizes)]  # fmt: skip
+    kinds = [
+        kind
+        for number, part in enumerate(objective.parts[0].members)
+        for kind in _kinds(number, part, network.start, searched, sizes)
+    ]
     strengths = _strengths(objective, kinds)
     if strengths is None:
         return None
@@ -172,9 +175,9 @@ def _strengths(objective: Objective, kinds: Sequence[_Kind]) -> list[Array] | No
     loose = np.concatenate([np.full(len(kind.lanes), bool(kind.forces)) for kind in kinds])
     normal, right = np.zeros((loose.size, loose.size)), np.zeros(loose.size)
     for number, run in enumerate(objective.runs):
-        forces = np.concatenate([
-            parts.members[kind.member].network.simulate(rows[number][kind.member], kind.lanes) for kind in kinds
-        ])[:, run.first :] * objective.factor(number)  # fmt: skip
+        forces = np.concatenate(
+            [parts.members[kind.member].network.simulate(rows[number][kind.member], kind.lanes) for kind in kinds]
+        )[:, run.first :] * objective.factor(number)
         target = run.force[run.first :] * objective.factor(number) - forces[~loose].sum(axis=0)
         normal += forces @ forces.T
         right += forces @ target

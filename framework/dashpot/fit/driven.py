@@ -55,8 +55,10 @@ def _within(run: PlannedRun, limits: Limits, largest_force: Callable[[PlannedRun
         followed = _followed(run, limits.bandwidth)
         share = _rms_speed(followed) / (_rms_speed(run) or 1.0)
         words += [f"the servo of {limits.bandwidth:g} Hz reaches {share:.3g} of the speed"] * (share < FULL)
-    for what, unit, bound, found in (("stroke", "mm", 1e3 * limits.stroke, 1e3 * _stroke(followed)),
-                                     ("speed", "m/s", limits.speed, _speed(followed))):  # fmt: skip
+    for what, unit, bound, found in (
+        ("stroke", "mm", 1e3 * limits.stroke, 1e3 * _stroke(followed)),
+        ("speed", "m/s", limits.speed, _speed(followed)),
+    ):
         if found > bound:
             followed = _smaller(followed, bound / found)
             words.append(f"{what} {found:.4g} {unit}, at most {bound:.4g} {unit}: {_made(bound / found)}")
@@ -84,8 +86,9 @@ def _smaller(run: PlannedRun, factor: float) -> PlannedRun:
 
     def shrunk(path: PrescribedPath) -> PrescribedPath:
         first = path.displacement[0]
-        return PrescribedPath(first + factor * (path.displacement - first), factor * path.velocity,
-                              factor * path.acceleration)  # fmt: skip
+        return PrescribedPath(
+            first + factor * (path.displacement - first), factor * path.velocity, factor * path.acceleration
+        )
 
     motion = {node: shrunk(path) for node, path in run.motion.items()}
     return replace(run, motion=motion, settings=_resized(run.settings, factor))
@@ -103,8 +106,11 @@ def _bearable(run: PlannedRun, limit: float, largest_force: Callable[[PlannedRun
     """The factor on the motion at which its largest force is between 99 and 100 % of the limit, by halving."""
     rest = largest_force(_smaller(run, 0.0))
     if rest >= limit:
-        raise InputError.at(Place(run.name), f"the specimen presses with {rest:.4g} N at the first place of the run, "
-                            f"the rig bears {limit:.4g} N", "begin elsewhere, or raise the limit")  # fmt: skip
+        raise InputError.at(
+            Place(run.name),
+            f"the specimen presses with {rest:.4g} N at the first place of the run, the rig bears {limit:.4g} N",
+            "begin elsewhere, or raise the limit",
+        )
     low, high = 0.0, 1.0
     for _ in range(ROUNDS):
         middle = 0.5 * (low + high)

@@ -74,13 +74,20 @@ def _velocities(spec: NetworkSpec, excitation: Excitation) -> dict[str, Array]:
     rows = network.prepare(excitation)
     solved = network.solve(rows)
     known = {node: rows.excitation.motions[node].velocity for node in network.outputs}
-    return known | {node: np.gradient(motion, excitation.dt)
-                    for node, motion in zip(solved.unknown, solved.motion[0], strict=True)}  # fmt: skip
+    return known | {
+        node: np.gradient(motion, excitation.dt) for node, motion in zip(solved.unknown, solved.motion[0], strict=True)
+    }
 
 
 def _told(path: str, curve: Characteristic, speeds: Array) -> VelocityCurve:
     low, high = np.quantile(speeds[np.isfinite(speeds)], [RARE, 1.0 - RARE])
     numbers = [value.number for value in curve.values]
     ends = [value.interval or (value.number, value.number) for value in curve.values]
-    return VelocityCurve(path, tuple(curve.at), tuple(numbers), tuple(end[0] for end in ends),
-                         tuple(end[1] for end in ends), (float(low), float(high)))  # fmt: skip
+    return VelocityCurve(
+        path,
+        tuple(curve.at),
+        tuple(numbers),
+        tuple(end[0] for end in ends),
+        tuple(end[1] for end in ends),
+        (float(low), float(high)),
+    )

@@ -97,8 +97,7 @@ def _known(force: float, unit: str, error: float) -> Value:
 
 def moved_curve(curve: Characteristic, force: Array) -> Characteristic:
     """A table with other forces (knots,) N, each with the range and the interval that it had about the old one."""
-    values = tuple(_shifted(value, float(new) - value.number)
-                   for value, new in zip(curve.values, force, strict=True))  # fmt: skip
+    values = tuple(_shifted(value, float(new) - value.number) for value, new in zip(curve.values, force, strict=True))
     return replace(curve, values=values)
 
 

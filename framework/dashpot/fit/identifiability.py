@@ -88,8 +88,10 @@ class Identifiability:
     @property
     def sentences(self) -> list[str]:
         """Everything that is not well known, in words."""
-        idle = [f"{number_in_words(path)} could not be moved: the network is not solved around its value"
-                for path in self.unsolved]  # fmt: skip
+        idle = [
+            f"{number_in_words(path)} could not be moved: the network is not solved around its value"
+            for path in self.unsolved
+        ]
         idle += [f"{number_in_words(path)} has no influence on these data" for path in self.idle]
         more = len(self.loose) - SHOWN
         rest = [f"{more} more combinations are weakly determined"] if more > 0 else []
@@ -119,8 +121,10 @@ def identifiability(
     if not felt.size:
         return Identifiability(1.0, {}, (), idle_paths, unsolved_paths)
     axes, lengths, rows = np.linalg.svd(jacobian[felt] / size[felt, None], full_matrices=False)
-    scores = sum(objective.factor(number) ** 2 * variance_of(rows[:, piece], noise[run.name])
-                 for number, (run, piece) in enumerate(zip(objective.runs, objective.pieces, strict=True)))  # fmt: skip
+    scores = sum(
+        objective.factor(number) ** 2 * variance_of(rows[:, piece], noise[run.name])
+        for number, (run, piece) in enumerate(zip(objective.runs, objective.pieces, strict=True))
+    )
     root = axes / np.maximum(lengths, SMALLEST * lengths[0]) / size[felt, None]
     covariance = root @ scores @ root.T
     values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
@@ -142,8 +146,11 @@ def may_go(spec: NetworkSpec, known: Identifiability) -> list[str]:
         if slot.value.searched:
             searched.setdefault(_branch_of(slot.path), []).append(slot.path)
     laws = {branch.name: branch.element.word for branch in spec.leaves()}
-    found = [f"{name} has no influence on these data and may go"
-             for name, paths in searched.items() if name in laws and set(paths) <= set(known.idle)]  # fmt: skip
+    found = [
+        f"{name} has no influence on these data and may go"
+        for name, paths in searched.items()
+        if name in laws and set(paths) <= set(known.idle)
+    ]
     lost = dict.fromkeys(tuple(sorted(set(map(_branch_of, each.above(WEAKER))))) for each in known.loose if each.lost)
     alike = [pair for pair in lost if len({laws.get(name, name) for name in pair}) == 1]
     twins = [" and ".join(pair) for pair in alike if len(pair) == 2]

@@ -50,8 +50,10 @@ class BesideMidLine:
         residual, changes = self.objective.linearise(values, which, shifts)
         slow, moves = self.slow.linearise(values, which, shifts)
         factor = self.weight * np.sqrt(self.objective.total / self.middle.shape[0])
-        return (np.append(residual, factor * (self.middle @ slow)),
-                np.hstack([changes, factor * (self.middle @ moves.T).T]))  # fmt: skip
+        return (
+            np.append(residual, factor * (self.middle @ slow)),
+            np.hstack([changes, factor * (self.middle @ moves.T).T]),
+        )
 
     def _misfit(self, values: Array) -> Array:
         """The mid line (lanes, m) of simulated minus measured force, N."""

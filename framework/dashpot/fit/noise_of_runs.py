@@ -93,5 +93,7 @@ def _sampled(noise: NoiseSpectrum, sample_time: float) -> NoiseSpectrum:
 
 def white(deviations: Mapping[str, float], sample_time: float) -> dict[str, NoiseSpectrum]:
     """White noise of given standard deviations by run."""
-    return {run: NoiseSpectrum(np.array([NYQUIST / sample_time]), np.array([2.0 * sample_time * each**2]), sample_time)
-            for run, each in deviations.items()}  # fmt: skip
+    return {
+        run: NoiseSpectrum(np.array([NYQUIST / sample_time]), np.array([2.0 * sample_time * each**2]), sample_time)
+        for run, each in deviations.items()
+    }

@@ -63,8 +63,13 @@ def interchangeable(declared: NetworkSpec, spec: NetworkSpec) -> tuple[Interchan
         keys = [slot.path.removeprefix(branches[0].name) for slot in branch_slots(branches[0])]
         slots = np.array([[places[f"{branch.name}{key}"] for key in keys] for branch in branches])
         column = {key: number for number, key in enumerate(keys)}
-        family = Interchangeable(tuple(branch.name for branch in branches), slots, column[f".{over}"],
-                                 None if under is None else column[f".{under}"], False)  # fmt: skip
+        family = Interchangeable(
+            tuple(branch.name for branch in branches),
+            slots,
+            column[f".{over}"],
+            None if under is None else column[f".{under}"],
+            False,
+        )
         begin = np.array([[starts.get(slot.path, slot.value.number) for slot in spec.slots()]])
         falling = bool(np.all(np.diff(family.keys(begin)[0]) < 0.0))
         found.append(Interchangeable(family.names, slots, family.over, family.under, falling))
@@ -82,8 +87,13 @@ def ordered(declared: NetworkSpec, spec: NetworkSpec) -> NetworkSpec:
     """The network with its interchangeable branches in order."""
     slots = spec.slots()
     found = in_order(interchangeable(declared, spec), np.array([[slot.value.number for slot in slots]]))[0]
-    return spec.with_values({slot.path: replace(slot.value, number=float(number))
-                             for slot, number in zip(slots, found, strict=True) if slot.of is None})  # fmt: skip
+    return spec.with_values(
+        {
+            slot.path: replace(slot.value, number=float(number))
+            for slot, number in zip(slots, found, strict=True)
+            if slot.of is None
+        }
+    )
 
 
 def _alike(spec: NetworkSpec) -> Iterator[list[Branch]]:

@@ -85,8 +85,13 @@ def _size_of(run: ScoredRun) -> Size:
 
 def with_ranges(spec: NetworkSpec, sizes: Sizes) -> NetworkSpec:
     """The network with bounds for every searched value that has none; a start outside them moves to the next one."""
-    return spec.with_values({slot.path: _over_settings(slot.value, slot.of, sizes) if slot.of else
-                             _ranged(slot.value, sizes) for slot in spec.slots() if slot.value.searched})  # fmt: skip
+    return spec.with_values(
+        {
+            slot.path: _over_settings(slot.value, slot.of, sizes) if slot.of else _ranged(slot.value, sizes)
+            for slot in spec.slots()
+            if slot.value.searched
+        }
+    )
 
 
 def _over_settings(value: Value, of: Value, sizes: Sizes) -> Value:

@@ -104,9 +104,7 @@ def linearise(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[
     return residual, jacobian
 
 
-def linearise_marked(
-    objective: Loss, coordinates: Coordinates, point: Array
-) -> tuple[Array, Array, NDArray[np.bool_]]:
+def linearise_marked(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
     """The residual (samples,), its Jacobian (p, samples) after natural steps, and which coordinates could not be moved.
 
     A coordinate that cannot be moved one way is moved the other way. Around one that neither way can be moved the

@@ -60,17 +60,23 @@ class ScoredRun:
 def score_run(run: Run) -> ScoredRun:
     """The run with its path; the first whole cycle warms up, but never more than 15 % of the record."""
     whole = Excitation.of_run(run)
-    return ScoredRun(run.name, run.kind, whole.motions[run.end], np.array(run.force), warm_up(run), run.end, run.record,
-                     whole)  # fmt: skip
+    return ScoredRun(
+        run.name, run.kind, whole.motions[run.end], np.array(run.force), warm_up(run), run.end, run.record, whole
+    )
 
 
 def weighted(runs: Sequence[Run]) -> list[ScoredRun]:
     """The runs as a fit sees them; rows of tables count by the scatter stated of them, on average as one run."""
-    noises = {run.name: run.sensors["force"]["noise"] for run in runs
-              if run.kind == STEADY and "noise" in run.sensors.get("force", {})}  # fmt: skip
+    noises = {
+        run.name: run.sensors["force"]["noise"]
+        for run in runs
+        if run.kind == STEADY and "noise" in run.sensors.get("force", {})
+    }
     mean = np.mean([noise**-2 for noise in noises.values()]) if noises else 1.0
-    return [replace(score_run(run), weight=float(noises[run.name] ** -2 / mean) if run.name in noises else 1.0)
-            for run in runs]  # fmt: skip
+    return [
+        replace(score_run(run), weight=float(noises[run.name] ** -2 / mean) if run.name in noises else 1.0)
+        for run in runs
+    ]
 
 
 def warm_up(run: Run) -> int:

@@ -155,8 +155,9 @@ def _blocks(objective: Objective) -> list[NDArray[np.int64]]:
         pieces = [np.arange(objective.pieces[number].start, objective.pieces[number].stop) for number in group]
         longest = max(piece.size for piece in pieces)
         length = longest if run.kind == STEADY else length
-        found += [np.concatenate([piece[first : first + length] for piece in pieces])
-                  for first in range(0, longest, length)]  # fmt: skip
+        found += [
+            np.concatenate([piece[first : first + length] for piece in pieces]) for first in range(0, longest, length)
+        ]
     return found
 
 

@@ -47,8 +47,9 @@ def masses_without_tire(fitted: NetworkSpec, runs: Sequence[Run], jobs: int = 1)
     """
     wheels = wheels_behind(fitted)
     records = list({run.record: run for run in runs}.values())
-    if not wheels or not all(channel_at("displacement", wheel) in run.channels
-                             for run in records for wheel in wheels.values()):  # fmt: skip
+    if not wheels or not all(
+        channel_at("displacement", wheel) in run.channels for run in records for wheel in wheels.values()
+    ):
         return []
     parts = one_force_each(Dataset("wheels", tuple(_at_wheels(run, wheels) for run in records))).runs
     scored = [score_run(run) for run in parts]
@@ -59,16 +60,26 @@ def masses_without_tire(fitted: NetworkSpec, runs: Sequence[Run], jobs: int = 1)
         return []
     found = refine(objective, coordinates, coordinates.start, steps=STEPS)
     known = assess_uncertainty(objective, coordinates, found.point)
-    return [MassWithoutTire(path.rpartition(".")[0], coordinates.number(number, found.point[number]),
-                            known.intervals[number], found.loss) for path, number in places.items()]  # fmt: skip
+    return [
+        MassWithoutTire(
+            path.rpartition(".")[0],
+            coordinates.number(number, found.point[number]),
+            known.intervals[number],
+            found.loss,
+        )
+        for path, number in places.items()
+    ]
 
 
 def wheels_behind(spec: NetworkSpec) -> dict[str, str]:
     """Driven node -> the one node with a mass to which all its branches lead; empty where a node has no such."""
     found: dict[str, str] = {}
     for name in (name for name, joint in spec.joints.items() if joint.hold == "driven"):
-        others = {ends.upper if ends.lower == name else ends.lower
-                  for ends in spec.ends.values() if name in (ends.lower, ends.upper)}  # fmt: skip
+        others = {
+            ends.upper if ends.lower == name else ends.lower
+            for ends in spec.ends.values()
+            if name in (ends.lower, ends.upper)
+        }
         if len(others) != 1 or not spec.joints[next(iter(others))].masses:
             return {}
         found[name] = others.pop()
@@ -79,8 +90,11 @@ def cut_off(spec: NetworkSpec, wheels: Mapping[str, str]) -> NetworkSpec:
     """The network without the driven nodes, their branches and a fixture below them; the wheels are driven instead."""
     ends = {name: pair for name, pair in spec.ends.items() if not {pair.lower, pair.upper} & set(wheels)}
     members = tuple(member for member in spec.root.members if member.name in ends)
-    joints = {name: replace(joint, hold="driven") if name in wheels.values() else joint
-              for name, joint in spec.joints.items() if name not in wheels}  # fmt: skip
+    joints = {
+        name: replace(joint, hold="driven") if name in wheels.values() else joint
+        for name, joint in spec.joints.items()
+        if name not in wheels
+    }
     measurement = {key: value for key, value in spec.measurement.items() if key != COMPLIANCE}
     return replace(spec, root=replace(spec.root, members=members), measurement=measurement, joints=joints, ends=ends)
 

@@ -40,9 +40,15 @@ class RunSolution:
     refine: int = 1
 
 
-def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int | None = None,
-               tolerance: float = TOLERANCE, registry: Registry | None = None,
-               progress: Callable[[str, float], None] | None = None) -> dict[str, RunSolution]:  # fmt: skip
+def solve_runs(
+    spec: NetworkSpec | str | Path,
+    dataset: Dataset,
+    *,
+    refine: int | None = None,
+    tolerance: float = TOLERANCE,
+    registry: Registry | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> dict[str, RunSolution]:
     """Forces and motions of a network along the motions of every run, by the name of the run.
 
     The forces are seen through the network's ``measurement`` (gain, offset ...). A network given by file or shipped
@@ -55,15 +61,19 @@ def solve_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *, refine: int 
     if not isinstance(spec, NetworkSpec):
         spec = read_network(spec, (registry or load_registry()).elements)
     require_settings(spec, {run.name: settings_of(run) for run in dataset.runs})
-    solved = solve_each(
-        spec, dataset.runs, len(dataset.runs), refine=refine, tolerance=tolerance, progress=progress
-    )
+    solved = solve_each(spec, dataset.runs, len(dataset.runs), refine=refine, tolerance=tolerance, progress=progress)
     return {run.name: solution for run, solution in solved}
 
 
-def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: int | None = None,
-               tolerance: float = TOLERANCE,
-               progress: Callable[[str, float], None] | None = None) -> Iterator[tuple[Run, RunSolution]]:  # fmt: skip
+def solve_each(
+    spec: NetworkSpec,
+    runs: Iterable[Run],
+    count: int,
+    *,
+    refine: int | None = None,
+    tolerance: float = TOLERANCE,
+    progress: Callable[[str, float], None] | None = None,
+) -> Iterator[tuple[Run, RunSolution]]:
     """The same for one of ``count`` runs after the other; none is kept."""
     network = compile_network(spec)
     for number, run in enumerate(runs):
@@ -72,8 +82,12 @@ def solve_each(spec: NetworkSpec, runs: Iterable[Run], count: int, *, refine: in
         yield run, solve(network, Excitation.of_run(run), refine, tolerance)
 
 
-def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, refine: int | None = None,
-          tolerance: float = TOLERANCE) -> RunSolution:  # fmt: skip
+def solve(
+    network: CompiledNetwork | CompiledSystem,
+    excitation: Excitation,
+    refine: int | None = None,
+    tolerance: float = TOLERANCE,
+) -> RunSolution:
     """One run with the parameters of the file. Raises InputError with the reason where it cannot be solved."""
     observation = network.observation(network.start, excitation.settings)
     if isinstance(network, CompiledNetwork):
@@ -82,12 +96,14 @@ def solve(network: CompiledNetwork | CompiledSystem, excitation: Excitation, ref
     found, error, parts = _solved_within(network, excitation, refine, tolerance)
     force = [observation.see(row[None], excitation.dt)[0] for row in found.force[0]]
     motion = {node: row for node, row in zip(found.unknown, found.motion[0], strict=True) if ":" not in node}
-    return RunSolution(dict(zip(found.driven, force, strict=True)), motion,
-                       dict(zip(found.driven, error.tolist(), strict=True)), parts)  # fmt: skip
+    return RunSolution(
+        dict(zip(found.driven, force, strict=True)), motion, dict(zip(found.driven, error.tolist(), strict=True)), parts
+    )
 
 
-def _solved_within(network: CompiledSystem, excitation: Excitation, refine: int | None,
-                   tolerance: float) -> tuple[Solution, Array, int]:  # fmt: skip
+def _solved_within(
+    network: CompiledSystem, excitation: Excitation, refine: int | None, tolerance: float
+) -> tuple[Solution, Array, int]:
     """The solution, a bound (driven nodes,) of its error, and how many times as many steps it has taken as usual."""
     parts, before = refine or 1, None
     while True:
@@ -114,13 +130,17 @@ def _bound(found: Solution, before: Solution | None) -> Array:
 
 def _good(network: CompiledSystem, found: Solution, excitation: Excitation) -> Solution:
     if found.status[0] is not Status.GOOD:
-        raise InputError.at(Place(network.spec.file), f"{excitation.name or 'the run'} cannot be simulated: "
-                            f"{found.status[0].value}", "check the parameters with 'dashpot check'")  # fmt: skip
+        raise InputError.at(
+            Place(network.spec.file),
+            f"{excitation.name or 'the run'} cannot be simulated: {found.status[0].value}",
+            "check the parameters with 'dashpot check'",
+        )
     return found
 
 
-def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
-                  registry: Registry | None = None) -> dict[str, Array]:  # fmt: skip
+def simulate_runs(
+    spec: NetworkSpec | str | Path, dataset: Dataset, *, registry: Registry | None = None
+) -> dict[str, Array]:
     """The force (n,) in N of a network along the motion of every run, by the name of the run; see ``solve_runs``.
 
     Where a network has several driven nodes the names are ``run@node``.
@@ -130,5 +150,8 @@ def simulate_runs(spec: NetworkSpec | str | Path, dataset: Dataset, *,
 
 def forces_by_name(found: Mapping[str, RunSolution]) -> dict[str, Array]:
     """All forces, called ``run`` or, where there are several, ``run@node``."""
-    return {f"{name}@{node}" if len(each.force) > 1 else name: force
-            for name, each in found.items() for node, force in each.force.items()}  # fmt: skip
+    return {
+        f"{name}@{node}" if len(each.force) > 1 else name: force
+        for name, each in found.items()
+        for node, force in each.force.items()
+    }

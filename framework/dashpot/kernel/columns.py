@@ -34,8 +34,9 @@ class Rows:
     settings: Mapping[str, float] = field(default_factory=dict)
 
 
-def prepare_rows(program: Program, curves: Mapping[str, Characteristic], drive: Drive,
-                 settings: Mapping[str, float]) -> Rows:  # fmt: skip
+def prepare_rows(
+    program: Program, curves: Mapping[str, Characteristic], drive: Drive, settings: Mapping[str, float]
+) -> Rows:
     """Everything of a network that depends on the drive alone. At the first sample no branch has a memory yet."""
     samples, turns = see_samples(drive), see_turns(drive)
     before_samples, before_turns = follow(program.followers, drive, samples, turns)

@@ -41,8 +41,10 @@ def simulate_eagerly(spec: NetworkSpec, drive: Drive, values: Array | None = Non
     """
     block = _block(spec, values)
     numbers = _numbers(spec, block)
-    walkers = [_EagerWalker(branch, traced.sight, numbers, block.shape[0])
-               for branch, traced in zip(spec.leaves(), trace_network(spec), strict=True)]  # fmt: skip
+    walkers = [
+        _EagerWalker(branch, traced.sight, numbers, block.shape[0])
+        for branch, traced in zip(spec.leaves(), trace_network(spec), strict=True)
+    ]
     return _answer(_march(walkers, drive, block.shape[0]), values)
 
 

@@ -94,13 +94,24 @@ class EnergyCounter:
         status = status_of(int(codes[0]), np.array([work.value for work in inputs]))
         if status is not Status.GOOD:
             raise ArithmeticError(f"run '{name}': {status.value}")
-        branches = tuple(_branch(edge.branch.name, edge.branch.element.word, found[edge_row(edge, WORK)],
-                                 found.get(edge_row(edge, STORED)), found.get(edge_row(edge, BEGIN)))
-                         for edge in topology.edges)  # fmt: skip
-        masses = tuple(_mass(joint, "fixture" if joint in topology.mounts else "mass", found)
-                       for joint in topology.joints if row_of(joint, STORED) in found)  # fmt: skip
-        return EnergyBalance(name, sum(work.value for work in inputs), sum(work.error for work in inputs), branches,
-                             masses)  # fmt: skip
+        branches = tuple(
+            _branch(
+                edge.branch.name,
+                edge.branch.element.word,
+                found[edge_row(edge, WORK)],
+                found.get(edge_row(edge, STORED)),
+                found.get(edge_row(edge, BEGIN)),
+            )
+            for edge in topology.edges
+        )
+        masses = tuple(
+            _mass(joint, "fixture" if joint in topology.mounts else "mass", found)
+            for joint in topology.joints
+            if row_of(joint, STORED) in found
+        )
+        return EnergyBalance(
+            name, sum(work.value for work in inputs), sum(work.error for work in inputs), branches, masses
+        )
 
 
 def energy_balance(spec: NetworkSpec, motion: Drive | Excitation) -> EnergyBalance:

@@ -61,8 +61,11 @@ class Influence:
 
     def _pushed(self, rows: SystemRows, pushes: Mapping[Pair, Array]) -> Array:
         # pushes (lanes, n) of each pair, each in the lane of its number
-        signals = {_signal(self.pairs.index(pair), lane): push
-                   for pair, each in pushes.items() for lane, push in enumerate(each)}  # fmt: skip
+        signals = {
+            _signal(self.pairs.index(pair), lane): push
+            for pair, each in pushes.items()
+            for lane, push in enumerate(each)
+        }
         lanes = np.repeat(self.system.start[None], len(next(iter(pushes.values()))), axis=0)
         for lane, values in enumerate(lanes):
             values[self.system.paths.index(f"{FIRST}.{_share(lane)}")] = 1.0
@@ -76,8 +79,10 @@ def _blocks(columns: NDArray[np.intp]) -> Iterator[NDArray[np.intp]]:
 
 def _with_pushes(network: NetworkSpec, pairs: Sequence[Pair]) -> NetworkSpec:
     shares = {_share(lane): Value(0.0, "1") for lane in range(WIDTH)}
-    pushes = [Branch(f"push:{number}", _push(number), shares, {}, shares=FIRST if number else "")
-              for number in range(len(pairs))]  # fmt: skip
+    pushes = [
+        Branch(f"push:{number}", _push(number), shares, {}, shares=FIRST if number else "")
+        for number in range(len(pairs))
+    ]
     ends = {push.name: Ends(*pair) for push, pair in zip(pushes, pairs, strict=True)}
     root = replace(network.root, members=(*network.root.members, *pushes))
     return replace(network, root=root, ends={**network.ends, **ends})

@@ -38,8 +38,12 @@ def _followed(values: Array, slope: Array, steps: float) -> Array:
     fading = math.exp(-steps)
     zero, one, two, three = weights(steps)
     # Hermite's cubic: its value and slope at both ends of a step
-    push = ((zero - 3.0 * two + 2.0 * three) * values[:-1] + (3.0 * two - 2.0 * three) * values[1:]
-            + (one - 2.0 * two + three) * slope[:-1] + (three - two) * slope[1:])  # fmt: skip
+    push = (
+        (zero - 3.0 * two + 2.0 * three) * values[:-1]
+        + (3.0 * two - 2.0 * three) * values[1:]
+        + (one - 2.0 * two + three) * slope[:-1]
+        + (three - two) * slope[1:]
+    )
     return np.concatenate([values[:1], lfilter([1.0], [1.0, -fading], push, zi=[fading * values[0]])[0]])
 
 

@@ -75,8 +75,9 @@ class CompiledNetwork(Compiled[Rows]):
             out[block.place] = buffer.T[: block.count]
         return out[0] if values is None or np.ndim(values) == 1 else out
 
-    def score(self, runs: Sequence[Rows], measured: Sequence[Array], weights: Sequence[Array], values: Array,
-              jobs: int = 1) -> Array:  # fmt: skip
+    def score(
+        self, runs: Sequence[Rows], measured: Sequence[Array], weights: Sequence[Array], values: Array, jobs: int = 1
+    ) -> Array:
         """Weighted sums of squared errors (runs, lanes) against ``measured``, without storing any force.
 
         A lane whose force is not finite scores NaN.
@@ -138,5 +139,13 @@ def compile_network(spec: NetworkSpec) -> CompiledNetwork | CompiledSystem:
 
 
 def _arguments(run: Rows, block: Block, workspace: Array) -> tuple[Any, ...]:
-    return (run.columns, run.index, run.local, run.drive.samples, run.turn_at, run.turn_columns, block.tables,
-            workspace)  # fmt: skip
+    return (
+        run.columns,
+        run.index,
+        run.local,
+        run.drive.samples,
+        run.turn_at,
+        run.turn_columns,
+        block.tables,
+        workspace,
+    )

@@ -38,9 +38,16 @@ class Observation:
     @property
     def plain(self) -> bool:
         """Whether the channel shows the force as it is."""
-        return not (np.any(self.delay) or np.any(self.offset) or np.any(self.gain != 1.0) or np.any(self.lag)
-                    or np.any(self.cosine) or np.any(self.sine)
-                    or np.any(self.least > -np.inf) or np.any(self.largest < np.inf))  # fmt: skip
+        return not (
+            np.any(self.delay)
+            or np.any(self.offset)
+            or np.any(self.gain != 1.0)
+            or np.any(self.lag)
+            or np.any(self.cosine)
+            or np.any(self.sine)
+            or np.any(self.least > -np.inf)
+            or np.any(self.largest < np.inf)
+        )
 
     def see(self, force: Array, dt: float) -> Array:
         """What the channel shows of ``force`` (lanes, samples).

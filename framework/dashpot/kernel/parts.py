@@ -87,8 +87,11 @@ def _make(branch: Branch) -> tuple[Hashable, ...]:
     # different laws may print the same kernel, as the drive is prepared outside: it does not tell them apart
     written = branch.characteristics().items()
     curves = ((key, curve.form, curve.at, len(curve.values)) for key, curve in written)
-    given = ((slot.path.removeprefix(branch.numbers), slot.value.setting, _dependence(slot.value))
-             for slot in branch_slots(branch) if slot.value.setting or slot.value.over)  # fmt: skip
+    given = (
+        (slot.path.removeprefix(branch.numbers), slot.value.setting, _dependence(slot.value))
+        for slot in branch_slots(branch)
+        if slot.value.setting or slot.value.over
+    )
     return (branch.element, *branch.values, *curves, *given)
 
 

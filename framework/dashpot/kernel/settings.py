@@ -22,10 +22,14 @@ def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]
     A number over a setting that is not there stays what it is at the place where it is told.
     """
     slots = spec.slots()
-    given = {number: settings[slot.value.setting] for number, slot in enumerate(slots)
-             if slot.value.setting in settings}  # fmt: skip
-    moving = [(number, slot.value.over) for number, slot in enumerate(slots)
-              if slot.value.over and key_of(slot.value.over) in settings]  # fmt: skip
+    given = {
+        number: settings[slot.value.setting] for number, slot in enumerate(slots) if slot.value.setting in settings
+    }
+    moving = [
+        (number, slot.value.over)
+        for number, slot in enumerate(slots)
+        if slot.value.over and key_of(slot.value.over) in settings
+    ]
     if not given and not moving:
         return lanes
     own = lanes.copy()
@@ -76,8 +80,11 @@ def _problem(slot: Slot, over: Over, run: str) -> Problem:
     what, how = ("channel", "channels") if over.channel else ("setting", "settings")
     place = slot.value.node.place if slot.value.node else Place()
     which = f"run '{run}'" if run else "the run"
-    return Problem(place, f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",
-                   f"add '{over.word}' to the {how} of the run in the dataset file, or leave the run out")  # fmt: skip
+    return Problem(
+        place,
+        f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",
+        f"add '{over.word}' to the {how} of the run in the dataset file, or leave the run out",
+    )
 
 
 def _at(over: Over, base: Array, numbers: Array, setting: float) -> Array:

@@ -45,8 +45,10 @@ def dynamic_stiffness(
     shape = np.broadcast(frequency, amplitude, preload).shape
     sines = np.stack(np.broadcast_arrays(frequency, amplitude, preload)).astype(float).reshape(3, -1).T
     if not (sines[:, :2] > 0.0).all() or not np.isfinite(sines).all():
-        raise ValueError("expected frequencies (Hz) and amplitudes (m) above 0 and finite preloads (m), got "
-                         f"frequency {frequency!r}, amplitude {amplitude!r}, preload {preload!r}")  # fmt: skip
+        raise ValueError(
+            "expected frequencies (Hz) and amplitudes (m) above 0 and finite preloads (m), got "
+            f"frequency {frequency!r}, amplitude {amplitude!r}, preload {preload!r}"
+        )
     require_settings(spec, {"the sine": settings or {}})
     network = compile_network(spec)
     found = [_settled(network, sine, settings or {}) for sine in sines.tolist()]
@@ -56,8 +58,11 @@ def dynamic_stiffness(
 def _refuse_several_ends(spec: NetworkSpec) -> None:
     driven = topology_of(spec).held("driven")
     if len(driven) != 1:
-        raise InputError.at(Place(spec.file), f"a dynamic stiffness needs a network with one driven end, got "
-                            f"{len(driven)}", "hold the other ends, or simulate a motion of all of them")  # fmt: skip
+        raise InputError.at(
+            Place(spec.file),
+            f"a dynamic stiffness needs a network with one driven end, got {len(driven)}",
+            "hold the other ends, or simulate a motion of all of them",
+        )
 
 
 def _settled(network: AnyCompiled, sine: list[float], settings: Mapping[str, float]) -> complex:
@@ -67,8 +72,12 @@ def _settled(network: AnyCompiled, sine: list[float], settings: Mapping[str, flo
         if abs(found - before) <= SETTLED * abs(found):
             return found
     frequency, amplitude, preload = sine
-    warnings.warn(f"the force of '{network.spec.name}' does not settle within {LAST} periods of {frequency:g} Hz, "
-                  f"{amplitude:g} m around {preload:g} m", RuntimeWarning, stacklevel=4)  # fmt: skip
+    warnings.warn(
+        f"the force of '{network.spec.name}' does not settle within {LAST} periods of {frequency:g} Hz, "
+        f"{amplitude:g} m around {preload:g} m",
+        RuntimeWarning,
+        stacklevel=4,
+    )
     return found
 
 
@@ -85,5 +94,9 @@ def _stiffness(network: AnyCompiled, sine: list[float], settings: Mapping[str, f
 def _drive(frequency: float, amplitude: float, preload: float, periods: int) -> Drive:
     phase = 2.0 * np.pi * np.arange(periods * SAMPLES + 1) / SAMPLES
     rate = 2.0 * np.pi * frequency
-    return drive_from_path(1.0 / (frequency * SAMPLES), preload + amplitude * np.sin(phase),
-                           amplitude * rate * np.cos(phase), -amplitude * rate**2 * np.sin(phase))  # fmt: skip
+    return drive_from_path(
+        1.0 / (frequency * SAMPLES),
+        preload + amplitude * np.sin(phase),
+        amplitude * rate * np.cos(phase),
+        -amplitude * rate**2 * np.sin(phase),
+    )

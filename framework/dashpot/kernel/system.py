@@ -129,8 +129,9 @@ class CompiledSystem(Compiled[SystemRows]):
         newton, loads = self._newton(excitation), {node: _spline(load) for node, load in excitation.loads.items()}
 
         def make(first: int, end: int) -> Piece:
-            coarse, fine = (self._moved(excitation, loads, newton, parts, first, end)
-                            for parts in (PAIR * pairs, 2 * PAIR * pairs))  # fmt: skip
+            coarse, fine = (
+                self._moved(excitation, loads, newton, parts, first, end) for parts in (PAIR * pairs, 2 * PAIR * pairs)
+            )
             return Piece(first, end, coarse, fine)
 
         pieces = _Pieces(excitation.samples, max(PIECE // pairs, 1), make)
@@ -172,8 +173,14 @@ class CompiledSystem(Compiled[SystemRows]):
         force, motion = out[:, : len(driven)], out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
             motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
-        return Solution(driven, unknown, force, motion, error,
-                        tuple(status_of(code, own) for code, own in zip(status, force, strict=True)))  # fmt: skip
+        return Solution(
+            driven,
+            unknown,
+            force,
+            motion,
+            error,
+            tuple(status_of(code, own) for code, own in zip(status, force, strict=True)),
+        )
 
     def forces(self, run: SystemRows, values: Array | None = None) -> Array:
         """The forces at the driven nodes (lanes, nodes, samples) in N; a lane that failed answers NaN."""
@@ -204,8 +211,14 @@ class CompiledSystem(Compiled[SystemRows]):
         """The place of a driven node among all; a network with a single one has it under any name."""
         return 0 if len(self.outputs) == 1 else self.outputs.index(end)
 
-    def score(self, runs: Sequence[SystemRows], measured: Sequence[Array], weights: Sequence[Array], values: Array,
-              jobs: int = 1) -> Array:  # fmt: skip
+    def score(
+        self,
+        runs: Sequence[SystemRows],
+        measured: Sequence[Array],
+        weights: Sequence[Array],
+        values: Array,
+        jobs: int = 1,
+    ) -> Array:
         """Weighted sums of squared errors (runs, nodes, lanes) against ``measured`` (nodes, samples), no force stored.
 
         A lane that fails scores NaN.
@@ -220,8 +233,9 @@ class CompiledSystem(Compiled[SystemRows]):
         _, totals, codes = self._scored(run, measured, weight, self._lanes(run, values))
         return np.where(codes, np.nan, totals)
 
-    def _scored(self, run: SystemRows, measured: Array, weight: Array,
-                lanes: Array) -> tuple[list[Block], Array, Array]:  # fmt: skip
+    def _scored(
+        self, run: SystemRows, measured: Array, weight: Array, lanes: Array
+    ) -> tuple[list[Block], Array, Array]:
         """The blocks as they are after the last sample, the scores (nodes, lanes), and how each lane ended."""
         blocks = list(self._blocks(run, lanes))
         totals, misses = np.zeros((2, len(blocks), len(self.outputs), WIDTH))
@@ -232,13 +246,33 @@ class CompiledSystem(Compiled[SystemRows]):
                 self._run(run, piece, block, total, miss, state, scoring)
         return blocks, _of_lanes(totals, lanes.shape[0]), _of_lanes(states, lanes.shape[0])
 
-    def _run(self, run: SystemRows, piece: Piece, block: Block, out: Array, miss: Array, status: Array,
-             scoring: tuple[Array, Array] | tuple[None, None] = (None, None)) -> None:  # fmt: skip
+    def _run(
+        self,
+        run: SystemRows,
+        piece: Piece,
+        block: Block,
+        out: Array,
+        miss: Array,
+        status: Array,
+        scoring: tuple[Array, Array] | tuple[None, None] = (None, None),
+    ) -> None:
         self.native(
-            run.still, piece.coarse, piece.fine, PAIR * run.pairs, piece.end - piece.first, block.workspace, status,
-            block.tables, self._knots, *scoring, out, miss, int(scoring[0] is not None), int(piece.first == 0),
+            run.still,
+            piece.coarse,
+            piece.fine,
+            PAIR * run.pairs,
+            piece.end - piece.first,
+            block.workspace,
+            status,
+            block.tables,
+            self._knots,
+            *scoring,
+            out,
+            miss,
+            int(scoring[0] is not None),
+            int(piece.first == 0),
             block.count,
-        )  # fmt: skip
+        )
 
     def _blocks(self, run: SystemRows, lanes: Array) -> Iterator[Block]:
         step = run.excitation.dt / (PAIR * run.pairs)
@@ -250,8 +284,15 @@ class CompiledSystem(Compiled[SystemRows]):
             self.spec, np.atleast_2d(self.start if values is None else values), run.excitation.settings
         )
 
-    def _moved(self, excitation: Excitation, loads: Mapping[str, Callable[[Array], Array]],
-               newton: Mapping[str, float], parts: int, first: int, end: int) -> Array:  # fmt: skip
+    def _moved(
+        self,
+        excitation: Excitation,
+        loads: Mapping[str, Callable[[Array], Array]],
+        newton: Mapping[str, float],
+        parts: int,
+        first: int,
+        end: int,
+    ) -> Array:
         # the steps to the samples from `first` up to `end`, from the sample before
         seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
         before = max(first - 1, 0)

@@ -31,8 +31,13 @@ class BranchReader:
     ``ends`` gathers which ``joints`` every outermost branch connects.
     """
 
-    def __init__(self, elements: MappingType[str, type[Element]], problems: list[Problem],
-                 use: Callable[[str], NetworkSpec], joints: MappingType[str, Joint]) -> None:  # fmt: skip
+    def __init__(
+        self,
+        elements: MappingType[str, type[Element]],
+        problems: list[Problem],
+        use: Callable[[str], NetworkSpec],
+        joints: MappingType[str, Joint],
+    ) -> None:
         self.elements, self.problems, self.use, self.joints = elements, problems, use, joints
         self._count_of_branches, self._unsound = 0, set[str]()
         self.ends: dict[str, Ends] = {}
@@ -79,8 +84,11 @@ class BranchReader:
 
     def _refuse_name(self, name: str, form: Form) -> None:
         if not NAME.fullmatch(name) or name == "measurement":
-            form.complain(None, f"expected a name of letters, digits, '_', '-' and '+' other than 'measurement', got "
-                          f"{shown(name)}", "rename the branch")  # fmt: skip
+            form.complain(
+                None,
+                f"expected a name of letters, digits, '_', '-' and '+' other than 'measurement', got {shown(name)}",
+                "rename the branch",
+            )
 
     def _copies(self, name: str, form: Form, outer: Copy) -> list[Branch | Group]:
         self._refuse_name(name, form)
@@ -126,8 +134,11 @@ class BranchReader:
         other = form.text("use")
         fixed = form.flag("fixed", False)
         if "fixed" in form and not fixed:
-            form.complain("fixed", "expected 'true': without the key its parameters are searched as it declares",
-                          "leave the key out")  # fmt: skip
+            form.complain(
+                "fixed",
+                "expected 'true': without the key its parameters are searched as it declares",
+                "leave the key out",
+            )
         form.close()
         try:
             spec = self.use(other) if other and self._count_of_branches <= MAXIMUM_BRANCHES else None
@@ -142,8 +153,11 @@ class BranchReader:
         # told once: what is beyond the limit need not be counted
         self._count_of_branches, before = self._count_of_branches + count, self._count_of_branches
         if before <= MAXIMUM_BRANCHES < self._count_of_branches:
-            form.complain(None, f"expected {MAXIMUM_BRANCHES} branches at most, with those of used networks, got more",
-                          "use fewer networks in each other")  # fmt: skip
+            form.complain(
+                None,
+                f"expected {MAXIMUM_BRANCHES} branches at most, with those of used networks, got more",
+                "use fewer networks in each other",
+            )
         return self._count_of_branches <= MAXIMUM_BRANCHES
 
     def _complain_of_use(self, other: str, form: Form, error: InputError) -> None:
@@ -187,8 +201,9 @@ class BranchReader:
         if node is not None:
             return read_value(node, kind_of(parameter), reading.named(f"{reading.what}.{key}"))
         if parameter.default is None:
-            form.complain(None, f"'{reading.what}' lacks '{key}' ({parameter.about}, {parameter.unit})",
-                          f"add '{key}: ...'")  # fmt: skip
+            form.complain(
+                None, f"'{reading.what}' lacks '{key}' ({parameter.about}, {parameter.unit})", f"add '{key}: ...'"
+            )
         return None
 
     def _curve(self, key: str, law: type[Element], form: Form, reading: Reading) -> Characteristic | None:

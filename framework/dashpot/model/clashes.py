@@ -23,8 +23,11 @@ def _equal_names(leaves: tuple[Branch, ...]) -> Iterator[Problem]:
     for branch in leaves:
         if branch.name in first:
             place = first[branch.name].place
-            yield Problem(branch.place, f"a second branch is called '{branch.name}', the first one stands in {place}",
-                          "rename one; the copies of a repeated branch are called <name>_1, <name>_2 ...")  # fmt: skip
+            yield Problem(
+                branch.place,
+                f"a second branch is called '{branch.name}', the first one stands in {place}",
+                "rename one; the copies of a repeated branch are called <name>_1, <name>_2 ...",
+            )
         first.setdefault(branch.name, branch)
 
 
@@ -34,8 +37,11 @@ def _equal_paths(spec: NetworkSpec) -> Iterator[Problem]:
     for slot in spec.slots():
         name, place = slot.path.rpartition(".")[0], slot.value.node.place if slot.value.node else Place()
         if slot.path in seen and name not in _doubled(spec):
-            yield Problem(place, f"two parameters are called '{slot.path}'",
-                          f"rename the {'branch' if name in branches else 'node'} '{name}'")  # fmt: skip
+            yield Problem(
+                place,
+                f"two parameters are called '{slot.path}'",
+                f"rename the {'branch' if name in branches else 'node'} '{name}'",
+            )
         seen.add(slot.path)
 
 
@@ -50,13 +56,20 @@ def _curves_without_a_loop(spec: NetworkSpec) -> Iterator[Problem]:
     for path, curve in spec.data_curves().items():
         place = curve.node.place if curve.node else Place()
         if spec.joints:
-            yield Problem(place, f"'{path}' cannot come from {curve.data} data in a network with nodes: the loop of "
-                          "the whole is not the curve of a part",
-                          "write a table; or fit the part by itself, on runs of its own, and write "
-                          "'use: fitted.yaml, fixed: true'")  # fmt: skip
+            yield Problem(
+                place,
+                f"'{path}' cannot come from {curve.data} data in a network with nodes: the loop of "
+                "the whole is not the curve of a part",
+                "write a table; or fit the part by itself, on runs of its own, and write "
+                "'use: fitted.yaml, fixed: true'",
+            )
         elif path.rpartition(".")[0] in inside:
-            yield Problem(place, f"'{path}' cannot come from {curve.data} data inside a series connection: it sees a "
-                          "part of the deflection only", "write a number or a table")  # fmt: skip
+            yield Problem(
+                place,
+                f"'{path}' cannot come from {curve.data} data inside a series connection: it sees a "
+                "part of the deflection only",
+                "write a number or a table",
+            )
 
 
 def _series(group: Group) -> Iterator[Group]:
@@ -96,8 +109,11 @@ def _shared_numbers(spec: NetworkSpec) -> Iterator[Problem]:
         home = f"{families.get(name, name)}.{key}"
         known, first = homes.setdefault(id(number), (home, node))
         if known != home or first is not node:
-            yield Problem(node.place, f"'{slot.path}' is an alias of '{known}', a parameter to be identified",
-                          "write it out: an alias does not tie two parameters together")  # fmt: skip
+            yield Problem(
+                node.place,
+                f"'{slot.path}' is an alias of '{known}', a parameter to be identified",
+                "write it out: an alias does not tie two parameters together",
+            )
 
 
 def _number_of(value: Value) -> Node | None:

@@ -37,8 +37,11 @@ def read_curve(node: Node, curve: Curve, reading: Reading) -> Characteristic | N
 def read_scale(node: Node, reading: Reading) -> Characteristic | None:
     """The factor on a branch's force: a table over deflection. None when there is none; every mistake is noted."""
     if not isinstance(node, Mapping):
-        reading.complain(node.place, f"expected a table over deflection, got {node.describe()}",
-                         "write {deflection: [5 mm, 20 mm], factor: [1.2, 1]}")  # fmt: skip
+        reading.complain(
+            node.place,
+            f"expected a table over deflection, got {node.describe()}",
+            "write {deflection: [5 mm, 20 mm], factor: [1.2, 1]}",
+        )
         return None
     return _read_table(reading.form(node), FACTOR, reading)
 
@@ -51,8 +54,11 @@ def _read_data(node: Mapping, curve: Curve, reading: Reading) -> Characteristic 
     if "knots" in form and not FEWEST_KNOTS <= knots <= MOST_KNOTS:
         form.complain("knots", f"{reading.what}: expected {FEWEST_KNOTS} to {MOST_KNOTS} knots, got {knots}")
     if (curve.value[1], curve.over[1]) != ("N", "m"):
-        reading.complain(form.key_place("from"), "expected a number, a polynomial or a table; only a force over "
-                         f"deflection can be taken from data, not a {curve.value[0]} over {curve.over[0]}")  # fmt: skip
+        reading.complain(
+            form.key_place("from"),
+            "expected a number, a polynomial or a table; only a force over "
+            f"deflection can be taken from data, not a {curve.value[0]} over {curve.over[0]}",
+        )
     if curve.over[0] in form or curve.value[0] in form:
         table = _read_table(form, curve, reading, "identified" if refine else "fixed")
         return replace(table, data=data or "", knots=knots, refine=refine) if table else None
@@ -86,8 +92,9 @@ def _read_table(form: Form, curve: Curve, reading: Reading, role: Role = "fixed"
     at = form.quantities(*curve.over)
     entry = form.node(curve.value[0])
     if entry is None:
-        form.complain(None, f"{reading.what} lacks '{curve.value[0]}'",
-                      f"give one {curve.value[0]} for each {curve.over[0]}")  # fmt: skip
+        form.complain(
+            None, f"{reading.what} lacks '{curve.value[0]}'", f"give one {curve.value[0]} for each {curve.over[0]}"
+        )
     form.close()
     if at is None or entry is None:
         return None
@@ -103,13 +110,19 @@ def _read_table(form: Form, curve: Curve, reading: Reading, role: Role = "fixed"
 def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float], count: int) -> bool:
     over, value = curve.over[0], curve.value[0]
     if count != len(at) or len(at) < 2:
-        reading.complain(form.place_of(value), f"expected as many {value} as {over}, at least two of each, "
-                         f"got {count} and {len(at)}", f"give one {value} for each {over}")  # fmt: skip
+        reading.complain(
+            form.place_of(value),
+            f"expected as many {value} as {over}, at least two of each, got {count} and {len(at)}",
+            f"give one {value} for each {over}",
+        )
         return False
     for number, (before, after) in enumerate(zip(at, at[1:], strict=False), 2):
         if not before < after:
-            reading.complain(form.place_of(over), f"expected growing {over}, got {after:g} {curve.over[1]} as number "
-                             f"{number} after {before:g}", "sort the table")  # fmt: skip
+            reading.complain(
+                form.place_of(over),
+                f"expected growing {over}, got {after:g} {curve.over[1]} as number {number} after {before:g}",
+                "sort the table",
+            )
             return False
     return True
 
@@ -117,16 +130,22 @@ def _is_sound(form: Form, curve: Curve, reading: Reading, at: SequenceType[float
 def _read_column(entry: Node, curve: Curve, reading: Reading, role: Role) -> list[Value | None]:
     kind = Kind(curve.value[1], curve.bounds, "log") if curve is FACTOR else Kind(curve.value[1], UNBOUNDED, "linear")
     if isinstance(entry, Sequence) and not entry.items:
-        reading.complain(entry.place, f"expected a list of {curve.value[0]}, got an empty one",
-                         f"give one {curve.value[0]} for each {curve.over[0]}")  # fmt: skip
+        reading.complain(
+            entry.place,
+            f"expected a list of {curve.value[0]}, got an empty one",
+            f"give one {curve.value[0]} for each {curve.over[0]}",
+        )
     if isinstance(entry, Sequence):
         values = [read_value(item, kind, reading) for item in entry.items]
     else:
         values = _read_whole_column(entry, kind, reading)
     for value in values:
         if value and value.over:
-            reading.complain(value.node.place if value.node else entry.place, "a knot of a table cannot depend on a "
-                             "setting", "write a constant or a polynomial, or give the branch a 'scale'")  # fmt: skip
+            reading.complain(
+                value.node.place if value.node else entry.place,
+                "a knot of a table cannot depend on a setting",
+                "write a constant or a polynomial, or give the branch a 'scale'",
+            )
     return [value.as_role(role) if value and role != "fixed" else value for value in values]
 
 
@@ -137,8 +156,11 @@ def _read_whole_column(entry: Node, kind: Kind, reading: Reading) -> list[Value 
         reading.complain(entry.place, f"expected a list of numbers, got {entry.describe()}")
         return []
     if reading.copy.of > 1:
-        reading.complain(entry.place, "expected a list with an entry for each knot, as the branch is repeated",
-                         "write [{start: ...}, {start: ...}]")  # fmt: skip
+        reading.complain(
+            entry.place,
+            "expected a list with an entry for each knot, as the branch is repeated",
+            "write [{start: ...}, {start: ...}]",
+        )
         return []
     count, before = len(numbers.items), len(reading.problems)
     found: list[Value | None] = [None] * count

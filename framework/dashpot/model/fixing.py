@@ -16,7 +16,10 @@ def fixed_as_found(spec: NetworkSpec) -> NetworkSpec:
     for path, curve in spec.data_curves().items():
         if curve.form == "data":
             place = curve.node.place if curve.node else Place()
-            raise InputError.at(place, f"the curve '{path}' is to be taken from data and has no knots yet",
-                                "fit this network first and use the file that the fit writes")  # fmt: skip
+            raise InputError.at(
+                place,
+                f"the curve '{path}' is to be taken from data and has no knots yet",
+                "fit this network first and use the file that the fit writes",
+            )
         spec = spec.with_curve(path, replace(curve, data=""))
     return spec.with_values({slot.path: slot.value.as_role("fixed") for slot in spec.slots()})

@@ -44,8 +44,11 @@ def read_identified(form: Form) -> Identified:
     if "range" not in node.entries:
         return Identified(record)
     ranges = Form(node.entries["range"], form.problems, "the range of identification")
-    found = {key: ranges.take(key, partial(_read_ends, unit=unit_of(key)), None)
-             for key in ranges.keys if quantity_of(key) in QUANTITIES}  # fmt: skip
+    found = {
+        key: ranges.take(key, partial(_read_ends, unit=unit_of(key)), None)
+        for key in ranges.keys
+        if quantity_of(key) in QUANTITIES
+    }
     for quantity in QUANTITIES:
         ranges.node(quantity)
     ranges.close()
@@ -65,9 +68,11 @@ def widened(found: Range) -> dict[str, tuple[float, float]]:
 def outside(seen: Range, identified: Range) -> list[str]:
     """What of a motion lies outside the range of identification, in words; both by the same names."""
     limits = widened(identified)
-    return [f"{name} {_span(name, seen[name])}, identified in {_span(name, identified[name])}"
-            for name, (low, high) in limits.items()
-            if name in seen and not (seen[name][0] >= low and seen[name][1] <= high)]  # fmt: skip
+    return [
+        f"{name} {_span(name, seen[name])}, identified in {_span(name, identified[name])}"
+        for name, (low, high) in limits.items()
+        if name in seen and not (seen[name][0] >= low and seen[name][1] <= high)
+    ]
 
 
 def quantity_of(name: str) -> str:

@@ -29,8 +29,13 @@ def read_joints(form: Form) -> dict[str, Joint]:
     found: dict[str, Joint] = {}
     for name, entry in (form.take("nodes", _entries, None) or {}).items():
         if not NAME.fullmatch(name):
-            form.problems.append(Problem(entry.place, f"expected a name of letters, digits, '_', '-' and '+', got "
-                                         f"'{name}'", "rename the node"))  # fmt: skip
+            form.problems.append(
+                Problem(
+                    entry.place,
+                    f"expected a name of letters, digits, '_', '-' and '+', got '{name}'",
+                    "rename the node",
+                )
+            )
         found[name] = _read_joint(name, entry, form, found)
     return found
 
@@ -56,8 +61,11 @@ def _read_joint(name: str, node: Node, outer: Form, known: MappingType[str, Join
     twin = form.take("same_as", lambda inner: read_known(inner, known, "node"), "")
     hold = form.choice("hold", HOLDS, known[twin].hold if twin else "free")
     reading = Reading(what, outer.problems)
-    masses = {key: value for key, kind in WEIGHTS.items() if (weight := form.node(key))
-              and (value := read_value(weight, kind, reading.named(f"{name}.{key}")))}  # fmt: skip
+    masses = {
+        key: value
+        for key, kind in WEIGHTS.items()
+        if (weight := form.node(key)) and (value := read_value(weight, kind, reading.named(f"{name}.{key}")))
+    }
     form.close()
     if twin and masses:
         form.complain("same_as", f"{what} has masses of its own and those of '{twin}'", "remove one of them")
@@ -78,8 +86,11 @@ def read_ends(name: str, form: Form, joints: MappingType[str, Joint]) -> Ends | 
     if not joints:
         for key in ("between", "offset"):
             if form.node(key):
-                form.complain(key, f"'{name}' has '{key}', but the network has no nodes",
-                              "name them at the top: 'nodes: {platform: driven, body: ground}'")  # fmt: skip
+                form.complain(
+                    key,
+                    f"'{name}' has '{key}', but the network has no nodes",
+                    "name them at the top: 'nodes: {platform: driven, body: ground}'",
+                )
         return None
     pair = form.take("between", lambda node: _read_pair(node, joints))
     offset = form.node("offset")

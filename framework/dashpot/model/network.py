@@ -236,10 +236,15 @@ class NetworkSpec:
     def slots(self) -> tuple[Slot, ...]:
         """Every number of the network: branch by branch, node by node, then the measurement."""
         found = [slot for branch in self.leaves() if not branch.shares for slot in branch_slots(branch)]
-        found += [Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items()
-                  if ends.offset and not ends.shares]  # fmt: skip
-        found += [Slot(f"{joint.name}.{key}", value) for joint in self.joints.values() if not joint.shares
-                  for key, value in joint.masses.items()]  # fmt: skip
+        found += [
+            Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items() if ends.offset and not ends.shares
+        ]
+        found += [
+            Slot(f"{joint.name}.{key}", value)
+            for joint in self.joints.values()
+            if not joint.shares
+            for key, value in joint.masses.items()
+        ]
         found += [Slot(f"measurement.{key}", value) for key, value in self.measurement.items()]
         return tuple(each for slot in found for each in (slot, *over_slots(slot)))
 
@@ -333,13 +338,15 @@ def _renewed(path: str, value: Value, values: Mapping[str, Value]) -> Value:
     if found.over is None:
         return found
     inner = zip(found.over.endings, found.over.numbers, strict=True)
-    return replace(found, over=replace(found.over, numbers=tuple(values.get(path + end, number)
-                                                                 for end, number in inner)))  # fmt: skip
+    return replace(
+        found, over=replace(found.over, numbers=tuple(values.get(path + end, number) for end, number in inner))
+    )
 
 
 def _reweigh(joint: Joint, values: Mapping[str, Value]) -> Joint:
-    return replace(joint, masses={k: _renewed(f"{joint.numbers}.{k}", value, values)
-                                  for k, value in joint.masses.items()})  # fmt: skip
+    return replace(
+        joint, masses={k: _renewed(f"{joint.numbers}.{k}", value, values) for k, value in joint.masses.items()}
+    )
 
 
 def _replace_offset(name: str, ends: Ends, values: Mapping[str, Value]) -> Ends:

@@ -38,8 +38,9 @@ def read_over(form: Form, unit: str, read: ReadNumber) -> Over | None:
     way = next((key for key in WAYS_OVER if key in form), None)
     node, entry = form.node("at"), form.node(way) if way else None
     if way is None:
-        form.complain(None, f"{form.what} lacks one of {', '.join(WAYS_OVER)}",
-                      "write 'slope: {start: 0}' for a straight line")  # fmt: skip
+        form.complain(
+            None, f"{form.what} lacks one of {', '.join(WAYS_OVER)}", "write 'slope: {start: 0}' for a straight line"
+        )
     elif node is None:
         form.complain(None, f"{form.what} lacks 'at'", "give the setting at which the parameter has its base value")
     form.close()
@@ -86,8 +87,9 @@ def _shift(form: Form, way: Way, entry: Node, setting: str, read: ReadNumber) ->
     elif len(items) != len(wanted):
         form.complain(way, f"{form.what}: expected [C1, C2], got {entry.describe()}", "write 'wlf: [17.44, 51.6 K]'")
     else:
-        found = [read(item, unit, sensible, "log", name)
-                 for item, (name, unit, sensible) in zip(items, wanted, strict=True)]  # fmt: skip
+        found = [
+            read(item, unit, sensible, "log", name) for item, (name, unit, sensible) in zip(items, wanted, strict=True)
+        ]
         values = tuple(value for value in found if value)
         return values if len(values) == len(found) else ()
     return ()
@@ -96,8 +98,11 @@ def _shift(form: Form, way: Way, entry: Node, setting: str, read: ReadNumber) ->
 def _factors(form: Form, entry: Node, at: tuple[float, ...], read: ReadNumber) -> tuple[Value, ...]:
     items = entry.items if isinstance(entry, Items) else ()
     if len(items) != len(at):
-        form.complain("factor", f"{form.what}: expected a list of {len(at)} factors, one for each place, got "
-                      f"{entry.describe()}", "give one factor for each of 'at'")  # fmt: skip
+        form.complain(
+            "factor",
+            f"{form.what}: expected a list of {len(at)} factors, one for each place, got {entry.describe()}",
+            "give one factor for each of 'at'",
+        )
         return ()
     found = [read(item, "1", FACTORS, "log", f"factor {number}") for number, item in enumerate(items, 1)]
     values = tuple(value for value in found if value)

@@ -145,8 +145,11 @@ def use_in_branch(text: str, branch: str, word: str) -> str:
     node = branches.entries.get(branch)
     if node is None or not _has(node, "use"):
         users = [name for name, entry in branches.entries.items() if _has(entry, "use")]
-        raise InputError.at(Place(document.file), f"no branch '{branch}' uses another network",
-                            nearest(branch, users) or f"those that do: {', '.join(users) or 'none'}")  # fmt: skip
+        raise InputError.at(
+            Place(document.file),
+            f"no branch '{branch}' uses another network",
+            nearest(branch, users) or f"those that do: {', '.join(users) or 'none'}",
+        )
     return apply_edits(text, [replace_entry(_mapping(node), "use", plain_or_quoted(word))])
 
 

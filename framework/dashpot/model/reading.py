@@ -45,8 +45,9 @@ def read_network(path_or_name: str | Path, elements: Elements) -> NetworkSpec:
     return build_network(Document.read(find_network(path_or_name)), elements)
 
 
-def parse_network(text: str, elements: Elements, file: str | None = None,
-                  beside: MappingType[str, Document] | None = None) -> NetworkSpec:  # fmt: skip
+def parse_network(
+    text: str, elements: Elements, file: str | None = None, beside: MappingType[str, Document] | None = None
+) -> NetworkSpec:
     """The network in a text. Raises InputError with every mistake of the text.
 
     ``file`` is its name in messages, and networks that it uses are among those ``beside`` it, by the word for them, or
@@ -55,8 +56,9 @@ def parse_network(text: str, elements: Elements, file: str | None = None,
     return build_network(Document.parse(text, file), elements, beside=beside)
 
 
-def build_network(document: Document, elements: Elements, *,
-                  beside: MappingType[str, Document] | None = None) -> NetworkSpec:  # fmt: skip
+def build_network(
+    document: Document, elements: Elements, *, beside: MappingType[str, Document] | None = None
+) -> NetworkSpec:
     """The network in a document. Raises InputError with every mistake."""
     return _build(document, _Uses(document.file, elements, (), beside or {}, {}))
 
@@ -96,8 +98,13 @@ def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:
         value = read_value(node, kind, Reading(f"measurement, {path}", problems)) if node else None
         if value and value.over and path not in DRIFTING:
             place = value.node.place if value.node else Place()
-            problems.append(Problem(place, f"measurement, {path}: of the load cell only gain and offset may depend "
-                                    "on a setting", "write the number alone"))  # fmt: skip
+            problems.append(
+                Problem(
+                    place,
+                    f"measurement, {path}: of the load cell only gain and offset may depend on a setting",
+                    "write the number alone",
+                )
+            )
         elif value:
             found[path] = value
     hum = forms.get("force.hum")
@@ -157,8 +164,11 @@ class _Uses:
     def _used(self, document: Document, trail: tuple[Path, ...]) -> NetworkSpec:
         inner = _build(document, replace(self, file=document.file, trail=trail, beside={}))
         if inner.joints:
-            raise InputError.at(document.root.place, "a network that is used has two ends, expected no 'nodes'",
-                                "use a network whose branches all lie between the same two ends")  # fmt: skip
+            raise InputError.at(
+                document.root.place,
+                "a network that is used has two ends, expected no 'nodes'",
+                "use a network whose branches all lie between the same two ends",
+            )
         for value in inner.measurement.values():
             place = value.node.place if value.node else document.root.place
             message = "a network that is used describes the specimen only, expected no 'measurement'"

@@ -33,15 +33,19 @@ def network_schema(elements: Mapping[str, type[Element]]) -> Schema:
             "about": s.text("a remark for people"),
             "source": s.text("where the structure comes from"),
             "gravity": s.quantity("m/s^2", "pulls at the masses of all nodes"),
-            "nodes": s.named(_node(), "what the branches connect, where there is more than two ends",
-                             propertyNames=NAMES, minProperties=1),
+            "nodes": s.named(
+                _node(),
+                "what the branches connect, where there is more than two ends",
+                propertyNames=NAMES,
+                minProperties=1,
+            ),
             "branches": {"type": "object", "minProperties": 1, "propertyNames": NAMES},
             "measurement": _measurement(),
             "identified": _identified(),
         },
         required=("format", "name", "branches"),
         dependencies={"gravity": ["nodes"]},
-    )  # fmt: skip
+    )
     content |= {
         "if": {"required": ["nodes"]},
         "then": {"properties": {"branches": s.named(s.part("connected_branch"))}},
@@ -73,18 +77,24 @@ def _branch(law: str, inner: str, ends: Mapping[str, Schema]) -> Schema:
 
 
 def _ways(law: str, inner: str, ends: Mapping[str, Schema]) -> Schema:
-    common = {REPEAT: s.integer("so many branches of this kind", minimum=1, maximum=MAXIMUM_COPIES),
-              ABOUT: s.text("a remark for people"), **ends}  # fmt: skip
+    common = {
+        REPEAT: s.integer("so many branches of this kind", minimum=1, maximum=MAXIMUM_COPIES),
+        ABOUT: s.text("a remark for people"),
+        **ends,
+    }
     needed = ("between",) if ends else ()
     group = s.named(s.part(inner), minProperties=1, propertyNames=NAMES)
     cases = {
-        SAME_AS: s.mapping({SAME_AS: s.text("the branch above whose parameters it has"), ABOUT: s.text(), **ends},
-                           (SAME_AS, *needed)),
+        SAME_AS: s.mapping(
+            {SAME_AS: s.text("the branch above whose parameters it has"), ABOUT: s.text(), **ends}, (SAME_AS, *needed)
+        ),
         SERIES: s.mapping({SERIES: group, **common}, (SERIES, *needed)),
         PARALLEL: s.mapping({PARALLEL: group, **common}, (PARALLEL, *needed)),
-        USE: s.mapping({USE: s.text("a shipped network, or a file in the folder of this one"), "fixed": {"const": True},
-                        **common}, (USE, *needed)),
-    }  # fmt: skip
+        USE: s.mapping(
+            {USE: s.text("a shipped network, or a file in the folder of this one"), "fixed": {"const": True}, **common},
+            (USE, *needed),
+        ),
+    }
     return {"type": "object", **s.by_key(cases, s.part(law))}
 
 
@@ -117,43 +127,72 @@ def _told(parameter: Parameter) -> str:
 
 def _value() -> Schema:
     """A number: fixed, to be found, found, given by the run, or known from elsewhere."""
-    found = {"bounds": s.pair(s.quantity(), "where it is searched"),
-             "scale": s.choice(get_args(Scale), "how it is searched"),
-             "interval": {"anyOf": [s.pair(s.quantity()), s.items(s.pair(s.quantity()))],
-                          "description": "how well it is known"},
-             "over": s.part("over")}  # fmt: skip
+    found = {
+        "bounds": s.pair(s.quantity(), "where it is searched"),
+        "scale": s.choice(get_args(Scale), "how it is searched"),
+        "interval": {
+            "anyOf": [s.pair(s.quantity()), s.items(s.pair(s.quantity()))],
+            "description": "how well it is known",
+        },
+        "over": s.part("over"),
+    }
     numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
     searched = s.mapping({"start": numbers, **found}, ("start",), "a parameter to be identified")
     known = s.mapping({"value": numbers, **found}, ("value",), "a parameter identified by an earlier fit")
     given = s.mapping(
         {"setting": s.text("the setting of a run that gives it"), "value": s.quantity()}, ("setting", "value")
     )
-    measured = s.mapping({"known": s.quantity(), "interval": s.pair(s.quantity(), "its 95 % interval")},
-                         ("known", "interval"), "a parameter known from elsewhere, not searched")  # fmt: skip
+    measured = s.mapping(
+        {"known": s.quantity(), "interval": s.pair(s.quantity(), "its 95 % interval")},
+        ("known", "interval"),
+        "a parameter known from elsewhere, not searched",
+    )
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
     fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a parameter that is not searched")
-    return s.by_key({"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
-                    {"if": {"type": "object"}, "then": searched, "else": plain})  # fmt: skip
+    return s.by_key(
+        {"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
+        {"if": {"type": "object"}, "then": searched, "else": plain},
+    )
 
 
 def _over() -> Schema:
     """What a number does over a setting or over the mean of a channel."""
-    words = {"setting": s.text("the setting of a run on which it depends"),
-             "channel": s.text("the channel on whose mean over the run it depends")}  # fmt: skip
+    words = {
+        "setting": s.text("the setting of a run on which it depends"),
+        "channel": s.text("the channel on whose mean over the run it depends"),
+    }
     place = {"at": s.quantity("", "where it has its base value")}
     ways = {
-        "slope": s.mapping({**words, **place, "slope": s.part("value", "what it rises by per setting")},
-                           ("at", "slope"), "along a straight line"),
-        "rate": s.mapping({**words, **place, "rate": s.part("value", "rise of its logarithm per setting")},
-                          ("at", "rate"), "along an exponential"),
-        "wlf": s.mapping({**words, **place, "wlf": s.items(s.part("value"), "[C1, C2]", minItems=2, maxItems=2)},
-                         ("at", "wlf"), "over a temperature, by Williams, Landel and Ferry"),
-        "arrhenius": s.mapping({**words, **place, "arrhenius": s.part("value", "activation energy over R, K")},
-                               ("at", "arrhenius"), "over a temperature, by Arrhenius"),
-    }  # fmt: skip
-    table = s.mapping({**words, "at": s.items(s.quantity(), "growing", minItems=2),
-                       "factor": s.items(s.part("value"), "one for each place", minItems=2)},
-                      ("at", "factor"), "by factors between places")  # fmt: skip
+        "slope": s.mapping(
+            {**words, **place, "slope": s.part("value", "what it rises by per setting")},
+            ("at", "slope"),
+            "along a straight line",
+        ),
+        "rate": s.mapping(
+            {**words, **place, "rate": s.part("value", "rise of its logarithm per setting")},
+            ("at", "rate"),
+            "along an exponential",
+        ),
+        "wlf": s.mapping(
+            {**words, **place, "wlf": s.items(s.part("value"), "[C1, C2]", minItems=2, maxItems=2)},
+            ("at", "wlf"),
+            "over a temperature, by Williams, Landel and Ferry",
+        ),
+        "arrhenius": s.mapping(
+            {**words, **place, "arrhenius": s.part("value", "activation energy over R, K")},
+            ("at", "arrhenius"),
+            "over a temperature, by Arrhenius",
+        ),
+    }
+    table = s.mapping(
+        {
+            **words,
+            "at": s.items(s.quantity(), "growing", minItems=2),
+            "factor": s.items(s.part("value"), "one for each place", minItems=2),
+        },
+        ("at", "factor"),
+        "by factors between places",
+    )
     one = {"oneOf": [{"required": [word]} for word in words]}
     return {"allOf": [s.by_key(ways, table), one]}
 
@@ -179,9 +218,12 @@ def _curve(curve: Curve) -> Schema:
 
 def _data(curve: Curve) -> Schema:
     over, value = curve.over[0], curve.value[0]
-    keys = {"from": s.choice(SOURCES, "the runs that it is taken from"),
-            "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS),
-            "refine": s.flag("whether a fit moves it together with the other parameters"), **_axes(curve)}  # fmt: skip
+    keys = {
+        "from": s.choice(SOURCES, "the runs that it is taken from"),
+        "knots": s.integer("of the table", minimum=FEWEST_KNOTS, maximum=MOST_KNOTS),
+        "refine": s.flag("whether a fit moves it together with the other parameters"),
+        **_axes(curve),
+    }
     return s.mapping(keys, ("from",), dependencies={over: [value], value: [over]})
 
 
@@ -196,8 +238,10 @@ def _axes(curve: Curve) -> dict[str, Schema]:
         "then": s.items(s.part("value"), minItems=2),
         "else": {**_listing(), "allOf": [s.part("value")]},
     }
-    return {over: s.items(s.quantity(), s.in_unit("growing", over_unit), minItems=2),
-            value: {**column, "description": s.in_unit("an entry for each, or one that holds all", unit)}}  # fmt: skip
+    return {
+        over: s.items(s.quantity(), s.in_unit("growing", over_unit), minItems=2),
+        value: {**column, "description": s.in_unit("an entry for each, or one that holds all", unit)},
+    }
 
 
 def _node() -> Schema:
@@ -212,16 +256,24 @@ def _weight(key: str, kind: Kind) -> str:
 
 def _identified() -> Schema:
     names = {"pattern": f"^({'|'.join(QUANTITIES)})(@.+)?$"}
-    seen = s.named(s.pair(s.quantity()), "the least and the largest of the motions that were seen, e.g. speed@wheel",
-                   propertyNames=names)  # fmt: skip
+    seen = s.named(
+        s.pair(s.quantity()),
+        "the least and the largest of the motions that were seen, e.g. speed@wheel",
+        propertyNames=names,
+    )
     return {"properties": {"range": seen}, "description": "where the parameters come from: written by a fit"}
 
 
 def _measurement() -> Schema:
-    keys = {path.partition(".")[2]: s.part("value", s.in_unit("of the load cell", kind.unit))
-            for path, kind in MEASUREMENT.items()}  # fmt: skip
+    keys = {
+        path.partition(".")[2]: s.part("value", s.in_unit("of the load cell", kind.unit))
+        for path, kind in MEASUREMENT.items()
+    }
     sensed = {key: part for key, part in keys.items() if "." not in key}
     hum = {key.partition(".")[2]: part for key, part in keys.items() if key.startswith("hum.")}
     sensed["hum"] = s.mapping(hum, ("frequency",), "cosine * cos(2 pi f t) + sine * sin(2 pi f t), t: time of the run")
-    return s.mapping({"force": s.mapping(sensed)}, about="how the load cell shows the force: "
-                     "min(gain * smoothed(max(force, least))(time - delay) + offset + hum, largest)")  # fmt: skip
+    return s.mapping(
+        {"force": s.mapping(sensed)},
+        about="how the load cell shows the force: "
+        "min(gain * smoothed(max(force, least))(time - delay) + offset + hum, largest)",
+    )

@@ -26,8 +26,9 @@ def find_network(path_or_name: str | Path) -> Path:
     """The file of a network given by path or by shipped name. Raises InputError when there is none."""
     path = Path(path_or_name)
     if path.is_dir() and str(path_or_name) not in shipped_networks():
-        raise InputError.at(Place(str(path)), "expected a network file or a shipped name, got a folder",
-                            "name a file in it")  # fmt: skip
+        raise InputError.at(
+            Place(str(path)), "expected a network file or a shipped name, got a folder", "name a file in it"
+        )
     return path if path.suffix in SUFFIXES or path.is_file() else _find_shipped(str(path_or_name))
 
 

@@ -74,8 +74,12 @@ class At:
         text = self.extend(text, atoms)
         for name in [name for name in branch_names(text) if name not in known]:
             if self.site is None:
-                raise InputError.at(Place(), f"the branch '{name}' would lie between a driven node and ground, and no "
-                                    "node of the network is held", "name one under 'nodes:'")  # fmt: skip
+                raise InputError.at(
+                    Place(),
+                    f"the branch '{name}' would lie between a driven node and ground, and no "
+                    "node of the network is held",
+                    "name one under 'nodes:'",
+                )
             text = _connect(text, name, self.site)
         return text
 
@@ -87,8 +91,11 @@ def _connect(text: str, name: str, site: Site) -> str:
     for (below, above), ending in zip(twins, site.endings, strict=True):
         taken = branch_names(text)
         wanted = f"{name}{ending}"
-        free = next(word for number in range(1, len(taken) + 2)
-                    if (word := wanted if number == 1 else f"{wanted}_{number}") not in taken)  # fmt: skip
+        free = next(
+            word
+            for number in range(1, len(taken) + 2)
+            if (word := wanted if number == 1 else f"{wanted}_{number}") not in taken
+        )
         text = add_branch(text, f"{free}: {{same_as: {name}, between: [{below}, {above}]}}")
     return text
 

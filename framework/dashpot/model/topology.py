@@ -71,8 +71,10 @@ def _mounted(topology: Topology) -> Topology:
         names[name] = inner = f"{name}:mounted"
         joints[name] = replace(joint, masses={}, shares="")
         joints[inner] = replace(joint, name=inner, hold="free", shares=joint.numbers, mounted=name)
-    edges = (replace(edge, lower=names.get(edge.lower, edge.lower), upper=names.get(edge.upper, edge.upper))
-             for edge in topology.edges)  # fmt: skip
+    edges = (
+        replace(edge, lower=names.get(edge.lower, edge.lower), upper=names.get(edge.upper, edge.upper))
+        for edge in topology.edges
+    )
     return Topology(joints, tuple(edges))
 
 

@@ -63,8 +63,10 @@ class Reading:
         if not isinstance(node, Sequence):
             return node
         if self.copy.of == 1:
-            raise ValueError(f"expected one number, got a list of {len(node.items)}; a list is for the copies of a "
-                             "branch with 'repeat'")  # fmt: skip
+            raise ValueError(
+                f"expected one number, got a list of {len(node.items)}; a list is for the copies of a "
+                "branch with 'repeat'"
+            )
         if len(node.items) != self.copy.of:
             raise ValueError(f"expected {self.copy.of} numbers, one for each copy, got {len(node.items)}")
         return node.items[self.copy.number]
@@ -140,8 +142,11 @@ def _read_known(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     for each in (number, *interval):
         _refuse_outside(each, kind, form.place_of("known"), reading)
     if not interval[0] <= number <= interval[1]:
-        reading.complain(form.place_of("known"), f"expected a number inside its interval {interval[0]:g} to "
-                         f"{interval[1]:g} {kind.unit}, got {number:g}", "correct one of them")  # fmt: skip
+        reading.complain(
+            form.place_of("known"),
+            f"expected a number inside its interval {interval[0]:g} to {interval[1]:g} {kind.unit}, got {number:g}",
+            "correct one of them",
+        )
     return Value(number, kind.unit, scale=kind.scale, interval=interval, sensible=kind.bounds, known=True, node=node)
 
 
@@ -200,8 +205,10 @@ def _read_bounds(node: Node, kind: Kind) -> tuple[float, float]:
     if not low < high:
         raise ValueError(f"expected low < high, got {low:g} and {high:g}; exchange or widen them")
     if low < kind.bounds[0] or high > kind.bounds[1]:
-        raise ValueError(f"expected bounds inside {kind.bounds[0]:g} to {kind.bounds[1]:g} {kind.unit}, "
-                         f"got {low:g} to {high:g}; narrow them, or check their unit")  # fmt: skip
+        raise ValueError(
+            f"expected bounds inside {kind.bounds[0]:g} to {kind.bounds[1]:g} {kind.unit}, "
+            f"got {low:g} to {high:g}; narrow them, or check their unit"
+        )
     return low, high
 
 
@@ -210,8 +217,10 @@ def _complaints(value: Value) -> Iterator[str]:
     # a number identified at its bound was rounded when it was written
     room = ROUNDING * abs(value.number) if value.role == "identified" else 0.0
     if not low - room <= value.number <= high + room:
-        yield (f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}; move it, "
-               "or widen the bounds")  # fmt: skip
+        yield (
+            f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}; move it, "
+            "or widen the bounds"
+        )
     lowest = min(low, value.number) if value.bounds else value.number
     if value.scale == "log" and lowest <= 0.0:
         yield f"expected positive numbers for a log scale, got {lowest:g} {value.unit}; write scale: linear"

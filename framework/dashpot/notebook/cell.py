@@ -56,8 +56,10 @@ def _(part: Notice) -> str:
 @shown.register
 def _(part: Grid) -> str:
     head = "".join(f"<th{_number(column)}>{escape(column.heading)}</th>" for column in part.columns)
-    rows = ["".join(f"<td{_number(column)}>{escape(cell_text(column, row))}</td>" for column in part.columns)
-            for row in part.rows]  # fmt: skip
+    rows = [
+        "".join(f"<td{_number(column)}>{escape(cell_text(column, row))}</td>" for column in part.columns)
+        for row in part.rows
+    ]
     body = "".join(f"<tr>{row}</tr>" for row in rows)
     caption = f'<p class="note">{escape(part.caption)}</p>' if part.caption else ""
     table = f'<div class="scroll"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'

@@ -147,8 +147,14 @@ class Data(Dataset):
         return promoted(cls, join(parts, name))
 
     @classmethod
-    def _of_samples(cls, samples: Iterable[Samples], name: str, units: Mapping[str, str], common: Mapping[str, Any],
-                    runs: Mapping[str, Mapping[str, Any]]) -> Data:  # fmt: skip
+    def _of_samples(
+        cls,
+        samples: Iterable[Samples],
+        name: str,
+        units: Mapping[str, str],
+        common: Mapping[str, Any],
+        runs: Mapping[str, Mapping[str, Any]],
+    ) -> Data:
         sound, aside = list[Data](), dict[str, InputError]()
         for each in samples:
             keys = {**common, **runs.get(each.run, {})}

@@ -21,8 +21,9 @@ from dashpot.notebook.verbs import fit as fit_model
 try:
     from sklearn.base import BaseEstimator, RegressorMixin
 except ImportError:
-    raise ImportError("expected scikit-learn for an estimator, it is not installed: "
-                      "pip install 'dashpot[boosting]'") from None  # fmt: skip
+    raise ImportError(
+        "expected scikit-learn for an estimator, it is not installed: pip install 'dashpot[boosting]'"
+    ) from None
 
 
 class Estimator(RegressorMixin, BaseEstimator):
@@ -53,8 +54,9 @@ class Estimator(RegressorMixin, BaseEstimator):
     def fit(self, X: Sequence[Run] | Dataset, y: None = None) -> Estimator:  # noqa: N803
         """Identify the model on these runs; ``fit_`` is the result, see ``dp.fit``."""
         runs = tuple(replace(run, held_out=False) for run in _runs(X))
-        self.fit_ = fit_model(self.model, Dataset("runs", runs), optimizer=self.optimizer, options=self.options,
-                              seed=self.seed)  # fmt: skip
+        self.fit_ = fit_model(
+            self.model, Dataset("runs", runs), optimizer=self.optimizer, options=self.options, seed=self.seed
+        )
         return self
 
     def predict(self, X: Sequence[Run] | Dataset) -> list[NDArray[np.float64]]:  # noqa: N803

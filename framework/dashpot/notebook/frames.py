@@ -46,8 +46,14 @@ def samples_of_xarray(
 ) -> Iterator[Samples]:
     """The runs of a dataset, along its dimension ``by``; shorter ones may be filled up with NaN at their end."""
     found = _channels(dataset.variables, columns)
-    units = {**_units(found), **{channel: str(dataset[label].attrs["units"])
-                                 for channel, label in found.items() if "units" in dataset[label].attrs}}  # fmt: skip
+    units = {
+        **_units(found),
+        **{
+            channel: str(dataset[label].attrs["units"])
+            for channel, label in found.items()
+            if "units" in dataset[label].attrs
+        },
+    }
     count = dataset.sizes.get(by)
     for number in range(count or 1):
         piece = dataset if count is None else dataset.isel({by: number})
@@ -60,13 +66,19 @@ def _channels(labels: Iterable[Hashable], columns: Mapping[str, Hashable] | None
     """The label of every channel: as it is said, else of those labels that are the name of a channel."""
     known = list(labels)
     if columns is None:
-        return {match["channel"]: label for label in known
-                if (match := LABEL.fullmatch(str(label))) and unit_of_channel(match["channel"])}  # fmt: skip
+        return {
+            match["channel"]: label
+            for label in known
+            if (match := LABEL.fullmatch(str(label))) and unit_of_channel(match["channel"])
+        }
     for channel, label in columns.items():
         if label not in known:
             texts = [str(each) for each in known]
-            raise InputError.at(Place(), f"the channel '{channel}': there is no column '{label}'",
-                                nearest(str(label), texts) or f"columns are {', '.join(texts[:12])}")  # fmt: skip
+            raise InputError.at(
+                Place(),
+                f"the channel '{channel}': there is no column '{label}'",
+                nearest(str(label), texts) or f"columns are {', '.join(texts[:12])}",
+            )
     return dict(columns)
 
 

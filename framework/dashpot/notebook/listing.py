@@ -53,6 +53,8 @@ def frame(columns: Mapping[str, Sequence[Any]]) -> DataFrame:
     try:
         import pandas
     except ImportError:
-        raise ImportError("expected pandas for a data frame, it is not installed: pip install 'dashpot[pandas]'. "
-                          "Without it, table() shows and to_csv() writes the same table") from None  # fmt: skip
+        raise ImportError(
+            "expected pandas for a data frame, it is not installed: pip install 'dashpot[pandas]'. "
+            "Without it, table() shows and to_csv() writes the same table"
+        ) from None
     return pandas.DataFrame(dict(columns))

@@ -41,8 +41,10 @@ class Part:
         found = [slot.value.number for slot in self._slots() if _key(slot) == key]
         if not found:
             known = dict.fromkeys(map(_key, self._slots()))
-            raise AttributeError(f"'{self._name}' has no number '{key}'; "
-                                 f"{nearest(key, known) or 'it has ' + (', '.join(known) or 'none')}")  # fmt: skip
+            raise AttributeError(
+                f"'{self._name}' has no number '{key}'; "
+                f"{nearest(key, known) or 'it has ' + (', '.join(known) or 'none')}"
+            )
         return found[0] if len(found) == 1 else tuple(found)
 
     def __setattr__(self, key: str, value: Any) -> None:
@@ -56,8 +58,11 @@ class Part:
         return ", ".join(told) or self._name
 
     def _slots(self) -> list[Slot]:
-        homes = {part.numbers for part in (*self._spec.leaves(), *self._spec.joints.values())
-                 if self._name in (part.name, getattr(part, "family", ""))}  # fmt: skip
+        homes = {
+            part.numbers
+            for part in (*self._spec.leaves(), *self._spec.joints.values())
+            if self._name in (part.name, getattr(part, "family", ""))
+        }
         return [slot for slot in self._spec.slots() if slot.path.rpartition(".")[0] in homes]
 
 

@@ -127,8 +127,14 @@ def look(data: AnyData, *, seed: int = 0, registry: Registry | None = None) -> L
     return promoted(Look, look_at(_data(data, registry), seed, (registry or load_registry()).metrics.values()))
 
 
-def simulate(model: AnyModel, data: AnyData, *, tolerance: float = TOLERANCE, refine: int | None = None,
-             registry: Registry | None = None) -> dict[str, np.ndarray]:  # fmt: skip
+def simulate(
+    model: AnyModel,
+    data: AnyData,
+    *,
+    tolerance: float = TOLERANCE,
+    refine: int | None = None,
+    registry: Registry | None = None,
+) -> dict[str, np.ndarray]:
     """The force (n,) in N along the motion of every run, as the load cell would show it, by the name of the run.
 
     A run with several driven nodes has an entry ``run@node`` for each. Where nodes are free to move, so many steps
@@ -210,8 +216,18 @@ def fit(
     found = registry or load_registry()
     sound = examined(_data(data, found))
     with hearing(progress, cancel) as hear:
-        return _shown_fit(fit_network(_model(model, found), sound, optimizer=optimizer, options=options, seed=seed,
-                                      jobs=jobs, registry=found, progress=hear))  # fmt: skip
+        return _shown_fit(
+            fit_network(
+                _model(model, found),
+                sound,
+                optimizer=optimizer,
+                options=options,
+                seed=seed,
+                jobs=jobs,
+                registry=found,
+                progress=hear,
+            )
+        )
 
 
 def compare(
@@ -239,8 +255,16 @@ def compare(
     found = registry or load_registry()
     sound = examined(_data(data, found))
     with hearing(progress, cancel) as hear:
-        compared = compare_networks([_model(model, found) for model in models], sound, optimizer=optimizer,
-                                    options=options, seed=seed, jobs=jobs, registry=found, progress=hear)  # fmt: skip
+        compared = compare_networks(
+            [_model(model, found) for model in models],
+            sound,
+            optimizer=optimizer,
+            options=options,
+            seed=seed,
+            jobs=jobs,
+            registry=found,
+            progress=hear,
+        )
     return promoted(Comparison, compared, fits=tuple(map(_shown_fit, compared.fits)))
 
 
@@ -269,8 +293,17 @@ def diagnose(
     """
     found = registry or load_registry()
     with hearing(progress, cancel) as hear:
-        made = diagnose_network(_model(model, found), _data(data, found), optimizer=optimizer, options=options,
-                                seed=seed, jobs=jobs, registry=found, relevance=relevance, progress=hear)  # fmt: skip
+        made = diagnose_network(
+            _model(model, found),
+            _data(data, found),
+            optimizer=optimizer,
+            options=options,
+            seed=seed,
+            jobs=jobs,
+            registry=found,
+            relevance=relevance,
+            progress=hear,
+        )
     return promoted(Diagnosis, made, fit=_shown_fit(made.fit))
 
 

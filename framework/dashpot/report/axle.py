@@ -62,11 +62,15 @@ def wheels_grid(axle: Json) -> Grid:
         Column("rubber", "stiffness of the fixing"),
     ]
     rows = [
-        {"node": wheel["node"], "fixing": FIXINGS[wheel["fixing"]], "value": wheel["value"],
-         "interval": _pair(wheel["interval"]),
-         "rubber": quantity(1.0 / wheel["compliance"], "N/m") if wheel["compliance"] > 0.0 else None}
+        {
+            "node": wheel["node"],
+            "fixing": FIXINGS[wheel["fixing"]],
+            "value": wheel["value"],
+            "interval": _pair(wheel["interval"]),
+            "rubber": quantity(1.0 / wheel["compliance"], "N/m") if wheel["compliance"] > 0.0 else None,
+        }
         for wheel in axle["wheels"]
-    ]  # fmt: skip
+    ]
     caption = (
         "Re(F / z) over the square of the frequency, all mass variants together. Neither a tire nor a damper curve is "
         "assumed; in rubber, damping is taken as proportional to speed, which a digressive curve is not."
@@ -84,12 +88,19 @@ def excited_grid(study: Json) -> Grid:
         Column("interval", "95 % interval", "N"),
     ]
     rows = [
-        {"model": model["name"], "curve": curve["curve"], "velocity": velocity,
-         "force": force if excited else None, "interval": _knot(low, high) if excited else "not excited"}
-        for model in study["models"] for curve in model.get("velocity_curves", ())
+        {
+            "model": model["name"],
+            "curve": curve["curve"],
+            "velocity": velocity,
+            "force": force if excited else None,
+            "interval": _knot(low, high) if excited else "not excited",
+        }
+        for model in study["models"]
+        for curve in model.get("velocity_curves", ())
         for velocity, force, low, high, excited in zip(
-            curve["velocity"], curve["force"], curve["low"], curve["high"], curve["excited"], strict=True)
-    ]  # fmt: skip
+            curve["velocity"], curve["force"], curve["low"], curve["high"], curve["excited"], strict=True
+        )
+    ]
     return Grid("Knots of the damper curves", columns, rows, csv_name="velocity_curves.csv")
 
 
@@ -104,14 +115,22 @@ def slow_grid(axle: Json) -> Grid:
         Column("roll", "half width in anti-phase", "N", 3),
     ]
     rows = [
-        {"of": each["of"], "left": 1e-3 * each["rate"][0], "right": 1e-3 * each["rate"][1],
-         "heave": sum(each["half_width"]) / len(each["half_width"]),
-         "bar": None if each["bar_rate"] is None else 1e-3 * each["bar_rate"], "roll": each["roll_half_width"]}
+        {
+            "of": each["of"],
+            "left": 1e-3 * each["rate"][0],
+            "right": 1e-3 * each["rate"][1],
+            "heave": sum(each["half_width"]) / len(each["half_width"]),
+            "bar": None if each["bar_rate"] is None else 1e-3 * each["bar_rate"],
+            "roll": each["roll_half_width"],
+        }
         for each in axle["slow_curves"]
-    ]  # fmt: skip
+    ]
     first = axle["slow_curves"][0]
-    speeds = [f"{number(1e3 * each, 2)} mm/s {way}" for each, way in
-              ((first["speed"], "in phase"), (first["roll_speed"], "in anti-phase")) if each]  # fmt: skip
+    speeds = [
+        f"{number(1e3 * each, 2)} mm/s {way}"
+        for each, way in ((first["speed"], "in phase"), (first["roll_speed"], "in anti-phase"))
+        if each
+    ]
     caption = (
         f"Mean speed of the wheels: {' and '.join(speeds)}. Half widths hold friction and the dampers at that speed; "
         "the anti-roll bar adds its own friction in anti-phase. The rate of the bar is per difference of the wheels."
@@ -147,8 +166,11 @@ def _contact(study: Json, evidence: Evidence) -> Iterator[Part]:
 
 def _velocity(study: Json) -> Iterator[Part]:
     several = any(len(model.get("velocity_curves", ())) > 1 for model in study["models"])
-    curves = {f"{model['name']}, {curve['curve']}" if several else model["name"]: curve
-              for model in study["models"] for curve in model.get("velocity_curves", ())}  # fmt: skip
+    curves = {
+        f"{model['name']}, {curve['curve']}" if several else model["name"]: curve
+        for model in study["models"]
+        for curve in model.get("velocity_curves", ())
+    }
     if curves:
         yield figures.velocity_curves(curves)
         yield excited_grid(study)
@@ -156,39 +178,55 @@ def _velocity(study: Json) -> Iterator[Part]:
 
 def _mass_row(model: Json, mass: Json) -> dict[str, Any]:
     without = next((each for each in model.get("masses_without_tire", ()) if each["node"] == mass["node"]), None)
-    row = {"model": model["name"], "node": mass["node"], "value": mass["value"],
-           "interval": _pair(mass["interval"]) if mass["interval"] else None, "within": mass["interval"]}  # fmt: skip
+    row = {
+        "model": model["name"],
+        "node": mass["node"],
+        "value": mass["value"],
+        "interval": _pair(mass["interval"]) if mass["interval"] else None,
+        "within": mass["interval"],
+    }
     if without is None:
         return row
-    return row | {"without": without["value"], "without_interval": _pair(without["interval"]), "rmse": without["rmse"],
-                  "without_within": without["interval"]}  # fmt: skip
+    return row | {
+        "without": without["value"],
+        "without_interval": _pair(without["interval"]),
+        "rmse": without["rmse"],
+        "without_within": without["interval"],
+    }
 
 
 def _tire_sentence(row: Mapping[str, Any]) -> str:
     apart = row["value"] - row["without"]
     allowed = math.hypot(_half(row["within"]), _half(row["without_within"]))
-    both = (f"{row['node']} with {row['model']}: {number(row['value'], 4)} kg with the tire and "
-            f"{number(row['without'], 4)} kg without it")  # fmt: skip
+    both = (
+        f"{row['node']} with {row['model']}: {number(row['value'], 4)} kg with the tire and "
+        f"{number(row['without'], 4)} kg without it"
+    )
     if abs(apart) <= allowed:
         return f"{both} agree within their intervals."
     share = number(100.0 * abs(apart) / row["value"], 2)
-    return (f"{both} disagree by {number(abs(apart), 2)} kg ({share} %), where the intervals allow "
-            f"{number(allowed, 2)} kg. The model of the tire, a gain or a delay between the channels, or the structure "
-            "of the axle is not as assumed; the value without the tire does not depend on the first.")  # fmt: skip
+    return (
+        f"{both} disagree by {number(abs(apart), 2)} kg ({share} %), where the intervals allow "
+        f"{number(allowed, 2)} kg. The model of the tire, a gain or a delay between the channels, or the structure "
+        "of the axle is not as assumed; the value without the tire does not depend on the first."
+    )
 
 
 def _fixings(axle: Json) -> Iterator[str]:
     wheels = axle.get("wheels", ())
     for node in dict.fromkeys(wheel["node"] for wheel in wheels):
-        rigid, elastic = (next((w for w in wheels if w["node"] == node and w["fixing"] == fixing), None)
-                          for fixing in FIXINGS)  # fmt: skip
+        rigid, elastic = (
+            next((w for w in wheels if w["node"] == node and w["fixing"] == fixing), None) for fixing in FIXINGS
+        )
         if rigid is None or elastic is None or elastic["compliance"] <= 0.0:
             continue
         if elastic["value"] - rigid["value"] > math.hypot(_half(rigid["interval"]), _half(elastic["interval"])):
             rubber = quantity(1.0 / elastic["compliance"], "N/m", 2)
-            yield (f"{node}: the wheel moves as if its shock absorber stood in rubber of about {rubber}. A model that "
-                   "takes the fixing as rigid finds the mass too small, by about "
-                   f"{number(elastic['value'] - rigid['value'], 2)} kg or more.")  # fmt: skip
+            yield (
+                f"{node}: the wheel moves as if its shock absorber stood in rubber of about {rubber}. A model that "
+                "takes the fixing as rigid finds the mass too small, by about "
+                f"{number(elastic['value'] - rigid['value'], 2)} kg or more."
+            )
 
 
 def _half(pair: Sequence[float] | None) -> float:

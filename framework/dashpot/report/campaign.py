@@ -27,8 +27,13 @@ def campaign_page(content: Json) -> Page:
     ]
     known = [(f"data of {one['specimen']}", one["digest"]) for one in content["specimens"] if one["digest"]]
     made = [("result format", content["format"]), ("dashpot", content["version"]), ("seed", str(told["seed"]))]
-    return Page(f"Campaign {told['name']}", campaign_headline(content), told["about"],
-                [section for section in sections if section.parts], (*made, *known))  # fmt: skip
+    return Page(
+        f"Campaign {told['name']}",
+        campaign_headline(content),
+        told["about"],
+        [section for section in sections if section.parts],
+        (*made, *known),
+    )
 
 
 def campaign_headline(content: Json) -> str:
@@ -53,8 +58,14 @@ def specimens_grid(content: Json) -> Grid:
         for model, fit in one["models"].items():
             for path, entry in fit["numbers"].items():
                 ends = (entry["value"], *entry["interval"])
-                _add(columns, row, {f"{model}: {path}{end}": (value, entry["unit"])
-                                    for end, value in zip(("", " from", " to"), ends, strict=True)})  # fmt: skip
+                _add(
+                    columns,
+                    row,
+                    {
+                        f"{model}: {path}{end}": (value, entry["unit"])
+                        for end, value in zip(("", " from", " to"), ends, strict=True)
+                    },
+                )
             _add(columns, row, {f"{model}: RMSE {part}": (value, "N") for part, value in fit["rmse"].items()})
             _add(columns, row, {f"{model}: {key}": (fit[key], "") for key in ("unlike", "group")})
         rows.append(row)
@@ -104,38 +115,60 @@ def _show(columns: dict[str, Column], row: dict[str, Any], model: str, fit: Json
 def population_grid(content: Json) -> Grid:
     """The mean of every number, how specimens scatter beyond what each is known to, and what one is known to."""
     columns = [
-        Column("model", "model"), Column("parameter", "parameter"), Column("mean", "mean [95 % interval]"),
-        Column("scatter", "scatter between specimens"), Column("interval", "95 % interval of it"),
+        Column("model", "model"),
+        Column("parameter", "parameter"),
+        Column("mean", "mean [95 % interval]"),
+        Column("scatter", "scatter between specimens"),
+        Column("interval", "95 % interval of it"),
         Column("error", "standard error of one"),
-    ]  # fmt: skip
+    ]
     rows = [
-        {"model": population["model"], "parameter": each["parameter"],
-         "mean": with_interval(each["mean"], each["interval"], each["unit"]),
-         "scatter": _size(each["scatter"], each), "error": _size(each["error"], each),
-         "interval": " to ".join(_size(end, each) for end in each["scatter_interval"])}
-        for population in content["populations"] for each in population["numbers"]
-    ]  # fmt: skip
+        {
+            "model": population["model"],
+            "parameter": each["parameter"],
+            "mean": with_interval(each["mean"], each["interval"], each["unit"]),
+            "scatter": _size(each["scatter"], each),
+            "error": _size(each["error"], each),
+            "interval": " to ".join(_size(end, each) for end in each["scatter_interval"]),
+        }
+        for population in content["populations"]
+        for each in population["numbers"]
+    ]
     return Grid("The population", columns, rows, csv_name="population.csv")
 
 
 def named_grid(content: Json) -> Grid:
     """The specimens that stand out, with their evidence."""
-    columns = [Column("specimen", "specimen"), Column("kind", "likely"), Column("probability", "probability", "", 3),
-               Column("model", "model"), Column("evidence", "evidence")]  # fmt: skip
+    columns = [
+        Column("specimen", "specimen"),
+        Column("kind", "likely"),
+        Column("probability", "probability", "", 3),
+        Column("model", "model"),
+        Column("evidence", "evidence"),
+    ]
     rows = [{**one, "model": one["model"] or None, "evidence": "; ".join(one["evidence"])} for one in content["named"]]
     return Grid("Specimens that stand out", columns, rows, csv_name="named.csv")
 
 
 def dependence_grid(population: Json) -> Grid:
     """What a unit more of a property does to each number."""
-    columns = [Column("property", "property"), Column("parameter", "parameter"), Column("effect", "effect of one more"),
-               Column("interval", "95 % interval"), Column("certain", "apart from 0")]  # fmt: skip
+    columns = [
+        Column("property", "property"),
+        Column("parameter", "parameter"),
+        Column("effect", "effect of one more"),
+        Column("interval", "95 % interval"),
+        Column("certain", "apart from 0"),
+    ]
     rows = [
-        {"property": each["property"], "parameter": each["parameter"], "effect": _size(each["effect"], each),
-         "interval": " to ".join(_size(end, each) for end in each["interval"]),
-         "certain": "yes" if each["certain"] else "no"}
+        {
+            "property": each["property"],
+            "parameter": each["parameter"],
+            "effect": _size(each["effect"], each),
+            "interval": " to ".join(_size(end, each) for end in each["interval"]),
+            "certain": "yes" if each["certain"] else "no",
+        }
         for each in population["dependence"]
-    ]  # fmt: skip
+    ]
     return Grid("Dependence on properties", columns, rows, csv_name=f"{population['model']}-dependence.csv")
 
 
@@ -146,8 +179,13 @@ def _size(value: float, entry: Json) -> str:
 
 def _result(content: Json) -> Iterator[Part]:
     named = {one["specimen"] for one in content["named"]}
-    yield KeyFigures([("specimens", str(len(content["specimens"])), "", ""), ("stand out", str(len(named)), "", ""),
-                      ("failed jobs", str(len(content["failures"])), "", "")])  # fmt: skip
+    yield KeyFigures(
+        [
+            ("specimens", str(len(content["specimens"])), "", ""),
+            ("stand out", str(len(named)), "", ""),
+            ("failed jobs", str(len(content["failures"])), "", ""),
+        ]
+    )
     for grid in (named_grid(content), population_grid(content)):
         if grid.rows:
             yield grid
@@ -172,8 +210,10 @@ def _groups(population: Json) -> str:
     count = max(population["groups"])
     if count < 2:
         return "The specimens that belong to the population are one group."
-    members = [[name for name, group in zip(population["specimens"], population["groups"], strict=True) if group == k]
-               for k in range(1, count + 1)]  # fmt: skip
+    members = [
+        [name for name, group in zip(population["specimens"], population["groups"], strict=True) if group == k]
+        for k in range(1, count + 1)
+    ]
     return f"There are {count} groups of specimens alike: " + "; ".join(", ".join(each) for each in members) + "."
 
 
@@ -191,13 +231,20 @@ def _over(content: Json, population: Json) -> Iterator[Figure]:
 
 def number_figure(content: Json, model: str, path: str, over: str = "") -> Figure:
     """A number of a model over the specimens, or over one of their properties. ValueError for what none of them has."""
-    told = [each for population in content["populations"] if population["model"] == model
-            for each in population["numbers"] if each["parameter"] == path]  # fmt: skip
+    told = [
+        each
+        for population in content["populations"]
+        if population["model"] == model
+        for each in population["numbers"]
+        if each["parameter"] == path
+    ]
     points = _points(content, model, path, over)
     if not (told and points):
         known = [each["parameter"] for population in content["populations"] for each in population["numbers"]]
-        raise ValueError(f"expected a number of {model}{f' and a property {over}' if over else ''}, got '{path}'; "
-                         f"numbers are: {', '.join(known)}")  # fmt: skip
+        raise ValueError(
+            f"expected a number of {model}{f' and a property {over}' if over else ''}, got '{path}'; "
+            f"numbers are: {', '.join(known)}"
+        )
     return figures.number_over(told[0], points, over)
 
 
@@ -216,14 +263,19 @@ def _shared(population: Json) -> Iterator[Part]:
     shared = population["shared"]
     units = {each["parameter"]: each["unit"] for each in population["numbers"]}
     columns = [Column("parameter", "parameter"), Column("value", "value [95 % interval]")]
-    rows = [{"parameter": path, "value": with_interval(each["value"], each["interval"], units[path])}
-            for path, each in shared["numbers"].items()]  # fmt: skip
+    rows = [
+        {"parameter": path, "value": with_interval(each["value"], each["interval"], units[path])}
+        for path, each in shared["numbers"].items()
+    ]
     yield Grid("Numbers in common", columns, rows, csv_name="shared.csv")
     ratio = shared["error_ratio"]
     told = "" if ratio is None else f" With them the fits err {number(ratio, 4)} times as much."
     if shared["probability"] < CHANCE:
-        yield Notice("warning", f"The specimens contradict numbers in common: by chance they would differ as much with "
-                     f"probability {number(shared['probability'], 2)}.{told}")  # fmt: skip
+        yield Notice(
+            "warning",
+            f"The specimens contradict numbers in common: by chance they would differ as much with "
+            f"probability {number(shared['probability'], 2)}.{told}",
+        )
     else:
         yield Notice("good", f"The specimens agree with numbers in common.{told}")
 

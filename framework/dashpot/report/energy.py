@@ -14,8 +14,14 @@ ERROR = Column("error", "error", "J", 2)
 
 def runs_grid(balances: Sequence[EnergyBalance]) -> Grid:
     """Every run: the work put in, and where it is at the end."""
-    columns = [Column("run", "run"), Column("put_in", "put in", "J", 4), STORED, DISSIPATED,
-               Column("missing", "missing", "J", 2), ERROR]  # fmt: skip
+    columns = [
+        Column("run", "run"),
+        Column("put_in", "put in", "J", 4),
+        STORED,
+        DISSIPATED,
+        Column("missing", "missing", "J", 2),
+        ERROR,
+    ]
     keys = [column.key for column in columns]
     rows = [{key: getattr(balance, key) for key in keys} for balance in balances]
     caption = "missing: taken away by the time steps; error: estimated from halving them"
@@ -24,8 +30,15 @@ def runs_grid(balances: Sequence[EnergyBalance]) -> Grid:
 
 def parts_grid(balances: Sequence[EnergyBalance]) -> Grid:
     """Every branch and every mass in every run: the work done on it, and where it is at the end."""
-    columns = [Column("run", "run"), Column("name", "part"), Column("word", "element"),
-               Column("work", "work", "J", 4), STORED, DISSIPATED, ERROR]  # fmt: skip
+    columns = [
+        Column("run", "run"),
+        Column("name", "part"),
+        Column("word", "element"),
+        Column("work", "work", "J", 4),
+        STORED,
+        DISSIPATED,
+        ERROR,
+    ]
     return Grid("Energy of every part", columns, list(_parts(balances)), csv_name="energy.csv")
 
 

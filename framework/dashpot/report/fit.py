@@ -78,8 +78,10 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
         path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
     }
     unknown = {*fit["without_influence"], *(fit.get("identifiability") or {}).get("undetermined", ())}
-    rows = [{"number": path, **_in_rig_units(entry, path not in unknown), "remark": remarks.get(path)}
-            for path, entry in found.items()]  # fmt: skip
+    rows = [
+        {"number": path, **_in_rig_units(entry, path not in unknown), "remark": remarks.get(path)}
+        for path, entry in found.items()
+    ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid(title, used or columns[:2], rows, csv_name=file)
 

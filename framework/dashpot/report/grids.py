@@ -93,8 +93,9 @@ def named_grid(diagnosis: Json) -> Grid:
 def unnamed_grid(diagnosis: Json) -> Grid:
     """The causes that were suspected and explain less."""
     causes = [cause for cause in diagnosis["causes"] if not is_named(cause)]
-    return replace(_causes(diagnosis, "Suspected, and less likely than not", causes), folded=True,
-                   csv_name="suspected.csv")  # fmt: skip
+    return replace(
+        _causes(diagnosis, "Suspected, and less likely than not", causes), folded=True, csv_name="suspected.csv"
+    )
 
 
 def is_named(cause: Json) -> bool:

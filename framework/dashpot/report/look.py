@@ -92,12 +92,20 @@ def look_grid(look: Json, keys: Sequence[str] = ()) -> Grid:
 
 
 def _row(run: Json, fault: str) -> dict[str, Any]:
-    remarks = [fault, f"repeats {run['repeats']}" if run["repeats"] else "",
-               "gives back work" if run["gives_back"] else ""]  # fmt: skip
+    remarks = [
+        fault,
+        f"repeats {run['repeats']}" if run["repeats"] else "",
+        "gives back work" if run["gives_back"] else "",
+    ]
     thousandth = {key: None if run[key] is None else 1e-3 * run[key] for key in ("stiffness", "loss")}
     in_mm = {key: 1e3 * run[key] for key in ("amplitude", "preload", "peak_speed")}
-    return {**run, **in_mm, **thousandth, "energy": run["energy_per_cycle"],
-            "remark": ", ".join(filter(None, remarks)) or None}  # fmt: skip
+    return {
+        **run,
+        **in_mm,
+        **thousandth,
+        "energy": run["energy_per_cycle"],
+        "remark": ", ".join(filter(None, remarks)) or None,
+    }
 
 
 def _result(look: Json, evidence: Evidence) -> Iterator[Part]:
@@ -123,8 +131,10 @@ def _loops(evidence: Evidence) -> Iterator[Figure]:
 def _cut(curve: Json, signals: Json, points: int) -> dict[str, Any]:
     """Cycles spread over the run, with a gap between."""
     pieces = excerpt.cycle_excerpts(np.asarray(signals["time"]), np.asarray(signals["displacement"]), points)
-    x, y = (np.concatenate([part for piece in pieces for part in (np.asarray(curve[key])[piece], [np.nan])])
-            for key in ("x", "y"))  # fmt: skip
+    x, y = (
+        np.concatenate([part for piece in pieces for part in (np.asarray(curve[key])[piece], [np.nan])])
+        for key in ("x", "y")
+    )
     return {**curve, "x": x, "y": y}
 
 

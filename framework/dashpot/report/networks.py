@@ -38,8 +38,11 @@ def as_found(network: NetworkSpec) -> NetworkSpec:
 
 def identified_curves(network: NetworkSpec) -> dict[str, IdentifiedCurve]:
     """The tables of a network that were searched or taken from data, by path."""
-    return {path: _curve(curve) for path, curve in network.curves().items()
-            if curve.form == "table" and (curve.data or any(value.searched for value in curve.values))}  # fmt: skip
+    return {
+        path: _curve(curve)
+        for path, curve in network.curves().items()
+        if curve.form == "table" and (curve.data or any(value.searched for value in curve.values))
+    }
 
 
 def branch_forces(network: NetworkSpec, dataset: Dataset) -> dict[str, dict[str, Array]]:
@@ -63,5 +66,12 @@ def _curve(curve: Characteristic) -> IdentifiedCurve:
     intervals = [value.interval or (np.nan, np.nan) for value in curve.values]
     low, high = np.array(intervals).T
     value = np.array([value.number for value in curve.values])
-    return {"over": over, "over_unit": over_unit, "unit": curve.curve.value[1], "at": np.array(curve.at),
-            "value": value, "low": low, "high": high}  # fmt: skip
+    return {
+        "over": over,
+        "over_unit": over_unit,
+        "unit": curve.curve.value[1],
+        "at": np.array(curve.at),
+        "value": value,
+        "low": low,
+        "high": high,
+    }

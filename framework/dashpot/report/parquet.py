@@ -15,8 +15,11 @@ def require_parquet() -> None:
     try:
         import pyarrow.parquet  # noqa: F401
     except ImportError:
-        raise InputError.at(Place("--parquet"), "expected pyarrow, it is not installed",
-                            "pip install 'dashpot[parquet]', or take the CSV file") from None  # fmt: skip
+        raise InputError.at(
+            Place("--parquet"),
+            "expected pyarrow, it is not installed",
+            "pip install 'dashpot[parquet]', or take the CSV file",
+        ) from None
 
 
 def to_parquet(grid: Grid) -> memoryview:
@@ -25,8 +28,10 @@ def to_parquet(grid: Grid) -> memoryview:
     from pyarrow.parquet import write_table
 
     columns = {column.heading: [row.get(column.key) for row in grid.rows] for column in grid.columns}
-    table = {heading: cells if _numeric(cells) else [None if cell is None else str(cell) for cell in cells]
-             for heading, cells in columns.items()}  # fmt: skip
+    table = {
+        heading: cells if _numeric(cells) else [None if cell is None else str(cell) for cell in cells]
+        for heading, cells in columns.items()
+    }
     out = io.BytesIO()
     write_table(pyarrow.table(table), out)
     return out.getbuffer()

@@ -15,8 +15,16 @@ VARIABLE = "CHROMIUM"  # names the browser where it is not on the path
 SUMMARY = "summary"  # the part of the address at which a report shows one page
 PATIENCE = 120  # s
 # nothing is asked of anyone, and time passes as fast as the plots are drawn
-SWITCHES = ("--headless", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-            "--disable-component-update", "--no-pdf-header-footer", "--virtual-time-budget=30000")  # fmt: skip
+SWITCHES = (
+    "--headless",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--no-pdf-header-footer",
+    "--virtual-time-budget=30000",
+)
 
 
 def find_browser() -> str:
@@ -25,8 +33,11 @@ def find_browser() -> str:
     found = next(filter(None, map(shutil.which, [named] if named else NAMES)), None)
     if found is None:
         what = f"'{named}', which {VARIABLE} names, is no program" if named else "there is none of them"
-        raise InputError.at(Place("--pdf"), f"expected Chromium, Chrome or Edge to print with, but {what}",
-                            f"install one, let {VARIABLE} name it, or print report.html in a browser")  # fmt: skip
+        raise InputError.at(
+            Place("--pdf"),
+            f"expected Chromium, Chrome or Edge to print with, but {what}",
+            f"install one, let {VARIABLE} name it, or print report.html in a browser",
+        )
     return found
 
 
@@ -39,10 +50,12 @@ def print_report(report: Path, target: Path, part: str = "") -> Path:
         try:
             done = subprocess.run([*command, address], capture_output=True, text=True, timeout=PATIENCE, check=False)
         except subprocess.TimeoutExpired:
-            raise InputError.at(Place(str(target)), f"the browser did not print within {PATIENCE} s",
-                                "print report.html by hand") from None  # fmt: skip
+            raise InputError.at(
+                Place(str(target)), f"the browser did not print within {PATIENCE} s", "print report.html by hand"
+            ) from None
     if done.returncode or not target.is_file():
         last = (done.stderr.strip().splitlines() or ["nothing"])[-1]
-        raise InputError.at(Place(str(target)), f"the browser could not print; it said: {last}",
-                            "print report.html by hand")  # fmt: skip
+        raise InputError.at(
+            Place(str(target)), f"the browser could not print; it said: {last}", "print report.html by hand"
+        )
     return target

@@ -68,11 +68,16 @@ def contact_responses(axle: Axle, curves: Iterable[Mapping[str, Any]]) -> list[d
         if run is None or run.end not in axle.wheels or np.size(curve["frequency"]) < 2:
             continue
         wheel = axle.wheels[run.end]
-        found.append({
-            "run": run.record, "wheel": wheel, "added_mass": axle.added_mass(run, wheel),
-            "frequency": curve["frequency"], "measured": curve["measured"]["force"],
-            "simulated": {label: response["force"] for label, response in curve["simulated"].items()},
-        })  # fmt: skip
+        found.append(
+            {
+                "run": run.record,
+                "wheel": wheel,
+                "added_mass": axle.added_mass(run, wheel),
+                "frequency": curve["frequency"],
+                "measured": curve["measured"]["force"],
+                "simulated": {label: response["force"] for label, response in curve["simulated"].items()},
+            }
+        )
     return found
 
 
@@ -81,8 +86,11 @@ def wheel_masses(axle: Axle) -> dict[str, dict[str, WheelMass]]:
     found: dict[str, dict[str, WheelMass]] = {}
     for platform, wheel in axle.wheels.items():
         motion, force = channel_at("displacement", wheel), channel_at("force", platform)
-        runs = [WheelRun(run.channels[motion], run.channels[force], run.sample_time, axle.added_mass(run, wheel))
-                for run in axle.records if run.kind == "sweep" and motion in run.channels]  # fmt: skip
+        runs = [
+            WheelRun(run.channels[motion], run.channels[force], run.sample_time, axle.added_mass(run, wheel))
+            for run in axle.records
+            if run.kind == "sweep" and motion in run.channels
+        ]
         try:
             found[wheel] = {"rigid": wheel_mass(runs), "elastic": wheel_mass(runs, elastic=True)} if runs else {}
         except (ValueError, NotOscillatingError):
@@ -128,9 +136,14 @@ def _measured(axle: Axle, run: Run) -> SlowAxle:
     if all(channel_at("displacement", wheel) in run.channels for wheel in axle.wheels.values()):
         wheels = tuple(run.channels[channel_at("displacement", wheel)] for wheel in axle.wheels.values())
     else:
-        wheels = tuple(behind_tire(run.channels[channel_at("displacement", platform)], force,
-                                   tire_curve(axle.network, platform, float(force.max())))
-                       for platform, force in zip(axle.wheels, forces, strict=True))  # fmt: skip
+        wheels = tuple(
+            behind_tire(
+                run.channels[channel_at("displacement", platform)],
+                force,
+                tire_curve(axle.network, platform, float(force.max())),
+            )
+            for platform, force in zip(axle.wheels, forces, strict=True)
+        )
     return SlowAxle(wheels, forces, run.sample_time)  # type: ignore[arg-type]
 
 

@@ -20,15 +20,22 @@ def model_content(model: ModelResult) -> dict[str, Any]:
     runs = [run for run in model.setting.dataset.runs if run.name in train]
     return {
         "velocity_curves": [
-            {"curve": curve.path, "velocity": list(curve.velocity), "force": list(curve.force), "low": list(curve.low),
-             "high": list(curve.high), "excited": list(curve.excited), "reached": list(curve.reached)}
+            {
+                "curve": curve.path,
+                "velocity": list(curve.velocity),
+                "force": list(curve.force),
+                "low": list(curve.low),
+                "high": list(curve.high),
+                "excited": list(curve.excited),
+                "reached": list(curve.reached),
+            }
             for curve in velocity_curves(model.fit.fitted, model.setting.train)
         ],
         "masses_without_tire": [
             {"node": mass.node, "value": mass.mass, "interval": list(mass.interval), "rmse": mass.rmse}
             for mass in masses_without_tire(model.fit.fitted, runs)
         ],
-    }  # fmt: skip
+    }
 
 
 def axle_content(models: Iterable[ModelResult]) -> dict[str, Any] | None:
@@ -39,12 +46,18 @@ def axle_content(models: Iterable[ModelResult]) -> dict[str, Any] | None:
         return None
     return {
         "wheels": [
-            {"node": wheel, "fixing": fixing, "value": mass.mass, "interval": list(mass.interval),
-             "compliance": mass.compliance}
-            for wheel, masses in wheel_masses(axle).items() for fixing, mass in masses.items()
+            {
+                "node": wheel,
+                "fixing": fixing,
+                "value": mass.mass,
+                "interval": list(mass.interval),
+                "compliance": mass.compliance,
+            }
+            for wheel, masses in wheel_masses(axle).items()
+            for fixing, mass in masses.items()
         ],
         "slow_curves": [{"of": label, **_numbers(curves)} for label, curves in _slow_curves(axle, family).items()],
-    }  # fmt: skip
+    }
 
 
 def axle_evidence(models: Iterable[ModelResult], stiffness: Iterable[Mapping[str, Any]]) -> dict[str, Any]:

@@ -39,14 +39,18 @@ def mass_warnings(mass: Json) -> Iterator[str]:
         percent = PERCENT / part["share"] * part["moved"]
         way = "large" if percent < 0.0 else "small"
         allowed = f"{100.0 * part['share']:.2g} % for the force of {part['branch']}"
-        yield (f"{mass['node']}: the interval includes {allowed}, the RMSE of {part['model']} by itself or of all, "
-               "or a difference of load cells. If it were 1 % stiffer here than at its identification, this mass would "
-               f"be {abs(percent):.2g} kg too {way}, with hardly any effect on the RMSE")  # fmt: skip
+        yield (
+            f"{mass['node']}: the interval includes {allowed}, the RMSE of {part['model']} by itself or of all, "
+            "or a difference of load cells. If it were 1 % stiffer here than at its identification, this mass would "
+            f"be {abs(percent):.2g} kg too {way}, with hardly any effect on the RMSE"
+        )
     for number in mass["owed_to_known"]:
         low, high = (pretty(end, number["unit"], 3) for end in number["interval"])
         way = "larger" if number["moved"] > 0.0 else "smaller"
-        yield (f"{mass['node']}: the interval includes {number['number']} from {low} to {high}; with {high} this "
-               f"mass would be {abs(NORMAL * number['moved']):.2g} kg {way}")  # fmt: skip
+        yield (
+            f"{mass['node']}: the interval includes {number['number']} from {low} to {high}; with {high} this "
+            f"mass would be {abs(NORMAL * number['moved']):.2g} kg {way}"
+        )
     others = [f"{other['value']:.2f} kg with {other['model']} ({other['error']:.3g} N)" for other in mass["others"]]
     if others:
         yield f"{mass['node']}: other structures give {', '.join(others)}"
@@ -54,11 +58,22 @@ def mass_warnings(mass: Json) -> Iterator[str]:
 
 def _answer(node: str, pairs: list[tuple[Json, Json]], noise_floor: float | None) -> dict[str, Any]:
     model, mass = min(pairs, key=lambda pair: _error(pair[0]))
-    others = [{"model": other["name"], "value": each["value"], "error": _error(other)}
-              for other, each in pairs if other is not model]  # fmt: skip
-    return {"node": node, "value": mass["value"], "interval": mass["interval"], "model": model["name"],
-            "error": _error(model), "noise_floor": noise_floor, "owed": mass["owed"],
-            "owed_to_known": mass["owed_to_known"], "others": others}  # fmt: skip
+    others = [
+        {"model": other["name"], "value": each["value"], "error": _error(other)}
+        for other, each in pairs
+        if other is not model
+    ]
+    return {
+        "node": node,
+        "value": mass["value"],
+        "interval": mass["interval"],
+        "model": model["name"],
+        "error": _error(model),
+        "noise_floor": noise_floor,
+        "owed": mass["owed"],
+        "owed_to_known": mass["owed_to_known"],
+        "others": others,
+    }
 
 
 def _error(model: Json) -> float:

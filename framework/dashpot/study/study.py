@@ -36,8 +36,14 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     }
     axle = axle_content(result.models)
     masses = identified_masses(models, result.models[-1].setting.floor.value)
-    return {**content, "format": "dashpot-study-result/1", "study": study, "models": models, "axle": axle,
-            "masses": masses}  # fmt: skip
+    return {
+        **content,
+        "format": "dashpot-study-result/1",
+        "study": study,
+        "models": models,
+        "axle": axle,
+        "masses": masses,
+    }
 
 
 def study_evidence(result: StudyResult) -> Any:
@@ -67,9 +73,7 @@ def preview_text(previews: Sequence[Preview]) -> str:
         cost = f"at most {each.budget} parameter vectors" if each.budget else "nothing to search"
         blocks.append("\n".join([f"{head}; {cost}", *(f"  {text}" for text in each.known.sentences)]))
     noise = (
-        f"At the start values, with noise of {previews[0].noise:.3g} N coloured as in the records."
-        if previews
-        else ""
+        f"At the start values, with noise of {previews[0].noise:.3g} N coloured as in the records." if previews else ""
     )
     return "\n".join([*blocks, noise])
 

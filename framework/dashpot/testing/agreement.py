@@ -46,16 +46,23 @@ def check_agreement(element: type[Element], seed: int | None = None) -> None:
 def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: str, rng: np.random.Generator) -> None:
     eager = simulate_eagerly(specimen.spec, drive, specimen.values)
     if not np.isfinite(eager).all():
-        examination.fail(f"with {case}, the force is not finite for ordinary numbers: {_first(specimen, eager)}",
-                         "Guard the law against overflow and division by zero.")  # fmt: skip
+        examination.fail(
+            f"with {case}, the force is not finite for ordinary numbers: {_first(specimen, eager)}",
+            "Guard the law against overflow and division by zero.",
+        )
     traced = simulate_interpreted(specimen.spec, drive, specimen.values)
     compiled = compile_network(specimen.spec).along(drive)(specimen.values)
     scale = _force_scale(specimen, eager)
     advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
     _demand_equal(examination, traced / scale, eager / scale, f"with {case}, the traced law", advice)
     known = determined(specimen, drive, eager, scale, rng)
-    _demand_equal(examination, np.where(known, compiled, eager) / scale, eager / scale,
-                  f"with {case}, the compiled law", "Avoid differences of nearly equal large numbers.")  # fmt: skip
+    _demand_equal(
+        examination,
+        np.where(known, compiled, eager) / scale,
+        eager / scale,
+        f"with {case}, the compiled law",
+        "Avoid differences of nearly equal large numbers.",
+    )
 
 
 def determined(
@@ -66,8 +73,10 @@ def determined(
     ``force`` (lanes, samples) and ``scale`` (lanes, 1) in N.
     """
     branch = specimen.branch
-    spec = replace(specimen.spec, root=replace(specimen.spec.root, members=(
-        replace(branch, element=_rounding(branch.element, rng)),)))  # fmt: skip
+    spec = replace(
+        specimen.spec,
+        root=replace(specimen.spec.root, members=(replace(branch, element=_rounding(branch.element, rng)),)),
+    )
     moved = np.max([np.abs(simulate_eagerly(spec, drive, specimen.values) - force) for _ in range(DRAWS)], axis=0)
     return np.maximum.accumulate(moved / scale, axis=1) <= TOLERANCE
 
@@ -97,9 +106,12 @@ def _force_scale(specimen: Specimen, force: Array) -> Array:
 def _demand_equal(examination: Examination, found: Array, expected: Array, what: str, advice: str) -> None:
     error = np.abs(found - expected)
     lane, sample = np.unravel_index(np.argmax(np.where(np.isnan(error), np.inf, error)), error.shape)
-    examination.demand(bool(error[lane, sample] <= TOLERANCE), f"{what} gives {found[lane, sample]:.16g} of the force "
-                       f"scale at sample {sample}, the element's own code {expected[lane, sample]:.16g}",
-                       advice)  # fmt: skip
+    examination.demand(
+        bool(error[lane, sample] <= TOLERANCE),
+        f"{what} gives {found[lane, sample]:.16g} of the force "
+        f"scale at sample {sample}, the element's own code {expected[lane, sample]:.16g}",
+        advice,
+    )
 
 
 def _first(specimen: Specimen, force: Array) -> str:

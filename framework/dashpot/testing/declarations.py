@@ -32,13 +32,19 @@ def check_declarations(element: type[Element], seed: int | None = None) -> None:
 
 def _check_class(examination: Examination) -> None:
     element = examination.element
-    examination.demand(element.word.isidentifier(), f"expected a word for files, got '{element.word}'",
-                       "Set `word` to letters, digits and underscores.")  # fmt: skip
+    examination.demand(
+        element.word.isidentifier(),
+        f"expected a word for files, got '{element.word}'",
+        "Set `word` to letters, digits and underscores.",
+    )
     examination.demand(bool((element.__doc__ or "").strip()), "the class has no docstring", "Say the law in it.")
     declared = element.declares
     for key in (*declared.parameters, *declared.curves):
-        examination.demand(key not in TAKEN, f"'{key}' is the name of something else in a file or a motion",
-                           "Give the parameter another name.")  # fmt: skip
+        examination.demand(
+            key not in TAKEN,
+            f"'{key}' is the name of something else in a file or a motion",
+            "Give the parameter another name.",
+        )
 
 
 def _check_parameter(examination: Examination, key: str, parameter: Parameter) -> None:
@@ -46,15 +52,21 @@ def _check_parameter(examination: Examination, key: str, parameter: Parameter) -
     low, high = parameter.bounds
     _check_range(examination, key, parameter.bounds, parameter.scale)
     if parameter.default is not None:
-        examination.demand(low <= parameter.default <= high, f"the default {parameter.default:g} of '{key}' lies "
-                           f"outside its bounds {low:g} to {high:g}", "Change the one or the other.")  # fmt: skip
+        examination.demand(
+            low <= parameter.default <= high,
+            f"the default {parameter.default:g} of '{key}' lies outside its bounds {low:g} to {high:g}",
+            "Change the one or the other.",
+        )
 
 
 def _check_curve(examination: Examination, key: str, curve: Curve) -> None:
     for word, unit in (curve.value, curve.over):
         _check_text(examination, f"{key}, axis {word}", unit, curve.about)
-        examination.demand(word.isidentifier() and word not in CURVE_WORDS, f"'{word}' cannot name an axis of '{key}'",
-                           f"Take a word other than {', '.join(sorted(CURVE_WORDS))}.")  # fmt: skip
+        examination.demand(
+            word.isidentifier() and word not in CURVE_WORDS,
+            f"'{word}' cannot name an axis of '{key}'",
+            f"Take a word other than {', '.join(sorted(CURVE_WORDS))}.",
+        )
     examination.demand(curve.value[0] != curve.over[0], f"both axes of '{key}' have the same name", "Rename one.")
     _check_range(examination, key, curve.bounds, curve.scale)
 
@@ -68,8 +80,11 @@ def _check_range(examination: Examination, key: str, bounds: tuple[float, float]
     low, high = bounds
     examination.demand(low < high, f"expected growing bounds of '{key}', got {low:g} and {high:g}", "Swap them.")
     finite = low > 0.0 and math.isfinite(high)
-    examination.demand(scale != "log" or finite, f"expected positive finite bounds of '{key}' for its log scale, got "
-                       f"{low:g} to {high:g}", "Give bounds, or scale='linear'.")  # fmt: skip
+    examination.demand(
+        scale != "log" or finite,
+        f"expected positive finite bounds of '{key}' for its log scale, got {low:g} to {high:g}",
+        "Give bounds, or scale='linear'.",
+    )
 
 
 def _check_law(examination: Examination) -> None:
@@ -78,5 +93,7 @@ def _check_law(examination: Examination) -> None:
         try:
             trace_network(specimen.spec)
         except InputError as error:
-            examination.fail(f"with {specimen.form}, its step cannot be traced: {error}",
-                             "A step may only compute with numpy functions of its arguments.")  # fmt: skip
+            examination.fail(
+                f"with {specimen.form}, its step cannot be traced: {error}",
+                "A step may only compute with numpy functions of its arguments.",
+            )

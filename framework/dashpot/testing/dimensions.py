@@ -32,8 +32,11 @@ def check_dimensions(element: type[Element], seed: int | None = None) -> None:
             found = simulate_eagerly(other.spec, _rescaled(drive, change), other.values)
             expected = change.force * force
             same = np.max(np.abs(found - expected)) <= TOLERANCE * np.max(np.abs(expected))
-            examination.demand(bool(same), f"with {specimen.form}, the force is another one when {what} "
-                               "are measured in another unit", "Correct the declared units, or the law.")  # fmt: skip
+            examination.demand(
+                bool(same),
+                f"with {specimen.form}, the force is another one when {what} are measured in another unit",
+                "Correct the declared units, or the law.",
+            )
 
 
 def _rescaled(drive: Drive, change: Sizes) -> Drive:

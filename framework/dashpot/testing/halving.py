@@ -33,8 +33,10 @@ class _Piece:
         middle = 0.5 * (self.old + self.new) + self.dt * (self.velocity_old - self.velocity_new) / 8.0
         velocity = 0.5 * (self.velocity_old + self.velocity_new) + 1.5 * bow
         half = 0.5 * self.dt
-        return (_Piece(half, self.old, middle, self.velocity_old, velocity),
-                _Piece(half, middle, self.new, velocity, self.velocity_new))  # fmt: skip
+        return (
+            _Piece(half, self.old, middle, self.velocity_old, velocity),
+            _Piece(half, middle, self.new, velocity, self.velocity_new),
+        )
 
     def seen(self, sight: Sight) -> Motion:
         """The motion as a law of this sight may see it."""
@@ -69,8 +71,12 @@ def _walk(examination: Examination, specimen: Specimen, rng: np.random.Generator
         both = law.respond(second.seen(sight), half.states, second.dt)
         scale = np.maximum(scale, np.abs(whole.force))
         error = np.max(np.abs(whole.force - both.force) / np.maximum(scale, np.finfo(float).tiny))
-        examination.demand(bool(error <= TOLERANCE), f"with {specimen.form}, one step and two half steps give forces "
-                           f"that differ by {error:.1e} of the largest one", ADVICE)  # fmt: skip
+        examination.demand(
+            bool(error <= TOLERANCE),
+            f"with {specimen.form}, one step and two half steps give forces "
+            f"that differ by {error:.1e} of the largest one",
+            ADVICE,
+        )
         states, place = dict(whole.states), piece.new
 
 

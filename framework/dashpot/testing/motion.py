@@ -15,8 +15,9 @@ NOISE = 2e-4
 PARTS = 6
 
 
-def random_drive(rng: np.random.Generator, kind: str, length: float, time: float, samples: int = 300,
-                 dt: float | None = None) -> Drive:  # fmt: skip
+def random_drive(
+    rng: np.random.Generator, kind: str, length: float, time: float, samples: int = 300, dt: float | None = None
+) -> Drive:
     """A motion of one of the ``MOTIONS`` from rest at zero deflection.
 
     ``length`` (m) is about its amplitude, ``time`` (s) that of its fastest part by 2 pi; the sample time is a fraction

@@ -31,9 +31,16 @@ def check_separation(element: type[Element], seed: int | None = None) -> None:
         eager = simulate_eagerly(specimen.spec, drive, specimen.values)
         for lane in CHOSEN:
             alone = simulate(specimen.values[lane])
-            examination.demand(np.array_equal(alone, together[lane], equal_nan=True), f"with {specimen.form}, the "
-                               f"compiled lane {lane} alone differs from itself among {LANES}", KERNEL)  # fmt: skip
+            examination.demand(
+                np.array_equal(alone, together[lane], equal_nan=True),
+                f"with {specimen.form}, the compiled lane {lane} alone differs from itself among {LANES}",
+                KERNEL,
+            )
             own = simulate_eagerly(specimen.spec, drive, specimen.values[lane])
             near = np.allclose(own, eager[lane], rtol=0.0, atol=TOLERANCE * np.max(np.abs(own)))
-            examination.demand(near, f"with {specimen.form}, the element's own code gives lane {lane} alone another "
-                               f"force than among {LANES}", OWN)  # fmt: skip
+            examination.demand(
+                near,
+                f"with {specimen.form}, the element's own code gives lane {lane} alone another "
+                f"force than among {LANES}",
+                OWN,
+            )

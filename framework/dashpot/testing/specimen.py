@@ -72,8 +72,11 @@ def draw_specimens(element: type[Element], rng: np.random.Generator, sizes: Size
 
 def specimen_of(element: type[Element], columns: Mapping[str, Array], curves: Mapping[str, Characteristic]) -> Specimen:
     """The specimen with values (lanes,) by path without the name of the branch, e.g. ``stiffness[2]``."""
-    values = {key: Value(float(columns[key][0]), law.unit, scale=law.scale)
-              for key, law in element.declares.parameters.items() if key in columns}  # fmt: skip
+    values = {
+        key: Value(float(columns[key][0]), law.unit, scale=law.scale)
+        for key, law in element.declares.parameters.items()
+        if key in columns
+    }
     branch = Branch(NAME, element, values, curves, family=NAME)
     spec = NetworkSpec(element.word, Group("", "parallel", (branch,)))
     lanes = [columns[slot.path.removeprefix(f"{NAME}.")] for slot in spec.slots()]
@@ -81,8 +84,9 @@ def specimen_of(element: type[Element], columns: Mapping[str, Array], curves: Ma
     return Specimen("", spec, np.array(lanes).reshape(-1, size).T)
 
 
-def _draw(element: type[Element], rng: np.random.Generator, sizes: Sizes, lanes: int, form: Form,
-          left_out: set[str]) -> Specimen:  # fmt: skip
+def _draw(
+    element: type[Element], rng: np.random.Generator, sizes: Sizes, lanes: int, form: Form, left_out: set[str]
+) -> Specimen:
     columns: dict[str, Array] = {}
     curves: dict[str, Characteristic] = {}
     for key, parameter in element.declares.parameters.items():
@@ -115,8 +119,13 @@ def _draw_number(parameter: Parameter, rng: np.random.Generator, lanes: int) -> 
     return np.where(rng.random(lanes) < 0.5, rng.choice(neat, lanes), rng.uniform(low, high, lanes))
 
 
-def _draw_curve(curve: Curve, rng: np.random.Generator, sizes: Sizes, lanes: int, form: Form,
-                ) -> tuple[Characteristic, list[tuple[str, Array]]]:  # fmt: skip
+def _draw_curve(
+    curve: Curve,
+    rng: np.random.Generator,
+    sizes: Sizes,
+    lanes: int,
+    form: Form,
+) -> tuple[Characteristic, list[tuple[str, Array]]]:
     over = sizes.of(curve.over[1])
     slope = Parameter(curve.slope_unit, curve.about, curve.bounds)
     steepness = draw_parameter(slope, rng, sizes, lanes)

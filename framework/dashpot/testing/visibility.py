@@ -71,8 +71,11 @@ def _check_motion(examination: Examination, specimen: Specimen, simulate: Simula
     if _remembers(specimen, same, other, sample):
         matters[:, sample:] = True
     hidden = matters & ~np.isnan(simulate(unknown, specimen.values))
-    examination.demand(not hidden.any(), f"{case}: NaN in the motion at sample {sample} gives a number at "
-                       f"sample {int(np.argmax(hidden.any(axis=0)))}", ADVICE)  # fmt: skip
+    examination.demand(
+        not hidden.any(),
+        f"{case}: NaN in the motion at sample {sample} gives a number at sample {int(np.argmax(hidden.any(axis=0)))}",
+        ADVICE,
+    )
 
 
 def _remembers(specimen: Specimen, same: Drive, other: Drive, sample: int) -> bool:

@@ -109,10 +109,18 @@ _CONFUSED = {
 
 # factors of the units that stand in nearly every file: reading those needs no library of units
 USUAL = {
-    ("N/mm", "N/m"): "1e3", ("kN/mm", "N/m"): "1e6", ("N*s/mm", "N*s/m"): "1e3", ("N*s/m", "N/(m/s)"): "1",
-    ("N*s/mm", "N/(m/s)"): "1e3", ("mm", "m"): "1e-3", ("mm/s", "m/s"): "1e-3", ("um", "m"): "1e-6",
-    ("ms", "s"): "1e-3", ("kN", "N"): "1e3", ("%", "1"): "0.01",
-}  # fmt: skip
+    ("N/mm", "N/m"): "1e3",
+    ("kN/mm", "N/m"): "1e6",
+    ("N*s/mm", "N*s/m"): "1e3",
+    ("N*s/m", "N/(m/s)"): "1",
+    ("N*s/mm", "N/(m/s)"): "1e3",
+    ("mm", "m"): "1e-3",
+    ("mm/s", "m/s"): "1e-3",
+    ("um", "m"): "1e-6",
+    ("ms", "s"): "1e-3",
+    ("kN", "N"): "1e3",
+    ("%", "1"): "0.01",
+}
 
 
 def si(quantity: str | float, unit: str) -> float:

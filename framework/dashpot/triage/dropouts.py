@@ -38,11 +38,12 @@ def lost_samples(run: Run) -> Fault | None:
         return None
     where, size = max(jumps.items(), key=lambda jump: abs(jump[1]))
     return Fault(
-        run.name, "lost_samples",
+        run.name,
+        "lost_samples",
         f"its motion jumps at {_times(len(jumps))}, by {pretty(size, 'm', 3)} at {where * run.sample_time:.6g} s: "
         "no actuator moves so between two samples",
         "Samples were lost: record again, or cut a whole piece out with 'rows'",
-    )  # fmt: skip
+    )
 
 
 def _missing(run: Run) -> float:
@@ -83,8 +84,15 @@ def _steps(x: Array, places: NDArray[np.intp], noise: float, missing: float) -> 
     fitted = np.concatenate([before @ powers[0].T, after @ powers[1].T], axis=-1)
     scatter = np.std(np.concatenate(sides, axis=-1) - fitted, axis=-1)
     step = after[..., 0] - before[..., 0]
-    speed = np.max(np.abs([side[..., 1] + 2.0 * side[..., 2] * end
-                           for side, time in zip((before, after), times, strict=True)
-                           for end in (time[0], time[-1])]), axis=0)  # fmt: skip
+    speed = np.max(
+        np.abs(
+            [
+                side[..., 1] + 2.0 * side[..., 2] * end
+                for side, time in zip((before, after), times, strict=True)
+                for end in (time[0], time[-1])
+            ]
+        ),
+        axis=0,
+    )
     certain = np.abs(step) > np.maximum(CERTAIN * np.maximum(noise, scatter), missing * speed)
     return np.where(certain, step, 0.0)

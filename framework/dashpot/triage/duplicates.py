@@ -30,9 +30,11 @@ def duplicate_runs(runs: Sequence[Run]) -> list[Fault]:
             continue
         if _is_measured(first) and _same(first, second):
             found[second.name] = Fault(
-                second.name, "duplicate", f"it is run '{first.name}' to the last digit",
+                second.name,
+                "duplicate",
+                f"it is run '{first.name}' to the last digit",
                 "A copy is no repeat: measure again, or remove it",
-            )  # fmt: skip
+            )
     return list(found.values())
 
 

@@ -52,8 +52,9 @@ def examine(dataset: Dataset) -> Triage:
     """Look for faults of the measurement. A dataset never loses its last run."""
     read = [Fault(run, found.fault, found.message, found.hint) for run, found in dataset.faults]
     whole = one_force_each(dataset).runs
-    measured = [run for run in whole
-                if "force" in run.channels and "displacement" in run.channels and run.kind != STEADY]  # fmt: skip
+    measured = [
+        run for run in whole if "force" in run.channels and "displacement" in run.channels and run.kind != STEADY
+    ]
     copied = duplicate_runs(measured) + [fault for run in measured if (fault := lost_samples(run))]
     runs = _without(measured, copied)
     turned = work_faults(runs)

@@ -75,10 +75,13 @@ def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
     seen = f"it gives back {back} in each cycle, {share:.1%} of the work that goes to and fro"
     best = _most_likely(run, work, sound)
     if best is None:
-        return Fault(run.name, "energy",
-                     f"{seen}, which no passive specimen does; neither another sign nor a delay nor swapped channels "
-                     "makes it agree with the other runs",
-                     "Check its channels, or leave it out")  # fmt: skip
+        return Fault(
+            run.name,
+            "energy",
+            f"{seen}, which no passive specimen does; neither another sign nor a delay nor swapped channels "
+            "makes it agree with the other runs",
+            "Check its channels, or leave it out",
+        )
     return Fault(run.name, best.kind, f"{seen}: {best.words}", best.cure, best.factor, best.channel)
 
 
@@ -116,24 +119,42 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iter
         return _unlike(moments_of(x, rate, force, sizes), coefficients)
 
     yield _turned_force(unlike(x, rate, -force))
-    yield _Try("polarity", unlike(-x, -rate, force), "with its displacement turned round it agrees with the others",
-               "Write 'sign: -1' under its displacement channel", -1.0, "displacement")  # fmt: skip
+    yield _Try(
+        "polarity",
+        unlike(-x, -rate, force),
+        "with its displacement turned round it agrees with the others",
+        "Write 'sign: -1' under its displacement channel",
+        -1.0,
+        "displacement",
+    )
     slope = np.gradient(force, run.sample_time)
     swapped = min(unlike(factor * force, factor * slope, x / factor) for factor in _SWAPS)
-    yield _Try("swapped_channels", swapped,
-               "with its force and displacement taken for each other it agrees with the others",
-               "Swap the columns of its force and displacement channels")  # fmt: skip
+    yield _Try(
+        "swapped_channels",
+        swapped,
+        "with its force and displacement taken for each other it agrees with the others",
+        "Swap the columns of its force and displacement channels",
+    )
     late = [(unlike(x, rate, advance(force, count)), count) for count in _delays(run, work)]
     if late:
         apart, count = min(late)
         delay = pretty(count * run.sample_time, "s", 3)
-        yield _Try("delay", apart, f"with its force {delay} earlier it agrees with the others",
-                   f"Write 'delay: {delay}' under its force channel")  # fmt: skip
+        yield _Try(
+            "delay",
+            apart,
+            f"with its force {delay} earlier it agrees with the others",
+            f"Write 'delay: {delay}' under its force channel",
+        )
 
 
 def _turned_force(unlike: float) -> _Try:
-    return _Try("polarity", unlike, "with its force turned round it takes up work and agrees with the others",
-                "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+    return _Try(
+        "polarity",
+        unlike,
+        "with its force turned round it takes up work and agrees with the others",
+        "Write 'sign: -1' under its force channel, or swap the wires",
+        -1.0,
+    )
 
 
 def _delays(run: Run, work: CycleWork) -> list[int]:
@@ -147,8 +168,17 @@ def _by_itself(run: Run, work: CycleWork) -> _Try:
     """What a run is where no other one tells: late where it resists deflection as it stands, else turned round."""
     x, force = run.displacement - np.mean(run.displacement), run.force - np.mean(run.force)
     if float(x @ force) <= 0.0 or not work.per_delay > 0.0:
-        return _Try("polarity", 0.0, "with its force turned round it takes up work",
-                    "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+        return _Try(
+            "polarity",
+            0.0,
+            "with its force turned round it takes up work",
+            "Write 'sign: -1' under its force channel, or swap the wires",
+            -1.0,
+        )
     least = pretty(-float(np.mean(work.taken)) / work.per_delay, "s", 2)
-    return _Try("delay", 0.0, f"it resists deflection, but its force comes late, by {least} or more",
-                "Write its 'delay' under its force channel, or let the network identify it")  # fmt: skip
+    return _Try(
+        "delay",
+        0.0,
+        f"it resists deflection, but its force comes late, by {least} or more",
+        "Write its 'delay' under its force channel, or let the network identify it",
+    )

@@ -21,19 +21,32 @@ from dashpot.triage.forecast import Sizes, moments_of, moments_of_run
 
 # what was measured over what it is -> how that comes about
 FORCES = {
-    1000.0: "kN written as N", 0.001: "N written as kN", 1e6: "MN written as N",
-    9.80665: "N written as kgf", 1.0 / 9.80665: "kgf written as N",
-    9806.65: "N written as tonf", 1.0 / 9806.65: "tonf written as N",
-    4.4482216: "N written as lbf", 1.0 / 4.4482216: "lbf written as N",
-    4448.2216: "N written as kip", 1.0 / 4448.2216: "kip written as N",
-    10.0: "a decimal point", 0.1: "a decimal point",
-}  # fmt: skip
+    1000.0: "kN written as N",
+    0.001: "N written as kN",
+    1e6: "MN written as N",
+    9.80665: "N written as kgf",
+    1.0 / 9.80665: "kgf written as N",
+    9806.65: "N written as tonf",
+    1.0 / 9806.65: "tonf written as N",
+    4.4482216: "N written as lbf",
+    1.0 / 4.4482216: "lbf written as N",
+    4448.2216: "N written as kip",
+    1.0 / 4448.2216: "kip written as N",
+    10.0: "a decimal point",
+    0.1: "a decimal point",
+}
 DISPLACEMENTS = {
-    1000.0: "mm written as m", 0.001: "m written as mm", 1e6: "um written as m", 1e-6: "m written as um",
-    25.4: "mm written as in", 1.0 / 25.4: "in written as mm",
-    10.0: "mm written as cm, or a decimal point", 0.1: "cm written as mm, or a decimal point",
-    100.0: "cm written as m", 0.01: "m written as cm",
-}  # fmt: skip
+    1000.0: "mm written as m",
+    0.001: "m written as mm",
+    1e6: "um written as m",
+    1e-6: "m written as um",
+    25.4: "mm written as in",
+    1.0 / 25.4: "in written as mm",
+    10.0: "mm written as cm, or a decimal point",
+    0.1: "cm written as mm, or a decimal point",
+    100.0: "cm written as m",
+    0.01: "m written as cm",
+}
 PREFIXES = (1000.0, 0.001, 1e6, 1e-6)
 # what other settings do to a force is no matter of triage, but no setting makes it this many times as large
 SETTLED = 999.0
@@ -77,9 +90,13 @@ def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
 def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, least: float) -> Fault | None:
     gain, likeness = known.compare(moments_of_run(run, sizes))
     if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach and least == 1.0:
-        return Fault(run.name, "polarity",
-                     f"its force is {gain:.3g} times what all others foretell: the channel has the wrong sign",
-                     "Write 'sign: -1' under its force channel, or swap the wires", -1.0)  # fmt: skip
+        return Fault(
+            run.name,
+            "polarity",
+            f"its force is {gain:.3g} times what all others foretell: the channel has the wrong sign",
+            "Write 'sign: -1' under its force channel, or swap the wires",
+            -1.0,
+        )
     force = _force_fault(run, gain, likeness, known, least)
     stroke = _stroke_fault(run, known, sizes, least)
     if force and stroke:
@@ -96,8 +113,13 @@ def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least
     if not near:
         return None
     like = " or ".join(FORCES[factor] for factor in near)
-    return Fault(run.name, "unit", f"its force is {pretty(gain, '1', 4)} times what all others foretell, like {like}",
-                 "Correct the 'unit' of its force channel", _mending(near))  # fmt: skip
+    return Fault(
+        run.name,
+        "unit",
+        f"its force is {pretty(gain, '1', 4)} times what all others foretell, like {like}",
+        "Correct the 'unit' of its force channel",
+        _mending(near),
+    )
 
 
 def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, least: float) -> Fault | None:
@@ -113,9 +135,14 @@ def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, least: float) -> Fau
         return None
     fits = sorted(fitting, key=lambda each: fitting[each])
     divisors = " or ".join(f"{factor:.6g} ({DISPLACEMENTS[factor]})" for factor in fits)
-    return Fault(run.name, "unit_of_displacement",
-                 f"its force is like that of all others if its displacement is divided by {divisors}",
-                 "Correct the 'unit' of its displacement channel", _mending(fits), "displacement")  # fmt: skip
+    return Fault(
+        run.name,
+        "unit_of_displacement",
+        f"its force is like that of all others if its displacement is divided by {divisors}",
+        "Correct the 'unit' of its displacement channel",
+        _mending(fits),
+        "displacement",
+    )
 
 
 def _near(gain: float, factors: dict[float, str], tolerance: float, least: float) -> list[float]:

@@ -55,18 +55,25 @@ class Drive:
 
 
 DRIVES = (
-    Drive("in_2", 2e-3, SWAY), Drive("in_4", 4e-3, SWAY), Drive("in_6", 6e-3, SWAY),
-    Drive("anti_2", 2e-3, ROLL), Drive("anti_4", 4e-3, ROLL), Drive("left_3", 3e-3, LEFT),
-    Drive("in_4_b", 4e-3, SWAY, "in_4"), Drive("anti_2_b", 2e-3, ROLL, "anti_2"),
-)  # fmt: skip
+    Drive("in_2", 2e-3, SWAY),
+    Drive("in_4", 4e-3, SWAY),
+    Drive("in_6", 6e-3, SWAY),
+    Drive("anti_2", 2e-3, ROLL),
+    Drive("anti_4", 4e-3, ROLL),
+    Drive("left_3", 3e-3, LEFT),
+    Drive("in_4_b", 4e-3, SWAY, "in_4"),
+    Drive("anti_2_b", 2e-3, ROLL, "anti_2"),
+)
 
 
 def draw_axle(seed: int, kinds: list[str], strengths: list[float], rng: np.random.Generator, folder: Path) -> Truth:
     """Draw numbers, noise and what is hidden; write the dataset."""
     numbers, noise = Numbers.draw(rng), Noise.draw(rng)
     bare = [_simulate(numbers, drive) for drive in DRIVES]
-    moves = [[changed - force for changed, force in zip(map(_with(one), DRIVES), bare, strict=True)]
-             for one in numbers.changed()]  # fmt: skip
+    moves = [
+        [changed - force for changed, force in zip(map(_with(one), DRIVES), bare, strict=True)]
+        for one in numbers.changed()
+    ]
     tangents = np.stack([_flat(move) for move in moves], axis=1)
     forces, effects = bare, []
     for kind, strength in zip(kinds, strengths, strict=True):

@@ -16,8 +16,15 @@ from dashpot.campaign.sharing import pooled
 
 def numbers(at: np.ndarray) -> Numbers:
     count = len(at)
-    return Numbers(tuple(map(str, range(count))), ("k",), ("N/m",), np.array([False]), at[:, None],
-                   np.full((count, 1, 1), 1e-6), np.ones((count, 1)))  # fmt: skip
+    return Numbers(
+        tuple(map(str, range(count))),
+        ("k",),
+        ("N/m",),
+        np.array([False]),
+        at[:, None],
+        np.full((count, 1, 1), 1e-6),
+        np.ones((count, 1)),
+    )
 
 
 def test_limits_are_three_standard_errors_by_the_scatter_within_batches():
@@ -55,13 +62,22 @@ def test_one_population_is_seldom_split():
 
 def outcome(value: float, error: float) -> dict:
     number = {"value": value, "unit": "N", "log": False, "interval": [0.0, 0.0], "error": error}
-    return {"models": [{"name": "m", "numbers": {"f.limit": number, "k.stiffness": {**number, "value": 5.0}},
-                        "correlation": [[1.0, 0.0], [0.0, 1.0]]}]}  # fmt: skip
+    return {
+        "models": [
+            {
+                "name": "m",
+                "numbers": {"f.limit": number, "k.stiffness": {**number, "value": 5.0}},
+                "correlation": [[1.0, 0.0], [0.0, 1.0]],
+            }
+        ]
+    }
 
 
 def test_numbers_in_common_are_weighted_means():
-    outcomes = {Job(name, "", "fit", ("m",)): outcome(value, error)
-                for name, value, error in (("a", 10.0, 1.0), ("b", 13.0, 2.0))}  # fmt: skip
+    outcomes = {
+        Job(name, "", "fit", ("m",)): outcome(value, error)
+        for name, value, error in (("a", 10.0, 1.0), ("b", 13.0, 2.0))
+    }
     shared = pooled("m", ("f.*",), outcomes)
     assert shared is not None and list(shared.values) == ["f.limit"]
     assert shared.values["f.limit"] == pytest.approx((10.0 / 1.0 + 13.0 / 4.0) / 1.25)

@@ -41,10 +41,14 @@ def held(content: dict[str, Any]) -> np.ndarray:
     [population] = content["populations"]
     numbers = {each["parameter"]: each for each in population["numbers"]}
     effects = {each["parameter"]: each for each in population["dependence"]}
-    trend = [effects[path]["interval"][0] <= np.expm1(slope) <= effects[path]["interval"][1]
-             for path, slope in zip(PATHS, TREND, strict=True)]  # fmt: skip
-    scatter = [numbers[path]["scatter_interval"][0] <= size <= numbers[path]["scatter_interval"][1]
-               for path, size in zip(PATHS, SCATTER, strict=True)]  # fmt: skip
+    trend = [
+        effects[path]["interval"][0] <= np.expm1(slope) <= effects[path]["interval"][1]
+        for path, slope in zip(PATHS, TREND, strict=True)
+    ]
+    scatter = [
+        numbers[path]["scatter_interval"][0] <= size <= numbers[path]["scatter_interval"][1]
+        for path, size in zip(PATHS, SCATTER, strict=True)
+    ]
     return np.array([trend, scatter])
 
 

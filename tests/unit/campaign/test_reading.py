@@ -60,38 +60,50 @@ def test_every_verb_and_model_is_a_job_but_a_comparison_takes_all_models(tmp_pat
     asked = "models: [kelvin_voigt, gehmann]\nverbs: [compare, diagnose]\nmemory: 2 GB\n"
     found = read(tmp_path, HEAD + "specimens: specimens.csv\n" + asked)
     assert [job.name for job in found.jobs if job.specimen == "a"] == [
-        "a-compare", "a-diagnose-kelvin_voigt", "a-diagnose-gehmann"]  # fmt: skip
+        "a-compare",
+        "a-diagnose-kelvin_voigt",
+        "a-diagnose-gehmann",
+    ]
     assert found.memory == 2e9
 
 
-@pytest.mark.parametrize(("line", "told"), [
-    ("verbs: [fit, diagnos]", "campaign.yaml:3:8: the campaign, 'verbs': expected one of fit, compare, diagnose"),
-    ("memory: 2 apples", "campaign.yaml:3:9: the campaign, 'memory': expected an amount of memory such as '2 GB'"),
-    ("memory: -1 GB", "expected an amount of memory above 0"),
-    ("dependence: temprature", "no specimen has a property 'temprature'"),
-    ("shared: 'spring.*'", "expected a pattern of searched parameters, got 'spring.*', which names none"),
-    ("sed: 1", "the campaign has no key 'sed'"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("verbs: [fit, diagnos]", "campaign.yaml:3:8: the campaign, 'verbs': expected one of fit, compare, diagnose"),
+        ("memory: 2 apples", "campaign.yaml:3:9: the campaign, 'memory': expected an amount of memory such as '2 GB'"),
+        ("memory: -1 GB", "expected an amount of memory above 0"),
+        ("dependence: temprature", "no specimen has a property 'temprature'"),
+        ("shared: 'spring.*'", "expected a pattern of searched parameters, got 'spring.*', which names none"),
+        ("sed: 1", "the campaign has no key 'sed'"),
+    ],
+)
 def test_mistakes_of_the_file_are_told(tmp_path, line, told):
     assert told in mistake(tmp_path, HEAD + line + "\nspecimens: specimens.csv\n" + REST)
 
 
-@pytest.mark.parametrize(("table", "told"), [
-    ("name,data\na,x\n", "specimens.csv: expected a column 'specimen', got: name, data"),
-    ("specimen,data\na,x\na,y\n", "specimens.csv:3: two specimens are called 'a'"),
-    ("specimen,data\na/b,x\n", "expected a specimen whose name can be that of a folder, got 'a/b'"),
-    ("specimen,data\na,\n", "specimens.csv:2: the specimen 'a' has no data"),
-    ("specimen,data\na,x,7\n", "specimens.csv:2: expected 2 cells, as in the first line"),
-    ("specimen,data\n", "expected at least one specimen"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("table", "told"),
+    [
+        ("name,data\na,x\n", "specimens.csv: expected a column 'specimen', got: name, data"),
+        ("specimen,data\na,x\na,y\n", "specimens.csv:3: two specimens are called 'a'"),
+        ("specimen,data\na/b,x\n", "expected a specimen whose name can be that of a folder, got 'a/b'"),
+        ("specimen,data\na,\n", "specimens.csv:2: the specimen 'a' has no data"),
+        ("specimen,data\na,x,7\n", "specimens.csv:2: expected 2 cells, as in the first line"),
+        ("specimen,data\n", "expected at least one specimen"),
+    ],
+)
 def test_mistakes_of_the_table_are_told(tmp_path, table, told):
     assert told in mistake(tmp_path, HEAD + "specimens: specimens.csv\n" + REST, table)
 
 
-@pytest.mark.parametrize(("pattern", "told"), [
-    ("measured/dataset.yaml", "expected a pattern with '*'"),
-    ("measured/*/none.yaml", "the pattern 'measured/*/none.yaml' names no data"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("pattern", "told"),
+    [
+        ("measured/dataset.yaml", "expected a pattern with '*'"),
+        ("measured/*/none.yaml", "the pattern 'measured/*/none.yaml' names no data"),
+    ],
+)
 def test_mistakes_of_a_pattern_are_told(tmp_path, pattern, told):
     assert told in mistake(tmp_path, HEAD + f"specimens: {{pattern: '{pattern}'}}\n" + REST)
 
@@ -102,8 +114,10 @@ def test_all_mistakes_come_at_once(tmp_path):
 
 
 def test_the_schema_takes_what_the_reader_takes(tmp_path):
-    text = HEAD + ("about: x\nspecimens: {pattern: 'm/*', table: t.csv}\nmodels: [a]\nverbs: fit\nseed: 1\n"
-                   "shared: 'a.*'\ndependence: [t]\nbatch: b\nmemory: 2 GB\nreports: false\n")  # fmt: skip
+    text = HEAD + (
+        "about: x\nspecimens: {pattern: 'm/*', table: t.csv}\nmodels: [a]\nverbs: fit\nseed: 1\n"
+        "shared: 'a.*'\ndependence: [t]\nbatch: b\nmemory: 2 GB\nreports: false\n"
+    )
     jsonschema.validate(Document.parse(text).root.plain(), campaign_schema())
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(Document.parse(text + "sed: 1\n").root.plain(), campaign_schema())

@@ -98,7 +98,8 @@ def test_a_model_that_a_comparison_could_not_fit_is_told(campaign):
     [(job, outcome)] = found.outcomes.items()
     told = replace(found, outcomes={job: {**outcome, "failures": {"other": "lacks a setting"}}})
     assert campaign_content(told)["failures"] == [
-        {"job": "b00-compare", "specimen": "b00", "reason": "other: lacks a setting"}]  # fmt: skip
+        {"job": "b00-compare", "specimen": "b00", "reason": "other: lacks a setting"}
+    ]
 
 
 def test_numbers_in_common_are_held_in_a_second_fit(tmp_path):
@@ -129,8 +130,12 @@ def test_a_preview_does_one_job_of_each_kind(campaign):
 
 
 def test_a_diagnosis_tells_its_causes_by_specimen(campaign):
-    one = replace(campaign, specimens=campaign.specimens[:1], verbs=("diagnose",),
-                  models=(read_network("kelvin_voigt", load_registry().elements),))  # fmt: skip
+    one = replace(
+        campaign,
+        specimens=campaign.specimens[:1],
+        verbs=("diagnose",),
+        models=(read_network("kelvin_voigt", load_registry().elements),),
+    )
     content = campaign_content(run_campaign(one))
     assert content["specimens"][0]["verdicts"].keys() == {"kelvin_voigt"}
     assert all(set(cause["probability"]) == {"b00"} for cause in content["causes"])
@@ -141,8 +146,9 @@ def test_data_at_an_address_are_read_as_if_they_lay_here(campaign):
     memory = fsspec.filesystem("memory")
     for one in campaign.specimens:
         memory.put(one.data, f"/rig/{one.name}", recursive=True)
-    there = replace(campaign, specimens=tuple(replace(one, data=f"memory://rig/{one.name}")
-                                              for one in campaign.specimens))  # fmt: skip
+    there = replace(
+        campaign, specimens=tuple(replace(one, data=f"memory://rig/{one.name}") for one in campaign.specimens)
+    )
     numbers = [[outcome["models"] for outcome in run_campaign(each).outcomes.values()] for each in (campaign, there)]
     assert numbers[0] == numbers[1]
     before = state_of("memory://rig/b00")

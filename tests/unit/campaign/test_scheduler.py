@@ -17,11 +17,14 @@ def doubled(_: None, number: int) -> int:
     return 2 * number
 
 
-@pytest.mark.parametrize(("word", "told"), [
-    ("eight", "expected local:N or the address of a scheduler"),
-    ("local:none", "expected a number of workers as in local:8"),
-    ("local:0", "expected a number of workers as in local:8"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("word", "told"),
+    [
+        ("eight", "expected local:N or the address of a scheduler"),
+        ("local:none", "expected a number of workers as in local:8"),
+        ("local:0", "expected a number of workers as in local:8"),
+    ],
+)
 def test_a_word_that_is_no_scheduler_is_told(word, told):
     with pytest.raises(InputError, match=told), scheduled(word):
         pass

@@ -12,9 +12,18 @@ from dashpot.model.reading import parse_network
 CAUSES, ELEMENTS = load_registry().causes, load_registry().elements
 STEP, DRIVEN = 1e-3, 8.0
 ANGLE = 2.0 * np.pi * DRIVEN * STEP * np.arange(10_000)
-VIEW = SimpleNamespace(stroke=0.02, speed=0.5, reach=(0.0, 0.03), dt=STEP, duration=10.0, runs=("run",),
-                       highest_frequency=DRIVEN, displacement=lambda run: 0.01 * np.sin(ANGLE), step=lambda run: STEP,
-                       velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE))  # fmt: skip
+VIEW = SimpleNamespace(
+    stroke=0.02,
+    speed=0.5,
+    reach=(0.0, 0.03),
+    dt=STEP,
+    duration=10.0,
+    runs=("run",),
+    highest_frequency=DRIVEN,
+    displacement=lambda run: 0.01 * np.sin(ANGLE),
+    step=lambda run: STEP,
+    velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE),
+)
 
 
 def suspect(word, form):
@@ -27,16 +36,19 @@ def test_friction_that_depends_on_velocity_falls_with_it(breakaway, admitted):
     assert suspect("velocity_dependent_friction", "stribeck").admits(found) is admitted
 
 
-@pytest.mark.parametrize(("factors", "rising", "falling"), [
-    ((0.2, 0.3, 0.6, 0.8, 1.0), True, False),
-    ((0.05, 0.05, 0.1, 0.95, 1.0), True, False),
-    ((1.0, 0.9, 0.7, 0.5, 0.3), False, True),
-    ((0.02, 0.28, 0.74, 1.17, 1.0), True, False),
-    ((1.0, 1.2, 0.8, 0.3, 0.1), False, True),
-    ((1.0, 1.2, 1.4, 1.0, 0.8), False, False),
-    ((0.2, 0.6, 1.0, 0.5, 0.9), False, False),
-    ((0.96, 0.97, 0.98, 0.99, 1.0), False, False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("factors", "rising", "falling"),
+    [
+        ((0.2, 0.3, 0.6, 0.8, 1.0), True, False),
+        ((0.05, 0.05, 0.1, 0.95, 1.0), True, False),
+        ((1.0, 0.9, 0.7, 0.5, 0.3), False, True),
+        ((0.02, 0.28, 0.74, 1.17, 1.0), True, False),
+        ((1.0, 1.2, 0.8, 0.3, 0.1), False, True),
+        ((1.0, 1.2, 1.4, 1.0, 0.8), False, False),
+        ((0.2, 0.6, 1.0, 0.5, 0.9), False, False),
+        ((0.96, 0.97, 0.98, 0.99, 1.0), False, False),
+    ],
+)
 def test_friction_that_depends_on_the_load_goes_mostly_one_way(factors, rising, falling):
     found = {f"scale[{number}]": factor for number, factor in enumerate(factors)}
     for element in ("dahl", "coulomb"):
@@ -80,9 +92,18 @@ def test_the_slow_rise_of_a_contact_that_has_slipped_is_still_that_contact():
     assert suspect("friction", "prandtl").admits(found)
 
 
-@pytest.mark.parametrize(("exponent", "admitted"), [
-    (0.5, True), (0.9, False), (1.1, False), (1.5, True), (1.7, False), (2.3, False), (3.0, True),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("exponent", "admitted"),
+    [
+        (0.5, True),
+        (0.9, False),
+        (1.1, False),
+        (1.5, True),
+        (1.7, False),
+        (2.3, False),
+        (3.0, True),
+    ],
+)
 def test_a_power_that_was_driven_towards_one_or_two_is_viscous_or_quadratic_damping(exponent, admitted):
     assert suspect("power_law_damping", "power of velocity").admits({"exponent": exponent}) is admitted
 
@@ -92,22 +113,33 @@ def test_other_causes_admit_what_is_found():
 
 
 # a stroke of 20 mm at no more than 0.5 m/s ends at about 8 Hz: a resonance lies between 0.4 Hz and twice as much
-@pytest.mark.parametrize(("word", "form"), [
-    ("fluid_mass", "a mass behind a spring"), ("mass", "a mass hung on a spring"),
-])  # fmt: skip
-@pytest.mark.parametrize(("frequency", "ratio", "turbulence", "admitted"), [
-    (5.0, 0.1, 0.0, True),
-    (15.0, 0.9, 0.0, True),
-    (17.0, 0.1, 0.0, False),
-    (0.5, 0.1, 0.0, True),
-    (0.3, 0.1, 0.0, False),
-    (5.0, 1.1, 0.0, False),
-    (5.0, 0.1, 4.0, False),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("word", "form"),
+    [
+        ("fluid_mass", "a mass behind a spring"),
+        ("mass", "a mass hung on a spring"),
+    ],
+)
+@pytest.mark.parametrize(
+    ("frequency", "ratio", "turbulence", "admitted"),
+    [
+        (5.0, 0.1, 0.0, True),
+        (15.0, 0.9, 0.0, True),
+        (17.0, 0.1, 0.0, False),
+        (0.5, 0.1, 0.0, True),
+        (0.3, 0.1, 0.0, False),
+        (5.0, 1.1, 0.0, False),
+        (5.0, 0.1, 4.0, False),
+    ],
+)
 def test_a_resonance_swings_within_reach_of_what_was_driven(word, form, frequency, ratio, turbulence, admitted):
     turning, mass = 2.0 * math.pi * frequency, 3.0
-    found = {word: mass, "stiffness": mass * turning**2, "damping": 2.0 * ratio * mass * turning,
-             "quadratic_damping": 2.0 * turbulence * mass * turning}  # fmt: skip
+    found = {
+        word: mass,
+        "stiffness": mass * turning**2,
+        "damping": 2.0 * ratio * mass * turning,
+        "quadratic_damping": 2.0 * turbulence * mass * turning,
+    }
     assert suspect("resonance", f"{form}, in turbulence").admits(found) is admitted
 
 

@@ -7,8 +7,10 @@ from unit.causes.test_promises import NETWORK, REGISTRY, VIEW
 from dashpot.kernel.eager import simulate_eagerly
 from dashpot.model.reading import parse_network
 
-CURVES = ("{polynomial: [200 N/mm, 1 N/mm^2, 2 N/mm^3]}",
-          "{deflection: [-10 mm, -2 mm, 0 mm, 5 mm, 20 mm], force: [-1 kN, -300 N, 0 N, 2 kN, 12 kN]}")  # fmt: skip
+CURVES = (
+    "{polynomial: [200 N/mm, 1 N/mm^2, 2 N/mm^3]}",
+    "{deflection: [-10 mm, -2 mm, 0 mm, 5 mm, 20 mm], force: [-1 kN, -300 N, 0 N, 2 kN, 12 kN]}",
+)
 
 
 def forms(text):

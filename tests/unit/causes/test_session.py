@@ -39,9 +39,16 @@ def test_the_order_counts_from_the_first_run_that_is_there():
     assert order_of(Session(orders=range(3, 11))) == {f"r{k}": float(k) for k in range(8)}
 
 
-@pytest.mark.parametrize("view", [
-    Session(tuple(range(1, 9))), Session(tuple(range(9, 1, -1))), Session(MIXED[:3]), SmallView(),
-], ids=["rising", "falling", "few", "no order"])  # fmt: skip
+@pytest.mark.parametrize(
+    "view",
+    [
+        Session(tuple(range(1, 9))),
+        Session(tuple(range(9, 1, -1))),
+        Session(MIXED[:3]),
+        SmallView(),
+    ],
+    ids=["rising", "falling", "few", "no order"],
+)
 def test_where_strokes_foretell_the_order_nothing_is_said_of_it(view):
     assert order_of(view) == {}
     assert suspects("drift", view) == {}

@@ -43,11 +43,14 @@ def test_a_damper_of_the_network_is_put_on_a_spring(word):
     assert np.dot(change[5:], shown[5:]) / np.dot(shown[5:], shown[5:]) == pytest.approx(1.0, abs=0.25)
 
 
-@pytest.mark.parametrize("entry", [
-    "{element: damper, damping: {velocity: [-1 m/s, 1 m/s], force: [-1 kN, 1 kN]}}",
-    "{element: damper, damping: 300 N*s/m, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}",
-    "{element: coulomb, limit: 30 N, creep_velocity: 1 mm/s}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "{element: damper, damping: {velocity: [-1 m/s, 1 m/s], force: [-1 kN, 1 kN]}}",
+        "{element: damper, damping: 300 N*s/m, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}",
+        "{element: coulomb, limit: 30 N, creep_velocity: 1 mm/s}",
+    ],
+)
 def test_what_is_no_simple_dashpot_is_left_alone(entry):
     assert compliance(NETWORK.replace("{element: damper, damping: 300 N*s/m}", entry)) == []
 
@@ -160,5 +163,3 @@ def test_a_number_that_depends_already_is_left_alone():
     text = NETWORK.replace("damping: 300 N*s/m", f"damping: {over}")
     numbers, _ = dependence(text)
     assert len(numbers.grid) == 1
-
-

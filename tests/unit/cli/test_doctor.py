@@ -98,8 +98,10 @@ def test_specs_that_were_not_installed(tmp_path):
     (tmp_path / "networks").mkdir()
     (tmp_path / "networks" / "a.yaml").write_text("")
     assert states(checkup.specs(tmp_path)) == [
-        ("good", "shipped networks"), ("fault", "shipped rigs"), ("fault", "shipped studies"),
-    ]  # fmt: skip
+        ("good", "shipped networks"),
+        ("fault", "shipped rigs"),
+        ("fault", "shipped studies"),
+    ]
 
 
 def test_the_cache_folder(tmp_path, monkeypatch):

@@ -9,8 +9,9 @@ import pytest
 
 import dashpot as dp
 
-GERMAN = ("Frequenz;Amplitude;Kdyn;Verlustwinkel;Temperatur\nHz;mm;N/mm;deg;degC\n"
-          "1;0,1;220,5;4,1;23\n10;1,5;240;5,2;40\n")  # fmt: skip
+GERMAN = (
+    "Frequenz;Amplitude;Kdyn;Verlustwinkel;Temperatur\nHz;mm;N/mm;deg;degC\n1;0,1;220,5;4,1;23\n10;1,5;240;5,2;40\n"
+)
 PLAIN = "f,A (mm),K',K'',note\n1,0.1,220,14,3\n10,0.1,240,22,3\n"
 RECORD = "t,x,F\ns,mm,N\n" + "".join(
     f"{n / 100:.2f},{np.sin(n / 10):.4f},{200 * np.sin(n / 10 + 0.1):.3f}\n" for n in range(600)

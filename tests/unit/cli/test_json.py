@@ -19,7 +19,13 @@ KEYS = {
     "draw gehmann": {"network", "file", "drawing"},
     "doctor": {"healthy", "findings"},
     "simulate n.yaml --rig triangle": {
-        "network", "runs", "output", "numerical_error", "outside_of_identification", "metrics", "limited",
+        "network",
+        "runs",
+        "output",
+        "numerical_error",
+        "outside_of_identification",
+        "metrics",
+        "limited",
     },
 }
 

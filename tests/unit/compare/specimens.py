@@ -36,8 +36,15 @@ def sweep(amplitude: float, preload: float, fastest: float = 20.0) -> np.ndarray
     return preload + amplitude * np.sin(2.0 * np.pi * (time + (fastest - 1.0) * time**2 / (2.0 * time[-1])))
 
 
-def run(name: str, x: np.ndarray, force: np.ndarray, kind: str = "sweep", repeats: str | None = None, order: int = 0,
-        **settings: float) -> Run:  # fmt: skip
+def run(
+    name: str,
+    x: np.ndarray,
+    force: np.ndarray,
+    kind: str = "sweep",
+    repeats: str | None = None,
+    order: int = 0,
+    **settings: float,
+) -> Run:
     """A run in memory."""
     channels = {"displacement": x, "force": force}
     return Run(name, kind, DT * np.arange(x.size), channels, settings, repeats, repeats or name, order=order)

@@ -28,13 +28,17 @@ def log_sweep(amplitude, start, stop):
     return amplitude * np.sin(2.0 * np.pi * start / rate * np.expm1(rate * TIME))
 
 
-@pytest.mark.parametrize(("path", "highest"), [
-    (linear_sweep(1e-3, 30.0), 30.0),
-    (log_sweep(1e-3, 0.5, 30.0), 30.0),
-    (sum(1e-3 / f * np.sin(2.0 * np.pi * f * TIME + f**2) for f in np.arange(1.0, 31.0)), 30.0),
-    (1e-3 * np.sin(2.0 * np.pi * 7.0 * TIME), 7.0),
-    (1e-3 * TIME, 1.0 / (TIME.size * STEP)),
-], ids=["linear", "logarithmic", "many_sines", "one_sine", "ramp"])  # fmt: skip
+@pytest.mark.parametrize(
+    ("path", "highest"),
+    [
+        (linear_sweep(1e-3, 30.0), 30.0),
+        (log_sweep(1e-3, 0.5, 30.0), 30.0),
+        (sum(1e-3 / f * np.sin(2.0 * np.pi * f * TIME + f**2) for f in np.arange(1.0, 31.0)), 30.0),
+        (1e-3 * np.sin(2.0 * np.pi * 7.0 * TIME), 7.0),
+        (1e-3 * TIME, 1.0 / (TIME.size * STEP)),
+    ],
+    ids=["linear", "logarithmic", "many_sines", "one_sine", "ramp"],
+)
 def test_it_is_the_end_of_a_sweep_and_the_fastest_of_many_sines(path, highest):
     assert end_of(path) == pytest.approx(highest, rel=0.08)
 

@@ -69,10 +69,13 @@ def test_the_same_runs_and_seed_give_the_same_numbers():
 def test_a_setting_explains_what_the_motion_does_not():
     pressures = (0.0, 2.0, 5.0)
     dataset = sweeps(pressures=pressures)
-    silent = Dataset("silent", tuple(
-        replace(run, settings={name: value for name, value in run.settings.items() if name != "pressure"})
-        for run in dataset.runs
-    ))  # fmt: skip
+    silent = Dataset(
+        "silent",
+        tuple(
+            replace(run, settings={name: value for name, value in run.settings.items() if name != "pressure"})
+            for run in dataset.runs
+        ),
+    )
     known, unknown = (explainable_error(prepare(each)) for each in (dataset, silent))
     assert known.held_out < 3.0 * NOISE
     assert unknown.held_out > 3.0 * known.held_out
@@ -95,8 +98,11 @@ def test_a_single_run_says_how_little_it_tells():
 def test_several_driven_nodes_have_a_reason_instead_of_numbers():
     run = sweeps().runs[0]
     x, force = run.displacement, run.force
-    channels = {f"{what}@{node}": values for node in ("left", "right")
-                for what, values in (("displacement", x), ("force", force))}  # fmt: skip
+    channels = {
+        f"{what}@{node}": values
+        for node in ("left", "right")
+        for what, values in (("displacement", x), ("force", force))
+    }
     told = explainable_error(prepare(Dataset("axle", (replace(run, channels=channels),))))
     assert (told.train, told.held_out, told.by) == (None, None, None)
     assert "several nodes" in told.reason

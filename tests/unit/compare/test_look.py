@@ -42,8 +42,10 @@ def test_repeats_tell_the_noise_floor():
 
 def test_a_run_with_the_wrong_sign_gives_back_work():
     dataset = sweeps()
-    wrong = [replace(each, channels={**each.channels, "force": -each.force}) if each.name == "a1_p10" else each
-             for each in dataset.runs]  # fmt: skip
+    wrong = [
+        replace(each, channels={**each.channels, "force": -each.force}) if each.name == "a1_p10" else each
+        for each in dataset.runs
+    ]
     told = look(Dataset("wrong", tuple(wrong))).as_dict()
     assert [each["run"] for each in told["runs"] if each["gives_back"]] == ["a1_p10"]
     assert [(each["run"], each["kind"]) for each in told["faults"]] == [("a1_p10", "polarity")]
@@ -52,8 +54,10 @@ def test_a_run_with_the_wrong_sign_gives_back_work():
 
 def test_a_run_a_thousand_times_off_is_named_before_any_model():
     dataset = sweeps()
-    wrong = [replace(each, channels={**each.channels, "force": 1e3 * each.force}) if each.name == "a1_p10" else each
-             for each in dataset.runs]  # fmt: skip
+    wrong = [
+        replace(each, channels={**each.channels, "force": 1e3 * each.force}) if each.name == "a1_p10" else each
+        for each in dataset.runs
+    ]
     seen = look(Dataset("wrong", tuple(wrong)))
     assert [(each["run"], each["kind"]) for each in seen.as_dict()["faults"]] == [("a1_p10", "unit")]
     assert "kN written as N" in look_headline(seen.as_dict())

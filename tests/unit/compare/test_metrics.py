@@ -42,8 +42,15 @@ def runs() -> tuple[Run, ...]:
 def test_a_row_for_every_run_that_has_the_number():
     rows = metric_rows([Largest], runs(), {"half": {run.name: 0.5 * run.force for run in runs()}})
     largest = float(runs()[0].force.max())
-    assert rows == [{"metric": "largest", "unit": "N", "run": "a1", "measured": largest,
-                     "models": {"half": pytest.approx(largest / 2)}}]  # fmt: skip
+    assert rows == [
+        {
+            "metric": "largest",
+            "unit": "N",
+            "run": "a1",
+            "measured": largest,
+            "models": {"half": pytest.approx(largest / 2)},
+        }
+    ]
     assert metric_lines(rows) == [f"largest of a1: {largest:.4g} N"]
 
 
@@ -51,8 +58,10 @@ def test_a_metric_of_a_plugin_stands_in_comparisons_looks_and_reports(monkeypatc
     for place in ("comparison", "look"):
         monkeypatch.setattr(f"dashpot.compare.{place}.explainable_error", lambda *_: Explainable(reason="not asked"))
     registry = replace(REGISTRY, metrics={"largest": Largest})
-    spec = parse_network("format: dashpot-network/1\nname: stiff\nbranches:\n  it: {element: spring, stiffness: 4e5}\n",
-                         REGISTRY.elements)  # fmt: skip
+    spec = parse_network(
+        "format: dashpot-network/1\nname: stiff\nbranches:\n  it: {element: spring, stiffness: 4e5}\n",
+        REGISTRY.elements,
+    )
     dataset = Dataset("two", runs())
     comparison = compare([spec], dataset, registry=registry)
     (row,) = comparison.as_dict()["metrics"]

@@ -81,8 +81,12 @@ def test_stiffness_after_reversals_falls_from_both_springs_to_one():
 def test_conditions_have_the_settings_and_the_order():
     x, v = sine(1e-3, 4.0)
     [row] = conditions_of(see(run("r", x, DAMPING * v, "harmonic", order=6, pressure=2e5, amplitude=1e-3)))
-    assert row["conditions"] == {"amplitude": pytest.approx(1e-3, rel=1e-3), "preload": pytest.approx(0.0, abs=1e-6),
-                                 "pressure": 2e5, "order of tests": 7.0}  # fmt: skip
+    assert row["conditions"] == {
+        "amplitude": pytest.approx(1e-3, rel=1e-3),
+        "preload": pytest.approx(0.0, abs=1e-6),
+        "pressure": 2e5,
+        "order of tests": 7.0,
+    }
 
 
 def test_the_residual_is_shown_over_the_variables_that_made_it():
@@ -92,8 +96,12 @@ def test_the_residual_is_shown_over_the_variables_that_made_it():
     for each in runs:
         v = np.gradient(each.displacement, DT)
         missing = 300.0 * np.tanh(v / 0.05) * each.settings["pressure"] + 5.0 * rng.standard_normal(v.size)
-        seen.append(see(run(each.name, each.displacement, missing, order=each.order, **each.settings),
-                        {"model": {each.name: np.zeros(v.size)}}))  # fmt: skip
+        seen.append(
+            see(
+                run(each.name, each.displacement, missing, order=each.order, **each.settings),
+                {"model": {each.name: np.zeros(v.size)}},
+            )
+        )
     [told] = residual_maps(seen)
     assert {told["x"]["name"], told["y"]["name"]} == {"velocity", "pressure"}
     assert told["explained"] > 0.95
@@ -103,8 +111,10 @@ def test_the_residual_is_shown_over_the_variables_that_made_it():
 def test_noise_is_explained_by_nothing():
     rng = np.random.default_rng(3)
     x = sweep(2e-3, 0.0)
-    seen = [see(run(f"r{k}", x, rng.standard_normal(x.size), order=k), {"model": {f"r{k}": np.zeros(x.size)}})
-            for k in range(4)]  # fmt: skip
+    seen = [
+        see(run(f"r{k}", x, rng.standard_normal(x.size), order=k), {"model": {f"r{k}": np.zeros(x.size)}})
+        for k in range(4)
+    ]
     [told] = residual_maps(seen)
     assert told["explained"] < 0.03
 

@@ -44,11 +44,15 @@ def test_options_are_read_in_their_units():
 
 def test_all_mistakes_are_told_at_once():
     with pytest.raises(InputError) as caught:
-        bench("tests:\n  - {rig: stops}\n  - {rig: steps, pause: 3 mm}\n  - {rig: steps, pase: 3 s}\n"
-              "measuring: {side: left}\nmore: 1\n")  # fmt: skip
+        bench(
+            "tests:\n  - {rig: stops}\n  - {rig: steps, pause: 3 mm}\n  - {rig: steps, pase: 3 s}\n"
+            "measuring: {side: left}\nmore: 1\n"
+        )
     said = str(caught.value)
-    assert all(part in said for part in ("did you mean 'steps'", "got 'mm'", "did you mean 'pause'", "hub or platform",
-                                         "no key 'more'"))  # fmt: skip
+    assert all(
+        part in said
+        for part in ("did you mean 'steps'", "got 'mm'", "did you mean 'pause'", "hub or platform", "no key 'more'")
+    )
 
 
 def test_two_runs_of_one_name_are_refused():

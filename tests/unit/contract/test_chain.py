@@ -91,6 +91,11 @@ def test_what_does_not_fit_is_said(text, texts, said):
 
 def test_several_starts_may_each_be_a_chain():
     found = run_search(
-        make_optimizer("multistart", KNOWN, {"of": "pso+least_squares", "starts": 2}), losses, residuals, SPACE, 1,
-        budget=60_000)  # fmt: skip
+        make_optimizer("multistart", KNOWN, {"of": "pso+least_squares", "starts": 2}),
+        losses,
+        residuals,
+        SPACE,
+        1,
+        budget=60_000,
+    )
     assert found.loss < 1e-9

@@ -74,8 +74,9 @@ CORRECTIONS = [
 
 
 def test_drift_and_hum_are_what_a_channel_shows_too_much(tmp_path):
-    dataset = prepare(tmp_path, TEXT + "    channels: {force: {drift: 12 N, hum: {frequency: 50 Hz, cosine: 1 N, "
-                                       "sine: 2 N}}}\n")  # fmt: skip
+    dataset = prepare(
+        tmp_path, TEXT + "    channels: {force: {drift: 12 N, hum: {frequency: 50 Hz, cosine: 1 N, sine: 2 N}}}\n"
+    )
     too_much = 12.0 * TIME / TIME[-1] + np.cos(100 * np.pi * TIME) + 2.0 * np.sin(100 * np.pi * TIME)
     assert np.allclose(dataset.run("c").force, 3 * FORCE - too_much, rtol=0, atol=1e-10)
     assert np.array_equal(dataset.run("a").force, FORCE)
@@ -89,8 +90,10 @@ def test_several_lines_of_hum_are_a_list(tmp_path):
 
 
 def test_drift_and_hum_count_from_the_first_sample_of_a_piece_of_a_file(tmp_path):
-    dataset = prepare(tmp_path, TEXT + "    start: 100 ms\n    channels: {force: {drift: 10 N, hum: {frequency: 50 Hz, "
-                                       "cosine: 1 N}}}\n")  # fmt: skip
+    dataset = prepare(
+        tmp_path,
+        TEXT + "    start: 100 ms\n    channels: {force: {drift: 10 N, hum: {frequency: 50 Hz, cosine: 1 N}}}\n",
+    )
     own = TIME[:300]
     assert np.allclose(dataset.run("c").force, 3 * FORCE[100:] - 10.0 * own / own[-1] - np.cos(100 * np.pi * own))
 
@@ -270,9 +273,15 @@ def test_the_force_at_a_node_is_corrected_by_the_name_of_its_run(tmp_path):
                displacement@right: {column: x, unit: mm}}
 """
     )
-    text = text.replace("    displacement: {column: x, unit: mm}\n    force: {column: F, unit: N}\n", "", 1).replace(
-        "  - {name: a, file: a.npz}\n  - name: b   # a second one\n    file: b.npz\n    channels:\n"
-        "      force: {gain: 2, offset: 3 N}   # as calibrated\n", "").replace("    repeats: b\n", "")  # fmt: skip
+    text = (
+        text.replace("    displacement: {column: x, unit: mm}\n    force: {column: F, unit: N}\n", "", 1)
+        .replace(
+            "  - {name: a, file: a.npz}\n  - name: b   # a second one\n    file: b.npz\n    channels:\n"
+            "      force: {gain: 2, offset: 3 N}   # as calibrated\n",
+            "",
+        )
+        .replace("    repeats: b\n", "")
+    )
     dataset = one_force_each(prepare(tmp_path / "m", text))
     correction = Correction(offset=5.0, delay=1e-3)
     again = one_force_each(written(dataset, tmp_path / "out", {"c@right": correction})[0])
@@ -313,6 +322,8 @@ def test_a_channel_that_would_mix_with_the_defaults_is_refused(tmp_path):
 
 def test_the_text_is_the_same_every_time(tmp_path):
     dataset = prepare(tmp_path)
-    texts = {corrected_text(dataset, {"a": Correction(offset=1.0), "b": Correction(drift=2.0)}, {}, tmp_path / "o")
-             for _ in range(2)}  # fmt: skip
+    texts = {
+        corrected_text(dataset, {"a": Correction(offset=1.0), "b": Correction(drift=2.0)}, {}, tmp_path / "o")
+        for _ in range(2)
+    }
     assert len(texts) == 1 and json.dumps(texts.pop())

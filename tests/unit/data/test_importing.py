@@ -196,7 +196,7 @@ RAMPED = np.minimum(1, np.minimum(TIME, TIME[-1] - TIME))
         (0.01 * np.minimum(1, TIME / 0.1), STEP, "hold", {"preload": 0.01}),
         (0.01 * np.exp(-0.5 * ((TIME[:500] - 0.5) / 0.1) ** 2), STEP, "transient", {}),
     ],
-)  # fmt: skip
+)
 def test_a_motion_tells_its_kind_and_settings(motion, step, kind, settings):
     noisy = motion + 1e-6 * np.random.default_rng(5).normal(size=motion.size)
     found = find_motion(noisy, step)
@@ -430,21 +430,24 @@ def test_a_run_with_the_force_turned_gets_its_own_sign_where_it_stands(tmp_path)
     assert text.count("sign: -1") == 2 and text.index("name: r2") < text.index("sign: -1}") < text.index("name: r3")
 
 
-@pytest.mark.parametrize(("name", "stated"), [
-    ("25mm0x5Hz0x25A", {"current": "0.25 A"}),
-    ("bush_-20degC_2", {"temperature": "-20 degC"}),
-    ("seal 3bar", {"pressure": "3 bar"}),
-    ("O-ring257_1bar", {"pressure": "1 bar"}),
-    ("valve_2,5V", {"voltage": "2.5 V"}),
-    ("damper_click5", {"clicks": "5"}),
-    ("12 Klicks 50mm", {"clicks": "12"}),
-    ("Ventil_2_1", {"valve_position": "2"}),
-    ("valves3", {}),
-    ("12clickstop", {}),
-    ("a1_p2_up", {}),
-    ("run12_1Hz_5mm", {}),
-    ("2Apr", {}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("name", "stated"),
+    [
+        ("25mm0x5Hz0x25A", {"current": "0.25 A"}),
+        ("bush_-20degC_2", {"temperature": "-20 degC"}),
+        ("seal 3bar", {"pressure": "3 bar"}),
+        ("O-ring257_1bar", {"pressure": "1 bar"}),
+        ("valve_2,5V", {"voltage": "2.5 V"}),
+        ("damper_click5", {"clicks": "5"}),
+        ("12 Klicks 50mm", {"clicks": "12"}),
+        ("Ventil_2_1", {"valve_position": "2"}),
+        ("valves3", {}),
+        ("12clickstop", {}),
+        ("a1_p2_up", {}),
+        ("run12_1Hz_5mm", {}),
+        ("2Apr", {}),
+    ],
+)
 def test_conditions_in_names(name, stated):
     assert conditions_of(name) == stated
 
@@ -475,8 +478,10 @@ def test_runs_at_other_measured_temperatures_are_no_repeats(tmp_path, second, re
     tables = {}
     for name, celsius in (("a", 20.0), ("b", second)):
         force = kelvin_voigt(motion, 1.0) + celsius * 1e-3
-        tables[f"{name}.tab"] = Table({"t": TIME, "x": motion, "F": force, "temp": celsius + noise},
-                                      {"t": "s", "x": "mm", "F": "N", "temp": "degC"})  # fmt: skip
+        tables[f"{name}.tab"] = Table(
+            {"t": TIME, "x": motion, "F": force, "temp": celsius + noise},
+            {"t": "s", "x": "mm", "F": "N", "temp": "degC"},
+        )
     assert imported(tmp_path, tables).runs[1].repeats == repeats
 
 
@@ -496,8 +501,10 @@ def test_of_runs_at_other_rates_only_the_slowest_is_quasi_static(tmp_path):
     for rate in (1, 4, 16):
         time = np.linspace(0.0, 128.0 / rate, 4000)
         motion = 10.0 * np.abs((time * rate / 32.0) % 2.0 - 1.0)
-        tables[f"v{rate}.tab"] = Table({"t": time, "x": motion, "F": 200.0 * motion + 5.0 * np.gradient(motion, time)},
-                                       {"t": "s", "x": "mm", "F": "N"})  # fmt: skip
+        tables[f"v{rate}.tab"] = Table(
+            {"t": time, "x": motion, "F": 200.0 * motion + 5.0 * np.gradient(motion, time)},
+            {"t": "s", "x": "mm", "F": "N"},
+        )
     found = imported(tmp_path, tables)
     assert {run.name: run.finding.kind for run in found.runs} == {
         "v1": "quasi_static",

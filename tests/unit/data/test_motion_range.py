@@ -14,8 +14,9 @@ DT = 1e-3
 def sine(amplitude: float, frequency: float, preload: float = 0.0, duration: float = 2.0):
     rate = 2.0 * np.pi * frequency
     phase = rate * np.arange(round(duration / DT) + 1) * DT
-    return drive_from_path(DT, preload + amplitude * np.sin(phase), amplitude * rate * np.cos(phase),
-                           -amplitude * rate**2 * np.sin(phase))  # fmt: skip
+    return drive_from_path(
+        DT, preload + amplitude * np.sin(phase), amplitude * rate * np.cos(phase), -amplitude * rate**2 * np.sin(phase)
+    )
 
 
 def test_a_sine_has_one_amplitude_preload_and_frequency():
@@ -37,8 +38,12 @@ def test_runs_span_a_range_from_the_smallest_amplitude_on():
 
 def test_ripple_far_below_the_amplitude_is_no_half_cycle():
     plain, ripple = sine(2e-3, 1.0), sine(5e-5, 40.0)
-    both = drive_from_path(DT, plain.displacement + ripple.displacement, plain.velocity + ripple.velocity,
-                           plain.acceleration + ripple.acceleration)  # fmt: skip
+    both = drive_from_path(
+        DT,
+        plain.displacement + ripple.displacement,
+        plain.velocity + ripple.velocity,
+        plain.acceleration + ripple.acceleration,
+    )
     assert motion_range([both])["frequency"] == pytest.approx((1.0, 1.0), rel=0.05)
 
 

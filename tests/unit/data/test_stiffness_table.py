@@ -26,8 +26,9 @@ KNOWN = {
 }
 
 
-def read(folder: Path, table: str, *rows: str, head: str = "f,A,p,K,d,T\nHz,mm,mm,N/mm,deg,degC", more: str = ""
-         ) -> Dataset:  # fmt: skip
+def read(
+    folder: Path, table: str, *rows: str, head: str = "f,A,p,K,d,T\nHz,mm,mm,N/mm,deg,degC", more: str = ""
+) -> Dataset:
     (folder / "t.csv").write_text("\n".join([head, *rows]) + "\n")
     (folder / "dataset.yaml").write_text(
         f"format: dashpot-dataset/1\nname: mount\ntables:\n  - {{name: t, file: t.csv, {table}}}\n{more}"
@@ -43,8 +44,9 @@ ROWS = ("10,0.5,2,200,8,20", "20,0.5,2,210,9,-10")
 def test_a_row_is_a_steady_sine_with_its_fundamental(tmp_path):
     first, second = read(tmp_path, COLUMNS, *ROWS).runs
     assert [first.name, second.name, first.kind, first.source] == ["t-1", "t-2", STEADY, "t.csv"]
-    assert first.settings == pytest.approx({"frequency": 10.0, "amplitude": 5e-4, "preload": 2e-3,
-                                            "temperature": 293.15})  # fmt: skip
+    assert first.settings == pytest.approx(
+        {"frequency": 10.0, "amplitude": 5e-4, "preload": 2e-3, "temperature": 293.15}
+    )
     rate = 2.0 * np.pi * first.time * 10.0
     assert first.displacement == pytest.approx(2e-3 + 5e-4 * np.sin(rate), abs=1e-12)
     assert first.force == pytest.approx(200e3 * 5e-4 * np.sin(rate + np.radians(8.0)), abs=1e-8)
@@ -58,15 +60,22 @@ def test_a_preload_told_as_a_force_is_the_deflection_of_the_static_curve_at_it(t
 
 
 @pytest.mark.parametrize(
-    "pair", [("storage", "loss"), ("stiffness", "loss_angle"), ("stiffness", "loss_factor"), ("storage", "loss_angle"),
-             ("storage", "loss_factor")]
-)  # fmt: skip
+    "pair",
+    [
+        ("storage", "loss"),
+        ("stiffness", "loss_angle"),
+        ("stiffness", "loss_factor"),
+        ("storage", "loss_angle"),
+        ("storage", "loss_factor"),
+    ],
+)
 def test_all_ways_to_write_a_dynamic_stiffness_are_the_same_stiffness(tmp_path, pair):
     units, values = zip(*(KNOWN[word] for word in pair), strict=True)
     columns = ", ".join(f"{word}: {{column: {word}, unit: '{unit}'}}" for word, unit in zip(pair, units, strict=True))
     row = ",".join(f"{value!r}" for value in map(float, values))
-    (run,) = read(tmp_path, f"columns: {{{columns}}}, settings: {{frequency: 10 Hz, amplitude: 1 mm}}", row,
-                  head=",".join(pair)).runs  # fmt: skip
+    (run,) = read(
+        tmp_path, f"columns: {{{columns}}}, settings: {{frequency: 10 Hz, amplitude: 1 mm}}", row, head=",".join(pair)
+    ).runs
     assert harmonic_of(run.force) / 1e-3 == pytest.approx(STORAGE + 1j * LOSS, rel=1e-9)
     assert run.settings["preload"] == 0.0
 
@@ -135,8 +144,9 @@ def test_names_that_are_taken_are_told(tmp_path):
     assert "table 't' is set aside: another one has the same name" in twice.problems[0].message
     np.savez(tmp_path / "a.npz", t=np.arange(400) / 1000, x=np.sin(0.1 * np.arange(400)), F=np.cos(np.arange(400)))
     channels = "{time: {column: t, unit: s}, displacement: {column: x, unit: mm}, force: {column: F, unit: N}}"
-    alike = read(tmp_path, COLUMNS, *ROWS,
-                 more=f"runs:\n  - {{name: t-2, file: a.npz, kind: random, channels: {channels}}}\n")  # fmt: skip
+    alike = read(
+        tmp_path, COLUMNS, *ROWS, more=f"runs:\n  - {{name: t-2, file: a.npz, kind: random, channels: {channels}}}\n"
+    )
     assert [run.name for run in alike.runs] == ["t-2"]
     assert "one of its rows is called 't-2', as a run is" in alike.problems[0].message
 

@@ -35,8 +35,9 @@ def sweep(mass: float, added: float, random: np.random.Generator, rubber: float 
     stiffness = SPRING - whole * OMEGA**2 + damper
     wheel = amplitude * np.sin(ANGLE)
     force = 3500.0 + np.imag(stiffness * amplitude * np.exp(1j * ANGLE))
-    return WheelRun(wheel + 1e-6 * random.standard_normal(wheel.size), force + 5.0 * random.standard_normal(wheel.size),
-                    DT, added)  # fmt: skip
+    return WheelRun(
+        wheel + 1e-6 * random.standard_normal(wheel.size), force + 5.0 * random.standard_normal(wheel.size), DT, added
+    )
 
 
 def variants(mass: float, random: np.random.Generator, rubber: float = np.inf) -> list[WheelRun]:

@@ -112,8 +112,19 @@ def dataset(
     for number, (name, motion) in enumerate((motions | {new: motions[old] for new, old in again.items()}).items()):
         force = faults.get(name, lambda force: force)(law(motion)) + noise * rng.standard_normal(SAMPLES)
         settings = {"amplitude": motion.amplitude, "preload": motion.preload}
-        runs.append(Run(name, "sweep", TIME, {"displacement": motion.x(), "force": force}, settings, again.get(name),
-                        again.get(name, name), held_out=name in held_out, order=number))  # fmt: skip
+        runs.append(
+            Run(
+                name,
+                "sweep",
+                TIME,
+                {"displacement": motion.x(), "force": force},
+                settings,
+                again.get(name),
+                again.get(name, name),
+                held_out=name in held_out,
+                order=number,
+            )
+        )
     return Dataset("made", tuple(runs))
 
 
@@ -151,9 +162,16 @@ def causes(*words: str) -> list[type[Cause]]:
 def write(data: Dataset, folder: Path) -> Path:
     """The dataset as files: a table for each run, and ``dataset.yaml``."""
     folder.mkdir(parents=True, exist_ok=True)
-    lines = ["format: dashpot-dataset/1", f"name: {data.name}", "defaults:", "  channels:",
-             "    time: {column: time, unit: s}", "    displacement: {column: x, unit: mm}",
-             "    force: {column: F, unit: N}", "runs:"]  # fmt: skip
+    lines = [
+        "format: dashpot-dataset/1",
+        f"name: {data.name}",
+        "defaults:",
+        "  channels:",
+        "    time: {column: time, unit: s}",
+        "    displacement: {column: x, unit: mm}",
+        "    force: {column: F, unit: N}",
+        "runs:",
+    ]
     for run in data.runs:
         rows = np.column_stack([run.time, 1e3 * run.displacement, run.force])
         np.savetxt(folder / f"{run.name}.csv", rows, "%.9g", ",", header="time,x,F", comments="")

@@ -10,8 +10,9 @@ from unit.diagnose.rig import Made
 
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.columns import Layout
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.look import Layout, Look
+from dashpot.diagnose.look import Look
 
 GROUPS, LENGTH = 6, 200
 
@@ -34,8 +35,26 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
     prior = np.zeros((size, size))
-    return Look(model, None, None, tuple(candidates), Layout(0, 0, bank), grams, grams[:, :1, :1], prior, 0.0,
-                samples, folds, np.ones(size), (), None, 1.0, nothing, nothing, np.zeros((0, size)))  # fmt: skip
+    return Look(
+        model,
+        None,
+        None,
+        tuple(candidates),
+        Layout(0, 0, bank),
+        grams,
+        grams[:, :1, :1],
+        prior,
+        0.0,
+        samples,
+        folds,
+        np.ones(size),
+        (),
+        None,
+        1.0,
+        nothing,
+        nothing,
+        np.zeros((0, size)),
+    )
 
 
 def random_rows(bank: int, strengths: Mapping[int, float], seed: int = 0) -> dict[str, np.ndarray]:

@@ -67,8 +67,11 @@ def test_a_run_within_what_others_cover_is_accused():
     assert "other runs under the same conditions" in found["a3_p8", "gain"].words
 
 
-@pytest.mark.parametrize("extreme", [Motion(3e-3, 8e-3, 25.0), Motion(6e-3, 8e-3), Motion(3e-3, 15e-3)],
-                         ids=["fastest", "largest", "deepest"])  # fmt: skip
+@pytest.mark.parametrize(
+    "extreme",
+    [Motion(3e-3, 8e-3, 25.0), Motion(6e-3, 8e-3), Motion(3e-3, 15e-3)],
+    ids=["fastest", "largest", "deepest"],
+)
 def test_a_run_at_the_end_of_what_was_measured_is_never_accused(extreme):
     data = dataset(motions={**MOTIONS, "extreme": extreme}, fault={"extreme": lambda force: 1.05 * force})
     assert not [key for key in examined(data) if key[0] == "extreme"]

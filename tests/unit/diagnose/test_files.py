@@ -22,7 +22,7 @@ from unit.diagnose.rig import (
     relaxation,
     with_force,
     write,
-)  # fmt: skip
+)
 
 from dashpot.cli import main
 from dashpot.contract.registry import load_registry

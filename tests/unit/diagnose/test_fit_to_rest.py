@@ -14,9 +14,11 @@ SWING = 400.0
 
 def fits(*errors: tuple[float, Outcome]):
     """What the attempts come to, one after the other."""
-    return lambda attempt: SimpleNamespace(errors=SimpleNamespace(train=errors[attempt][0]),
-                                           ending=errors[attempt][1].value,
-                                           declared=SimpleNamespace(name="axle"))  # fmt: skip
+    return lambda attempt: SimpleNamespace(
+        errors=SimpleNamespace(train=errors[attempt][0]),
+        ending=errors[attempt][1].value,
+        declared=SimpleNamespace(name="axle"),
+    )
 
 
 def test_a_sound_fit_counts_at_once_and_nothing_is_said():
@@ -24,10 +26,13 @@ def test_a_sound_fit_counts_at_once_and_nothing_is_said():
     assert (found.errors.train, remarks) == (50.0, [])
 
 
-@pytest.mark.parametrize(("first", "reason"), [
-    ((1613.0, Outcome.CONVERGED), "errs by 1.61e+03 N where the forces vary by 400 N"),
-    ((60.0, Outcome.STEPS_SPENT), "largest number of steps"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("first", "reason"),
+    [
+        ((1613.0, Outcome.CONVERGED), "errs by 1.61e+03 N where the forces vary by 400 N"),
+        ((60.0, Outcome.STEPS_SPENT), "largest number of steps"),
+    ],
+)
 def test_another_start_is_made_after_one_that_failed(first, reason):
     found, (remark,) = fit_to_rest(fits(first, (50.0, Outcome.CONVERGED)), SWING)
     assert found.errors.train == 50.0

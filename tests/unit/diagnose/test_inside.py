@@ -130,8 +130,14 @@ def test_friction_of_the_piston_of_a_mount(rng):
 def inside():
     moves = [machines.sweep(3e-3)]
     sides = np.array([[1.0], [-1.0]])
-    data = machines.measured(np.random.default_rng(0), machines.axle(0.0, moves, sides[1]), NAMES[:1], moves,
-                             ("platform_left", "platform_right"), sides)  # fmt: skip
+    data = machines.measured(
+        np.random.default_rng(0),
+        machines.axle(0.0, moves, sides[1]),
+        NAMES[:1],
+        moves,
+        ("platform_left", "platform_right"),
+        sides,
+    )
     runs = list(prepare(data).scored.values())
     return Inside(parse_network(AXLE, REGISTRY.elements), runs, REGISTRY.elements)
 

@@ -13,13 +13,18 @@ from dashpot.diagnose.polish import left_out_error
 def test_a_network_is_fitted_to_the_other_groups_and_judged_on_each():
     """Spring and dashpot are linear: the same by the normal equations, repeats left out together."""
     made = bench(dataset(lambda motion: plain(motion) + friction(motion), repeats={"again": "a3_p8"}))
-    rows = {run.name: (np.array([run.drive.displacement, run.drive.velocity])[:, run.first :], run.force[run.first :])
-            for run in made.refitter.runs}  # fmt: skip
+    rows = {
+        run.name: (np.array([run.drive.displacement, run.drive.velocity])[:, run.first :], run.force[run.first :])
+        for run in made.refitter.runs
+    }
     squares = []
     for run, (motion, force) in rows.items():
         # each run weighs the same, whatever its length
-        others = [(x / np.sqrt(y.size), y / np.sqrt(y.size)) for name, (x, y) in rows.items()
-                  if made.groups[name] != made.groups[run]]  # fmt: skip
+        others = [
+            (x / np.sqrt(y.size), y / np.sqrt(y.size))
+            for name, (x, y) in rows.items()
+            if made.groups[name] != made.groups[run]
+        ]
         all_motion, all_force = np.concatenate([x for x, _ in others], axis=1), np.concatenate([y for _, y in others])
         numbers = np.linalg.lstsq(all_motion.T, all_force, rcond=None)[0]
         squares.append(np.mean((force - numbers @ motion) ** 2))
@@ -30,8 +35,9 @@ def test_a_network_is_fitted_to_the_other_groups_and_judged_on_each():
 def test_groups_are_left_out_on_a_pool_with_the_same_result():
     made = bench(dataset(lambda motion: plain(motion) + friction(motion)))
     with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        here, there = (left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, jobs)
-                       for jobs in (1, pool))  # fmt: skip
+        here, there = (
+            left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, jobs) for jobs in (1, pool)
+        )
     assert here == there
 
 

@@ -56,8 +56,10 @@ def columns(made, look):
         residual = run.force[run.first :] - numbers["stiffness.stiffness"] * x - numbers["damping.damping"] * v
         bank = [v**2, *(np.sign(v) * np.maximum(x - at, 0.0) for at in (1e-3, 2e-3))]
         weight = np.sqrt(look.noise.independent[run.name])
-        found[run.name] = (weight * np.array([whitened(look, run, each) for each in (x, v)]),
-                           weight * np.array([whitened(look, run, each) for each in (residual, *bank)]))  # fmt: skip
+        found[run.name] = (
+            weight * np.array([whitened(look, run, each) for each in (x, v)]),
+            weight * np.array([whitened(look, run, each) for each in (residual, *bank)]),
+        )
     return found
 
 
@@ -151,6 +153,6 @@ def test_errors_of_forms_are_marginalised(block):
 
 def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     """Large data: the same matrices, whatever is kept in memory."""
-    monkeypatch.setattr("dashpot.diagnose.look.HELD_BYTES", 0)
+    monkeypatch.setattr("dashpot.diagnose.columns.HELD_BYTES", 0)
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
     assert (again.grams == look.grams).all() and (again.sizes == look.sizes).all()

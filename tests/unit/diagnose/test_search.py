@@ -51,10 +51,12 @@ def test_noise_names_nothing():
 
 def test_a_fault_of_the_rig_has_to_explain_more_than_a_law():
     """An effect that just passes as a law of the specimen is not enough to blame the rig."""
-    sizes = [size for size in np.linspace(0.05, 0.3, 26)
-             if found(random_rows(50, {7: size})) == {("b", 2)}]  # fmt: skip
-    blamed = [size for size in np.linspace(0.05, 0.3, 26)
-              if found(random_rows(50, {7: size}), kind="measurement") == {("b", 2)}]  # fmt: skip
+    sizes = [size for size in np.linspace(0.05, 0.3, 26) if found(random_rows(50, {7: size})) == {("b", 2)}]
+    blamed = [
+        size
+        for size in np.linspace(0.05, 0.3, 26)
+        if found(random_rows(50, {7: size}), kind="measurement") == {("b", 2)}
+    ]
     assert sizes and blamed and min(blamed) > min(sizes)
 
 

@@ -6,10 +6,13 @@ from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.spare import spare_branches
 
-RICH = NETWORK + """\
+RICH = (
+    NETWORK
+    + """\
   slow: {element: maxwell, stiffness: {start: 20 N/mm}, relaxation_time: {start: 30 ms}}
   friction: {element: dahl, stiffness: {start: 100 N/mm}, limit: {start: 20 N}}
 """
+)
 
 
 def spare(law):

@@ -34,9 +34,13 @@ def _index(place: int) -> int:
 
 def functions_of(text: str) -> dict[str, Any]:
     """The functions by name, as Python functions of numbers and arrays."""
-    names: dict[str, Any] = {"Array": Array, **{key: getattr(math, key) for key in ("exp", "log", "sqrt", "tanh", "sin",
-                                                                                   "cos")},
-                             "mod": math.fmod, "abs": abs, "max": max}  # fmt: skip
+    names: dict[str, Any] = {
+        "Array": Array,
+        **{key: getattr(math, key) for key in ("exp", "log", "sqrt", "tanh", "sin", "cos")},
+        "mod": math.fmod,
+        "abs": abs,
+        "max": max,
+    }
     for name, row in CONSTANT.findall(text):
         names[name] = Array([float(each.strip(" ()")) for each in row.split(",")])
     for name, body in FUNCTION.findall(text):

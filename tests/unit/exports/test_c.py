@@ -14,8 +14,17 @@ from dashpot import load_registry
 from dashpot.kernel.network import compile_network
 from dashpot.text.problem import InputError
 
-STRICT = ("-std=c99", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsanitize=address,undefined",
-          "-fno-sanitize-recover=all")  # fmt: skip
+STRICT = (
+    "-std=c99",
+    "-O1",
+    "-g",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-pedantic",
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+)
 
 
 def export(network, folder: Path) -> None:

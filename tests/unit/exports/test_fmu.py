@@ -125,8 +125,23 @@ def test_the_sources_in_a_unit_build_alone(word, tmp_path):
     shutil.unpack_archive(path, tmp_path / "unit", "zip")
     sources = sorted((tmp_path / "unit" / "sources").glob("*.c"))
     assert len(sources) == 2
-    subprocess.run(["cc", "-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-fPIC", "-shared", "-o",
-                    str(tmp_path / "it.so"), *map(str, sources), "-lm"], check=True)  # fmt: skip
+    subprocess.run(
+        [
+            "cc",
+            "-std=c99",
+            "-pedantic",
+            "-Wall",
+            "-Wextra",
+            "-Werror",
+            "-fPIC",
+            "-shared",
+            "-o",
+            str(tmp_path / "it.so"),
+            *map(str, sources),
+            "-lm",
+        ],
+        check=True,
+    )
 
 
 def test_a_missing_compiler_is_told(word, monkeypatch):

@@ -29,8 +29,9 @@ def converted(text: str, **options) -> tuple[str, np.ndarray]:
 
 
 def curve(text: str) -> np.ndarray:
-    return np.array([line.split() for line in text.partition("{ disp force }\n")[2].partition("[")[0].splitlines()],
-                    dtype=float)  # fmt: skip
+    return np.array(
+        [line.split() for line in text.partition("{ disp force }\n")[2].partition("[")[0].splitlines()], dtype=float
+    )
 
 
 def test_a_spring_and_a_damper_are_converted_without_error():

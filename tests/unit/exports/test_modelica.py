@@ -110,8 +110,9 @@ def integrated(drive) -> np.ndarray:
         return speed * 900e3 * (1.0 - np.sign(speed) * friction / 60.0), 150e3 * speed - relaxing / 20e-3
 
     at = drive.dt * np.arange(drive.samples)
-    friction, relaxing = solve_ivp(rates, (0.0, at[-1]), (0.0, 0.0), t_eval=at, method="DOP853", rtol=1e-9, atol=1e-9,
-                                   max_step=1e-4).y  # fmt: skip
+    friction, relaxing = solve_ivp(
+        rates, (0.0, at[-1]), (0.0, 0.0), t_eval=at, method="DOP853", rtol=1e-9, atol=1e-9, max_step=1e-4
+    ).y
     return 220e3 * drive.displacement + friction + relaxing
 
 
@@ -151,8 +152,11 @@ def test_openmodelica_gives_the_simulated_force(tmp_path):
     with (tmp_path / "Bench_res.csv").open() as stream:
         rows = list(csv.DictReader(stream))
     # the last row of a moment is that after its event
-    forces = {round(float(row["time"]) / STEP): float(row["specimen.force[1]"]) for row in rows
-              if abs(float(row["time"]) / STEP - round(float(row["time"]) / STEP)) < 1e-6}  # fmt: skip
+    forces = {
+        round(float(row["time"]) / STEP): float(row["specimen.force[1]"])
+        for row in rows
+        if abs(float(row["time"]) / STEP - round(float(row["time"]) / STEP)) < 1e-6
+    }
     compiled = compile_network(mount())
     expected = compiled.simulate(compiled.prepare(sine()))
     found = np.array([forces[k] for k in range(SAMPLES)])

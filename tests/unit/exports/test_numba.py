@@ -52,6 +52,11 @@ def test_the_module_tells_where_it_is_from_and_names_its_numbers(tmp_path):
     (tmp_path / file).write_bytes(content)
     found = run_path(str(tmp_path / file))
     assert found["__doc__"].startswith("mount: network ")
-    assert found["NAMES"] == ("rubber.stiffness", "friction.stiffness", "friction.limit", "relaxation.stiffness",
-                              "relaxation.relaxation_time")  # fmt: skip
+    assert found["NAMES"] == (
+        "rubber.stiffness",
+        "friction.stiffness",
+        "friction.limit",
+        "relaxation.stiffness",
+        "relaxation.relaxation_time",
+    )
     assert found["UNITS"][2] == "N" and found["NUMBERS"][2] == 60.0

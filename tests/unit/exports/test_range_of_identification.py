@@ -44,8 +44,17 @@ int main(int count, char **words)
     return mount_status(&network);
 }
 """
-STRICT = ("-std=c99", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-pedantic", "-fsanitize=address,undefined",
-          "-fno-sanitize-recover=all")  # fmt: skip
+STRICT = (
+    "-std=c99",
+    "-O1",
+    "-g",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-pedantic",
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+)
 
 
 @pytest.fixture(scope="module")
@@ -58,20 +67,24 @@ def program(tmp_path_factory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize(("motion", "flag"), [
-    (("0.010", "0.002", "5"), 0),
-    (("0.010", "0.0005", "5"), 0),
-    (("0.010", "0.0049", "2"), 4),
-    (("0.010", "0.006", "2"), 1 + 4),
-    (("0.0135", "0.0012", "5"), 8),
-    (("0.010", "0.0012", "20"), 16),
-    (("0.010", "0.004", "14"), 2),
-    (("0.010", "0.003", "0.4"), 16),
-    (("0.002", "0.001", "5"), 1 + 8),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("motion", "flag"),
+    [
+        (("0.010", "0.002", "5"), 0),
+        (("0.010", "0.0005", "5"), 0),
+        (("0.010", "0.0049", "2"), 4),
+        (("0.010", "0.006", "2"), 1 + 4),
+        (("0.0135", "0.0012", "5"), 8),
+        (("0.010", "0.0012", "20"), 16),
+        (("0.010", "0.004", "14"), 2),
+        (("0.010", "0.003", "0.4"), 16),
+        (("0.002", "0.001", "5"), 1 + 8),
+    ],
+)
 def test_each_quantity_raises_its_flag(program, motion, flag):
-    done = subprocess.run([program / "run", *motion], check=True, capture_output=True, text=True,
-                          env={"ASAN_OPTIONS": "detect_leaks=0"})  # fmt: skip
+    done = subprocess.run(
+        [program / "run", *motion], check=True, capture_output=True, text=True, env={"ASAN_OPTIONS": "detect_leaks=0"}
+    )
     assert done.stdout == f"{flag} 0"
 
 
@@ -81,8 +94,9 @@ def test_the_head_tells_the_range_and_where_the_numbers_came_from(program):
 
 
 def test_without_a_range_there_is_no_flag():
-    [_, source] = [text.decode() for _, text in sorted(load_registry().exports["c"]().files(declare(MOUNT)).items(),
-                                                       reverse=True)]  # fmt: skip
+    [_, source] = [
+        text.decode() for _, text in sorted(load_registry().exports["c"]().files(declare(MOUNT)).items(), reverse=True)
+    ]
     assert "watch(" not in source
 
 
@@ -104,7 +118,13 @@ def test_a_unit_has_the_flag_as_an_output_and_the_range_as_annotations(word, tmp
             [time, 10e-3 + amplitude * np.sin(rate * time), np.minimum(amplitude, 2e-3) * rate * np.cos(rate * time)],
             names="time,displacement,velocity",
         )
-        found = fmpy.simulate_fmu(str(tmp_path / name), input=given, output=["outside"], step_size=1e-3,
-                                  output_interval=1e-3, stop_time=0.599,
-                                  start_values={"displacement": 10e-3})  # fmt: skip
+        found = fmpy.simulate_fmu(
+            str(tmp_path / name),
+            input=given,
+            output=["outside"],
+            step_size=1e-3,
+            output_interval=1e-3,
+            stop_time=0.599,
+            start_values={"displacement": 10e-3},
+        )
         assert found["outside"][-1] == flag

@@ -46,18 +46,21 @@ def test_a_tangent_is_the_slope(name, x, y):
     assert value(derive(node, "x"), x, y) == pytest.approx(slope, rel=1e-7, abs=1e-9)
 
 
-@pytest.mark.parametrize(("node", "expected"), [
-    (np.abs(X), 1.0),
-    (np.abs(-X), 1.0),
-    (np.abs(3.0 * X), 3.0),
-    (np.maximum(X, 0.0), 1.0),
-    (np.minimum(X, 0.0), 0.0),
-    (np.maximum(X, 2.0 * X), 2.0),
-    (np.minimum(-X, 0.5 * X), -1.0),
-    (np.minimum(X, 0.0) + np.maximum(X, 0.0), 1.0),
-    (np.where(X < 0.0, -1.0, 1.0) * np.abs(X), 1.0),
-    (np.clip(X, -1.0, 1.0), 1.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("node", "expected"),
+    [
+        (np.abs(X), 1.0),
+        (np.abs(-X), 1.0),
+        (np.abs(3.0 * X), 3.0),
+        (np.maximum(X, 0.0), 1.0),
+        (np.minimum(X, 0.0), 0.0),
+        (np.maximum(X, 2.0 * X), 2.0),
+        (np.minimum(-X, 0.5 * X), -1.0),
+        (np.minimum(X, 0.0) + np.maximum(X, 0.0), 1.0),
+        (np.where(X < 0.0, -1.0, 1.0) * np.abs(X), 1.0),
+        (np.clip(X, -1.0, 1.0), 1.0),
+    ],
+)
 def test_at_a_kink_the_tangent_is_the_slope_to_the_right(node, expected):
     assert value(derive(node, "x"), 0.0) == expected
 

@@ -27,14 +27,36 @@ def test_numbers_that_only_look_equal_are_different_nodes():
     assert constant(np.float64(2.0)) is constant(2.0)
 
 
-@pytest.mark.parametrize(("made", "operation"), [
-    (X + Y, "add"), (X - Y, "subtract"), (X * Y, "multiply"), (X / Y, "divide"), (X**Y, "power"), (-X, "negative"),
-    (abs(X), "absolute"), (np.abs(X), "absolute"), (np.fabs(X), "absolute"), (X < Y, "less"), (X >= Y, "greater_equal"),
-    (X == Y, "equal"), (X != Y, "not_equal"), ((X < Y) & (Y < 1.0), "logical_and"), (~(X < Y), "logical_not"),
-    ((X < Y) | (Y < 1.0), "logical_or"), (np.where(X < Y, X, Y), "where"), (np.sqrt(X), "sqrt"), (np.log1p(X), "log1p"),
-    (np.clip(X, 0.0, 1.0), "minimum"), (wrightomega(X), "wrightomega"), (2.0 - X, "subtract"), (np.sign(X), "sign"),
-    (np.float64(2.0) / X, "divide"), (np.array(2.0) * X, "multiply"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("made", "operation"),
+    [
+        (X + Y, "add"),
+        (X - Y, "subtract"),
+        (X * Y, "multiply"),
+        (X / Y, "divide"),
+        (X**Y, "power"),
+        (-X, "negative"),
+        (abs(X), "absolute"),
+        (np.abs(X), "absolute"),
+        (np.fabs(X), "absolute"),
+        (X < Y, "less"),
+        (X >= Y, "greater_equal"),
+        (X == Y, "equal"),
+        (X != Y, "not_equal"),
+        ((X < Y) & (Y < 1.0), "logical_and"),
+        (~(X < Y), "logical_not"),
+        ((X < Y) | (Y < 1.0), "logical_or"),
+        (np.where(X < Y, X, Y), "where"),
+        (np.sqrt(X), "sqrt"),
+        (np.log1p(X), "log1p"),
+        (np.clip(X, 0.0, 1.0), "minimum"),
+        (wrightomega(X), "wrightomega"),
+        (2.0 - X, "subtract"),
+        (np.sign(X), "sign"),
+        (np.float64(2.0) / X, "divide"),
+        (np.array(2.0) * X, "multiply"),
+    ],
+)
 def test_a_numpy_call_on_a_node_is_recorded(made, operation):
     assert made.operation == operation
 
@@ -59,16 +81,19 @@ def test_zero_times_something_stays_because_the_something_may_be_nan():
     assert (X - X).operation == "subtract"
 
 
-@pytest.mark.parametrize(("law", "advice"), [
-    (lambda: 1.0 if X > 0.0 else 0.0, r"use np\.where"),
-    (lambda: math.exp(X), "use numpy functions"),
-    (lambda: np.cumsum(X), r"numpy\.cumsum; traced are where, clip"),
-    (lambda: np.arctan(X), r"numpy\.arctan; usable are absolute, add"),
-    (lambda: np.add(X, Y, out=X), r"write a = a \+ b"),
-    (lambda: np.add.reduce(X), r"numpy\.add with its arguments only"),
-    (lambda: np.log(constant(-1.0)), "constant NaN"),
-    (lambda: as_node("a text"), "could not convert"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("law", "advice"),
+    [
+        (lambda: 1.0 if X > 0.0 else 0.0, r"use np\.where"),
+        (lambda: math.exp(X), "use numpy functions"),
+        (lambda: np.cumsum(X), r"numpy\.cumsum; traced are where, clip"),
+        (lambda: np.arctan(X), r"numpy\.arctan; usable are absolute, add"),
+        (lambda: np.add(X, Y, out=X), r"write a = a \+ b"),
+        (lambda: np.add.reduce(X), r"numpy\.add with its arguments only"),
+        (lambda: np.log(constant(-1.0)), "constant NaN"),
+        (lambda: as_node("a text"), "could not convert"),
+    ],
+)
 def test_what_cannot_be_traced_is_refused_with_what_to_do(law, advice):
     with pytest.raises((TraceError, ValueError), match=advice):
         law()

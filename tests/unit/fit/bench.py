@@ -29,8 +29,9 @@ def network(branches: str, more: str = "") -> NetworkSpec:
     return parse_network(text, load_registry().elements, "n.yaml")
 
 
-def run(name: str, amplitude: float, frequency: float, law, kind: str = "harmonic", first: int = 100,
-        middle: float = 0.0) -> ScoredRun:  # fmt: skip
+def run(
+    name: str, amplitude: float, frequency: float, law, kind: str = "harmonic", first: int = 100, middle: float = 0.0
+) -> ScoredRun:
     """A sine whose force is ``law(x, v, a)``."""
     omega = 2.0 * np.pi * frequency
     x, v = middle + amplitude * np.sin(omega * TIME), amplitude * omega * np.cos(omega * TIME)

@@ -87,8 +87,10 @@ def test_all_nodes_of_a_run_are_made_smaller_alike():
 
 
 def test_what_was_made_of_a_run_stands_in_its_dataset():
-    text = ("format: dashpot-rig/1\nname: small\ntests: [{rig: stepped_sine, amplitudes: 2 mm, preloads: 10 mm}]\n"
-            "limits: {stroke: 1 mm, force: 20 kN}\n")  # fmt: skip
+    text = (
+        "format: dashpot-rig/1\nname: small\ntests: [{rig: stepped_sine, amplitudes: 2 mm, preloads: 10 mm}]\n"
+        "limits: {stroke: 1 mm, force: 20 kN}\n"
+    )
     bench = read_bench(Document.parse(text), REGISTRY.rigs)
     [run] = virtual_test(SPRING, bench)
     assert "at most 1 mm" in run.notes[NOTE] and np.ptp(run.displacement) == pytest.approx(1e-3)

@@ -12,11 +12,14 @@ TIME = 1e-3 * np.arange(2000)
 X = 1e-3 * np.sin(20.0 * TIME)
 
 
-@pytest.mark.parametrize("channels", [
-    {"displacement@wheel": X, "displacement@body": 2.0 * X},
-    {"displacement@wheel": X, "force@platform": 1e5 * X},
-    {"displacement": X, "acceleration": X},
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "channels",
+    [
+        {"displacement@wheel": X, "displacement@body": 2.0 * X},
+        {"displacement@wheel": X, "force@platform": 1e5 * X},
+        {"displacement": X, "acceleration": X},
+    ],
+)
 def test_runs_without_a_force_at_a_known_motion_are_named(channels):
     runs = tuple(Run(name, "harmonic", TIME, channels, group=name, source=f"{name}.csv") for name in ("r1", "r2"))
     with pytest.raises(InputError) as caught:

@@ -24,9 +24,20 @@ def told(branches, scored, noise=20.0):
 
 def test_the_deviations_are_those_of_weighted_linear_regression():
     known = told(KELVIN_VOIGT, runs(), noise=20.0)
-    x, v, weight = (np.concatenate(parts) for parts in zip(*(
-        (each.drive.displacement[each.first :], each.drive.velocity[each.first :],
-         np.full(each.samples, 1.0 / each.samples)) for each in runs()), strict=True))  # fmt: skip
+    x, v, weight = (
+        np.concatenate(parts)
+        for parts in zip(
+            *(
+                (
+                    each.drive.displacement[each.first :],
+                    each.drive.velocity[each.first :],
+                    np.full(each.samples, 1.0 / each.samples),
+                )
+                for each in runs()
+            ),
+            strict=True,
+        )
+    )
     columns = np.column_stack([1e5 * x, 1000.0 * v])  # changes of the force with the logarithms of the start values
     bread = np.linalg.inv(columns.T @ (weight[:, None] * columns))
     covariance = 400.0 * bread @ (columns.T @ (weight[:, None] ** 2 * columns)) @ bread
@@ -43,7 +54,8 @@ def test_a_relaxation_far_above_the_band_trades_stiffness_against_time():
     known = told(branches, scored, noise=0.1)
     [sentence] = known.sentences
     assert "stiffness of slow and relaxation time of slow trade off" in sentence or (
-        "relaxation time of slow and stiffness of slow trade off" in sentence)  # fmt: skip
+        "relaxation time of slow and stiffness of slow trade off" in sentence
+    )
     assert "+10 %" in sentence and "-10 %" in sentence
     [direction] = known.loose
     assert direction.lost
@@ -52,7 +64,8 @@ def test_a_relaxation_far_above_the_band_trades_stiffness_against_time():
 def test_what_is_not_felt_is_named():
     far = KELVIN_VOIGT + (
         "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm, 92 mm], "
-        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}")  # fmt: skip
+        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}"
+    )
     known = told(far, runs())
     assert known.idle == ("far.stiffness[2]",)
     assert known.sentences == ["stiffness[2] of far has no influence on these data"]
@@ -116,8 +129,7 @@ def test_a_fit_tells_what_its_data_cannot_tell():
         slow: {element: maxwell, stiffness: {start: 1e5}, relaxation_time: {start: 900 s, bounds: [100 s, 9 ks]}}
     """)
     assert found.known.undetermined == ["slow.relaxation_time"]
-    assert found.summary().splitlines()[-1] == (
-        "converged, but these data do not determine relaxation time of slow")  # fmt: skip
+    assert found.summary().splitlines()[-1] == ("converged, but these data do not determine relaxation time of slow")
     told = found.as_dict()["identifiability"]
     assert told["undetermined"] == ["slow.relaxation_time"] and told["condition"] > 1e4
     assert told["weak"] == ["relaxation time of slow is not determined"] and told["may_go"] == []

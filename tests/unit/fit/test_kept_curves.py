@@ -98,9 +98,13 @@ def test_the_loss_beside_a_mid_line_is_the_root_mean_square_of_its_residual():
     coordinates, point = whole.coordinates, whole.coordinates.start
     residual, jacobian = linearise(whole.loss, coordinates, point)
     (loss,) = whole.loss.losses(coordinates.to_values(point))
-    assert loss == pytest.approx(np.sqrt(np.mean(residual[: whole.loss.objective.total] ** 2)
-                                         + np.sum(residual[whole.loss.objective.total :] ** 2)
-                                         / whole.loss.objective.total), rel=1e-9)  # fmt: skip
+    assert loss == pytest.approx(
+        np.sqrt(
+            np.mean(residual[: whole.loss.objective.total] ** 2)
+            + np.sum(residual[whole.loss.objective.total :] ** 2) / whole.loss.objective.total
+        ),
+        rel=1e-9,
+    )
     step = 1e-4 * coordinates.unit
     for number in (0, 5, point.size - 1):
         there = point.copy()

@@ -78,8 +78,9 @@ def measured(key: str) -> Dataset:
         x = (np.sin(np.outer(TIME, OMEGA) + phases) * np.array([1e-3, 5e-4])).sum(axis=1)
         channels = {"displacement": x, "force": force(key, np.array(phases)) + 0.2 * rng.normal(size=TIME.size)}
         name = f"run{number}"
-        runs.append(Run(name, "random", DT * np.arange(TIME.size), channels, {"warm_up": 0.3}, group=name,
-                        held_out=number == 2))  # fmt: skip
+        runs.append(
+            Run(name, "random", DT * np.arange(TIME.size), channels, {"warm_up": 0.3}, group=name, held_out=number == 2)
+        )
     return Dataset("measured", tuple(runs))
 
 
@@ -94,8 +95,9 @@ def test_the_jacobian_is_that_of_central_differences(key):
     for number, row in enumerate(jacobian):
         step = np.zeros(len(jacobian))
         step[number] = 1e-4 * coordinates.unit[number]
-        ahead, back = (objective.residuals(coordinates.to_values(coordinates.start + side * step))[0]
-                       for side in (1.0, -1.0))  # fmt: skip
+        ahead, back = (
+            objective.residuals(coordinates.to_values(coordinates.start + side * step))[0] for side in (1.0, -1.0)
+        )
         slope = (ahead - back) / 2e-4
         # single samples pass the end of the range within the step; behind a delay changes follow straight lines
         wrong = np.abs(row - slope) > (2e-3 if key == "delay" else 2e-4) * np.abs(slope).max()
@@ -124,14 +126,18 @@ def test_a_fit_finds_the_channel_and_writes_what_it_found(key):
 
 
 def test_a_run_may_give_a_number_of_the_channel_by_its_settings():
-    runs = [replace(run, settings={**run.settings, "zero": zero}) for run, zero in
-            zip(measured("hum").runs, (0.0, 3.0, -7.0), strict=True)]  # fmt: skip
+    runs = [
+        replace(run, settings={**run.settings, "zero": zero})
+        for run, zero in zip(measured("hum").runs, (0.0, 3.0, -7.0), strict=True)
+    ]
     scored = [score_run(run) for run in runs]
     _, objective, _ = ready(NETWORK, scored, "measurement: {force: {offset: {setting: zero, value: 0 N}}}\n")
     _, plain, _ = ready(NETWORK, scored)
     shown, felt = objective.forces(objective.network.start), plain.forces(plain.network.start)
     assert [float(np.ptp(one - other)) for one, other in zip(shown, felt, strict=True)] == pytest.approx([0.0] * 3)
     assert [float(np.mean(one - other)) for one, other in zip(shown, felt, strict=True)] == pytest.approx([0, 3, -7])
-    errors = [float(np.sqrt(np.mean(np.square(objective.misfits(objective.network.start)[0, piece]))))
-              for piece in objective.pieces]  # fmt: skip
+    errors = [
+        float(np.sqrt(np.mean(np.square(objective.misfits(objective.network.start)[0, piece]))))
+        for piece in objective.pieces
+    ]
     assert objective.rmse(objective.network.start)[:, 0] == pytest.approx(errors)

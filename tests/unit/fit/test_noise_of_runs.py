@@ -85,9 +85,13 @@ def test_what_is_foretold_is_what_noise_of_that_colour_does(bench):
         noise = noise_of_runs(measured, noise_floor(Dataset("d", tuple(measured))))
         foretold.append(list(identifiability(objective, coordinates, coordinates.start, noise).deviations.values()))
     _, jacobian = linearise(objective, coordinates, coordinates.start)
-    scores = sum(objective.factor(number) ** 2 * jacobian[:, piece] @ covariance(run.samples, run.drive.dt)
-                 @ jacobian[:, piece].T
-                 for number, (run, piece) in enumerate(zip(runs, objective.pieces, strict=True)))  # fmt: skip
+    scores = sum(
+        objective.factor(number) ** 2
+        * jacobian[:, piece]
+        @ covariance(run.samples, run.drive.dt)
+        @ jacobian[:, piece].T
+        for number, (run, piece) in enumerate(zip(runs, objective.pieces, strict=True))
+    )
     bread = np.linalg.inv(jacobian @ jacobian.T)
     exact = np.sqrt(np.diag(bread @ scores @ bread))
     as_if_white = np.sqrt(np.diag(bread)) * NOISE

@@ -16,13 +16,20 @@ def objective(request):
 
 
 def expected_errors(values):
-    return [np.outer(values[:, 0] - STIFFNESS, run.drive.displacement)
-            + np.outer(values[:, 1] - DAMPING, run.drive.velocity) for run in SCORED]  # fmt: skip
+    return [
+        np.outer(values[:, 0] - STIFFNESS, run.drive.displacement)
+        + np.outer(values[:, 1] - DAMPING, run.drive.velocity)
+        for run in SCORED
+    ]
 
 
 def expected_rmse(values):
-    return np.array([np.sqrt(np.mean(error[:, run.first :] ** 2, axis=1))
-                     for error, run in zip(expected_errors(values), SCORED, strict=True)])  # fmt: skip
+    return np.array(
+        [
+            np.sqrt(np.mean(error[:, run.first :] ** 2, axis=1))
+            for error, run in zip(expected_errors(values), SCORED, strict=True)
+        ]
+    )
 
 
 def test_the_error_of_a_run_is_counted_behind_its_warm_up(objective):
@@ -73,8 +80,10 @@ class EverySecond:
 
 def test_with_whitening_the_loss_is_that_of_the_whitened_misfits():
     objective = ready(KELVIN_VOIGT, SCORED, whitening=EverySecond())[1]
-    whitened = [factor * error[:, run.first :: 2] for factor, error, run
-                in zip((0.5, 3.0), expected_errors(VALUES), SCORED, strict=True)]  # fmt: skip
+    whitened = [
+        factor * error[:, run.first :: 2]
+        for factor, error, run in zip((0.5, 3.0), expected_errors(VALUES), SCORED, strict=True)
+    ]
     expected = np.concatenate(whitened, axis=1)
     assert objective.total == expected.shape[1]
     assert objective.residuals(VALUES) == pytest.approx(expected, abs=1e-8)
@@ -104,7 +113,8 @@ def test_a_delayed_gain_is_part_of_the_misfit():
     _, objective, coordinates = ready(KELVIN_VOIGT, SCORED, "measurement: {force: {gain: 2.0}}\n")
     values = np.array([[STIFFNESS, DAMPING, 2.0]])
     assert objective.misfits(values)[0] == pytest.approx(
-        np.concatenate([run.force[run.first :] for run in SCORED]), abs=1e-7)  # fmt: skip
+        np.concatenate([run.force[run.first :] for run in SCORED]), abs=1e-7
+    )
     assert objective.losses(values) == pytest.approx(
         objective.losses(np.array([[2 * STIFFNESS, 2 * DAMPING, 1.0]])), rel=1e-9
     )

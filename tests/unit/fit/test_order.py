@@ -37,33 +37,48 @@ def swapped(spec):
     """The network with the numbers of `a` and `b` exchanged."""
     other = {"a": "b", "b": "a"}
     values = {slot.path: slot.value for slot in spec.slots()}
-    return spec.with_values({path: replace(value, number=values[other[path[0]] + path[1:]].number)
-                             for path, value in values.items() if path[0] in other})  # fmt: skip
+    return spec.with_values(
+        {
+            path: replace(value, number=values[other[path[0]] + path[1:]].number)
+            for path, value in values.items()
+            if path[0] in other
+        }
+    )
 
 
-@pytest.mark.parametrize("declared", [
-    pair((1e4, 0.01), (2e4, 0.1)), pair((1e4, 0.1), (2e4, 0.01)),
-    pair((1e5, 20), (1e4, 10), SLIDER), pair((1e4, 10), (1e5, 20), SLIDER),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "declared",
+    [
+        pair((1e4, 0.01), (2e4, 0.1)),
+        pair((1e4, 0.1), (2e4, 0.01)),
+        pair((1e5, 20), (1e4, 10), SLIDER),
+        pair((1e4, 10), (1e5, 20), SLIDER),
+    ],
+)
 def test_both_ends_of_a_search_are_told_alike(declared):
     spec = network(declared)
     assert ordered(spec, swapped(spec)) == ordered(spec, spec)
-    keys = [number["relaxation_time"] if "relaxation_time" in number else number["limit"] / number["stiffness"]
-            for number in ({path[2:]: value for path, value in numbers(spec).items() if path[0] == name}
-                           for name in "ab")]  # fmt: skip
+    keys = [
+        number["relaxation_time"] if "relaxation_time" in number else number["limit"] / number["stiffness"]
+        for number in ({path[2:]: value for path, value in numbers(spec).items() if path[0] == name} for name in "ab")
+    ]
     assert numbers(ordered(spec, spec)) == numbers(spec), "the file's own order stays"
     assert (keys[0] > keys[1]) == all(family.falling for family in interchangeable(spec, spec))
 
 
-@pytest.mark.parametrize("branches", [
-    # told apart by bounds, by a fixed number, by the law, by standing in series, by a twin elsewhere, or without a key
-    "a: {element: maxwell, stiffness: {start: 1e4}, relaxation_time: {start: 0.1, bounds: [0.01, 1]}}\n"
-    "b: {element: maxwell, stiffness: {start: 1e4}, relaxation_time: {start: 1, bounds: [0.1, 10]}}",
-    "a: {element: maxwell, stiffness: 1e4, relaxation_time: {start: 0.1}}\n"
-    "b: {element: maxwell, stiffness: 2e4, relaxation_time: {start: 0.2}}",
-    f"a: {MAXWELL.format(1e4, 0.1)}\nb: {SLIDER.format(1e4, 10)}",
-    "a: {element: damper, damping: {start: 1}}\nb: {element: damper, damping: {start: 2}}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "branches",
+    [
+        # told apart by bounds, by a fixed number, by the law, by standing in series, by a twin
+        # elsewhere, or without a key
+        "a: {element: maxwell, stiffness: {start: 1e4}, relaxation_time: {start: 0.1, bounds: [0.01, 1]}}\n"
+        "b: {element: maxwell, stiffness: {start: 1e4}, relaxation_time: {start: 1, bounds: [0.1, 10]}}",
+        "a: {element: maxwell, stiffness: 1e4, relaxation_time: {start: 0.1}}\n"
+        "b: {element: maxwell, stiffness: 2e4, relaxation_time: {start: 0.2}}",
+        f"a: {MAXWELL.format(1e4, 0.1)}\nb: {SLIDER.format(1e4, 10)}",
+        "a: {element: damper, damping: {start: 1}}\nb: {element: damper, damping: {start: 2}}",
+    ],
+)
 def test_branches_that_differ_are_not_exchanged(branches):
     spec = network(branches)
     assert interchangeable(spec, spec) == ()
@@ -109,8 +124,11 @@ def test_fits_from_exchanged_starts_tell_the_same_within_their_intervals():
     for path, number in numbers(found.fitted).items():
         assert numbers(other.fitted)[path] == pytest.approx(number, rel=1e-3)
     truth = {"rubber.stiffness": 1e5}
-    truth |= {f"{name}.{key}": number for name, pair_ in TRUTH.items()
-              for key, number in zip(("stiffness", "relaxation_time"), pair_, strict=True)}  # fmt: skip
+    truth |= {
+        f"{name}.{key}": number
+        for name, pair_ in TRUTH.items()
+        for key, number in zip(("stiffness", "relaxation_time"), pair_, strict=True)
+    }
     for slot in found.fitted.slots():
         low, high = slot.value.interval
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
@@ -120,15 +138,23 @@ def test_fits_from_exchanged_starts_tell_the_same_within_their_intervals():
 def test_refits_of_a_bootstrap_stand_in_order():
     data = measured(6)
     runs = [score_run(run) for run in data.runs]
-    spec = with_ranges(network("rubber: {element: spring, stiffness: {start: 1e5}}\n" + pair(*TRUTH.values())),
-                       natural_sizes(runs))  # fmt: skip
+    spec = with_ranges(
+        network("rubber: {element: spring, stiffness: {start: 1e5}}\n" + pair(*TRUTH.values())), natural_sizes(runs)
+    )
     objective, coordinates = Objective(compile_network(spec), runs), search_coordinates(spec)
     exchanged = coordinates.of_values(np.array([slot.value.number for slot in swapped(spec).slots()]))
     groups = [(run.kind, run.name) for run in runs]
     families = interchangeable(spec, spec)
-    found, other = (dict(zip(coordinates.paths, bootstrap_intervals(objective, coordinates, point, groups, 6, 1,
-                                                                    families=families), strict=True))
-                    for point in (coordinates.start, exchanged))  # fmt: skip
+    found, other = (
+        dict(
+            zip(
+                coordinates.paths,
+                bootstrap_intervals(objective, coordinates, point, groups, 6, 1, families=families),
+                strict=True,
+            )
+        )
+        for point in (coordinates.start, exchanged)
+    )
     for path, interval in found.items():
         assert other[path] == pytest.approx(interval, rel=1e-2)
     assert found["a.relaxation_time"][1] < found["b.relaxation_time"][0]

@@ -22,7 +22,9 @@ from dashpot.text.problem import InputError
 REGISTRY = load_registry()
 PRESSURES = (1.0, 2.0, 3.0)
 HEAD = "format: dashpot-network/1\nname: tire\nbranches:\n"
-TRUTH = HEAD + """\
+TRUTH = (
+    HEAD
+    + """\
   rubber: {element: spring, stiffness: 200 N/mm}
   air: {element: damper, damping: {fixed: 300 N*s/m, over: {setting: pressure, at: 2 bar, rate: 20 %/bar}}}
   friction:
@@ -31,7 +33,10 @@ TRUTH = HEAD + """\
     limit: {fixed: 40 N, over: {setting: pressure, at: 2 bar, slope: 15 N/bar}}
   piston: {element: constant_force, force: {fixed: 0 N, over: {setting: pressure, at: 0 bar, slope: 100 N/bar}}}
 """
-MODEL = HEAD + """\
+)
+MODEL = (
+    HEAD
+    + """\
   rubber: {element: spring, stiffness: {start: 100 N/mm}}
   air: {element: damper, damping: {start: 100 N*s/m, over: {setting: pressure, at: 2 bar, rate: {start: 0 /bar}}}}
   friction:
@@ -40,6 +45,7 @@ MODEL = HEAD + """\
     limit: {start: 10 N, over: {setting: pressure, at: 2 bar, slope: {start: 0 N/bar}}}
   piston: {element: constant_force, force: {fixed: 0 N, over: {setting: pressure, at: 0 bar, slope: {start: 0 N/bar}}}}
 """
+)
 
 
 def run(name, pressure, amplitude, frequency, text=TRUTH, **settings):
@@ -59,9 +65,7 @@ measurement: {force: {offset: {fixed: 0 N, over: {setting: order, at: 0, slope: 
 def test_a_zero_that_drifts_over_the_session_is_one_number_of_the_load_cell():
     """The third run of the dataset shows its force and three times the drift; a fit finds the drift with the rest."""
     runs = [replace(each, order=number) for number, each in enumerate(dataset().runs)]
-    shifted = [
-        replace(each, channels={**each.channels, "force": each.force - 3.0 * each.order}) for each in runs
-    ]
+    shifted = [replace(each, channels={**each.channels, "force": each.force - 3.0 * each.order}) for each in runs]
     seen = simulate_runs(parse_network(TRUTH + DRIFTING % "-3 N", REGISTRY.elements), Dataset("d", tuple(runs)))
     for each in shifted:
         assert seen[each.name] == pytest.approx(each.force, abs=0.6)  # six times the noise
@@ -98,20 +102,25 @@ def dataset():
 
 def test_each_run_has_the_number_of_its_setting():
     for pressure in PRESSURES:
-        plain = HEAD + f"""\
+        plain = (
+            HEAD
+            + f"""\
   rubber: {{element: spring, stiffness: 200 N/mm}}
   air: {{element: damper, damping: {300.0 * np.exp(0.2 * (pressure - 2.0)):.17g} N*s/m}}
   friction: {{element: dahl, stiffness: 300 N/mm, limit: {40.0 + 15.0 * (pressure - 2.0):g} N}}
   piston: {{element: constant_force, force: {100.0 * pressure:g} N}}
 """
+        )
         found, expected = (run("r", pressure, 2e-3, 5.0, text).force for text in (TRUTH, plain))
         assert found == pytest.approx(expected, abs=1e-9)
 
 
 @pytest.mark.parametrize(("current", "factor"), [(-1.0, 1.0), (0.0, 1.0), (0.5, 1.5), (1.5, 2.25), (7.0, 2.5)])
 def test_factors_go_along_straight_lines_between_their_places(current, factor):
-    text = HEAD + ("  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {setting: current, at: [0, 1, 2], "
-                   "factor: [1, 2, 2.5]}}}\n")  # fmt: skip
+    text = HEAD + (
+        "  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {setting: current, at: [0, 1, 2], "
+        "factor: [1, 2, 2.5]}}}\n"
+    )
     plain = HEAD + f"  oil: {{element: damper, damping: {100.0 * factor} N*s/m}}\n"
     found, expected = (run("r", 1.0, 2e-3, 5.0, text, current=current).force for text in (text, plain))
     assert found == pytest.approx(expected, abs=1e-9)
@@ -124,8 +133,10 @@ def test_a_number_stays_inside_its_sensible_range():
 
 
 def test_a_channel_counts_with_its_mean_over_the_run():
-    text = HEAD + ("  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {channel: temperature, at: 20 degC, "
-                   "slope: -2 N*s/m/K}}}\n")  # fmt: skip
+    text = HEAD + (
+        "  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {channel: temperature, at: 20 degC, "
+        "slope: -2 N*s/m/K}}}\n"
+    )
     made = run("r", 1.0, 2e-3, 5.0)
     warm = replace(made, channels={**made.channels, "temperature": 303.15 + np.linspace(-5.0, 5.0, TIME.size)})
     found = simulate_runs(parse_network(text, REGISTRY.elements), Dataset("d", (warm,)))["r"]
@@ -178,8 +189,14 @@ air: {element: damper, damping: {start: 50 N*s/m, over: {setting: pressure, at: 
 def test_a_fit_finds_base_slope_and_rate():
     found = fit_network(parse_network(MODEL, REGISTRY.elements), dataset(), registry=REGISTRY)
     numbers = {slot.path: slot.value for slot in found.fitted.slots()}
-    truth = {"rubber.stiffness": 2e5, "air.damping": 300.0, "air.damping.rate": 0.2e-5, "friction.limit": 40.0,
-             "friction.limit.slope": 15e-5, "piston.force.slope": 100e-5}  # fmt: skip
+    truth = {
+        "rubber.stiffness": 2e5,
+        "air.damping": 300.0,
+        "air.damping.rate": 0.2e-5,
+        "friction.limit": 40.0,
+        "friction.limit.slope": 15e-5,
+        "piston.force.slope": 100e-5,
+    }
     for path, number in truth.items():
         assert numbers[path].number == pytest.approx(number, rel=0.02)
         low, high = numbers[path].interval

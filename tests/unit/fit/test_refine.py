@@ -51,8 +51,10 @@ def test_friction_and_relaxation_are_found_from_a_distant_start():
     def law(drive):
         return truth.simulate(truth.prepare(drive))
 
-    scored = [run(name, amplitude, frequency, kelvin_voigt) for name, amplitude, frequency in
-              (("a", 0.3e-3, 3.0), ("b", 2e-3, 3.0), ("c", 1e-3, 15.0))]  # fmt: skip
+    scored = [
+        run(name, amplitude, frequency, kelvin_voigt)
+        for name, amplitude, frequency in (("a", 0.3e-3, 3.0), ("b", 2e-3, 3.0), ("c", 1e-3, 15.0))
+    ]
     scored = [type(each)(each.name, each.kind, each.drive, law(each.drive), each.first) for each in scored]
     spec, objective, coordinates = ready(branches, scored)
     found = refine(objective, coordinates, coordinates.start, steps=80)
@@ -72,8 +74,10 @@ def test_a_bound_holds_and_the_others_go_on():
     stiffness, damping = coordinates.to_values(found.point)[0]
     assert stiffness == pytest.approx(1.5e5)
     # what remains is a regression on the velocity, each run weighing the same
-    pairs = [(each.drive.velocity[each.first :], (each.force - 1.5e5 * each.drive.displacement)[each.first :])
-             for each in scored]  # fmt: skip
+    pairs = [
+        (each.drive.velocity[each.first :], (each.force - 1.5e5 * each.drive.displacement)[each.first :])
+        for each in scored
+    ]
     best = sum(v @ f / v.size for v, f in pairs) / sum(v @ v / v.size for v, _ in pairs)
     assert damping == pytest.approx(best, rel=1e-5)
 
@@ -163,8 +167,12 @@ def test_the_jacobian_is_per_natural_step_on_both_sides_of_a_bound():
     (slow, fast) = objective.runs
     point = np.array([np.log(STIFFNESS), np.log(DAMPING)])
     weights = [np.sqrt(objective.total / (2.0 * each.samples)) for each in (slow, fast)]
-    expected = np.concatenate([weight * STIFFNESS * each.drive.displacement[each.first :]
-                               for weight, each in zip(weights, (slow, fast), strict=True)])  # fmt: skip
+    expected = np.concatenate(
+        [
+            weight * STIFFNESS * each.drive.displacement[each.first :]
+            for weight, each in zip(weights, (slow, fast), strict=True)
+        ]
+    )
     for at in (point, np.array([coordinates.high[0], np.log(DAMPING)])):
         _, jacobian = linearise(objective, coordinates, at)
         stiffness = np.exp(at[0]) / STIFFNESS

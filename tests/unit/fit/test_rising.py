@@ -23,7 +23,9 @@ KNOTS = """
 def test_knots_of_a_damper_are_in_order_on_either_side_of_a_fixed_one():
     _, _, coordinates = ready(KNOTS, [run("sine", 2e-3, 8.0, lambda x, v, a: 900.0 * v)])
     assert [tuple(coordinates.paths[knot] for knot in chain) for chain in coordinates.rising] == [
-        ("oil.damping[0]", "oil.damping[1]"), ("oil.damping[3]", "oil.damping[4]", "oil.damping[5]")]  # fmt: skip
+        ("oil.damping[0]", "oil.damping[1]"),
+        ("oil.damping[3]", "oil.damping[4]", "oil.damping[5]"),
+    ]
 
 
 def test_the_nearest_allowed_point_is_within_bounds_in_order_and_near():
@@ -51,7 +53,9 @@ def test_without_one_coordinate_the_others_stay_in_order():
     _, _, coordinates = ready(KNOTS, [run("sine", 2e-3, 8.0, lambda x, v, a: 900.0 * v)])
     held = coordinates.held(3, 90.0)
     assert [tuple(held.paths[knot] for knot in chain) for chain in held.rising] == [
-        ("oil.damping[0]", "oil.damping[1]"), ("oil.damping[3]", "oil.damping[5]")]  # fmt: skip
+        ("oil.damping[0]", "oil.damping[1]"),
+        ("oil.damping[3]", "oil.damping[5]"),
+    ]
 
 
 def test_a_knot_that_does_not_matter_gives_way():

@@ -34,8 +34,15 @@ def network(branches: str):
     return parse_network(HEAD + branches, REGISTRY.elements)
 
 
-def row(name: str, frequency: float, amplitude: float, stiffness: complex, preload: float = 0.0, scatter: float = 0.0,
-        **settings: float) -> Run:  # fmt: skip
+def row(
+    name: str,
+    frequency: float,
+    amplitude: float,
+    stiffness: complex,
+    preload: float = 0.0,
+    scatter: float = 0.0,
+    **settings: float,
+) -> Run:
     count = steady_samples(frequency)
     force = amplitude * (stiffness.real * sine(count) + stiffness.imag * cosine(count))
     sensors = {"force": {"noise": scatter * amplitude}} if scatter else {}
@@ -69,8 +76,10 @@ def test_the_response_of_friction_is_its_describing_function(reach):
 
 @pytest.mark.parametrize("frequency", [0.5, 7.0, 40.0])
 def test_the_response_of_a_solid_is_its_complex_stiffness(frequency):
-    text = (f"  a: {{element: spring, stiffness: {STIFFNESS}}}\n  b: {{element: damper, damping: {DAMPING}}}\n"
-            f"  c: {{element: maxwell, stiffness: {SECOND}, relaxation_time: {TIME}}}\n")  # fmt: skip
+    text = (
+        f"  a: {{element: spring, stiffness: {STIFFNESS}}}\n  b: {{element: damper, damping: {DAMPING}}}\n"
+        f"  c: {{element: maxwell, stiffness: {SECOND}, relaxation_time: {TIME}}}\n"
+    )
     assert simulated(text, row("a", frequency, 1e-3, 0j, 5e-3)) == pytest.approx(solid(frequency), rel=1e-4)
 
 
@@ -86,8 +95,10 @@ def test_a_hydro_mount_rings_down_before_it_is_looked_at():
 
 def test_a_fit_finds_the_numbers_of_a_table():
     rng = np.random.default_rng(seed_of("rows"))
-    runs = [row(f"r{k}", frequency, 1e-3, solid(frequency) * (1.0 + 0.002 * rng.standard_normal()), scatter=400.0)
-            for k, frequency in enumerate((1.0, 2.0, 4.0, 8.0, 12.0, 16.0, 24.0, 32.0))]  # fmt: skip
+    runs = [
+        row(f"r{k}", frequency, 1e-3, solid(frequency) * (1.0 + 0.002 * rng.standard_normal()), scatter=400.0)
+        for k, frequency in enumerate((1.0, 2.0, 4.0, 8.0, 12.0, 16.0, 24.0, 32.0))
+    ]
     fit = fit_network(network(MODEL), Dataset("table", tuple(runs)), registry=REGISTRY)
     found = {slot.path: slot.value for slot in fit.fitted.slots()}
     truth = {"rubber.stiffness": STIFFNESS, "slow.stiffness": SECOND, "slow.relaxation_time": TIME}
@@ -120,8 +131,11 @@ def test_the_jacobian_of_rows_is_that_of_their_losses():
 
 
 def test_rows_of_a_small_scatter_count_more():
-    runs = [row("a", 5.0, 1e-3, solid(5.0), scatter=100.0), row("b", 5.0, 1e-3, solid(5.0), scatter=200.0),
-            row("c", 5.0, 1e-3, solid(5.0))]  # fmt: skip
+    runs = [
+        row("a", 5.0, 1e-3, solid(5.0), scatter=100.0),
+        row("b", 5.0, 1e-3, solid(5.0), scatter=200.0),
+        row("c", 5.0, 1e-3, solid(5.0)),
+    ]
     assert [run.weight for run in weighted(runs)] == pytest.approx([1.6, 0.4, 1.0])
 
 
@@ -157,9 +171,13 @@ def test_a_curve_that_tables_alone_tell_has_their_slopes():
     assert np.diff(force) == pytest.approx(np.diff(2e5 * at + 4e6 * at**2), rel=0.06)
 
 
-@pytest.mark.parametrize(("law", "numbers", "start"), [
-    ("wlf", (8.0, 80.0), "[{start: 15}, {start: 50 K}]"), ("arrhenius", (9000.0,), "{start: 3000 K}"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("law", "numbers", "start"),
+    [
+        ("wlf", (8.0, 80.0), "[{start: 15}, {start: 50 K}]"),
+        ("arrhenius", (9000.0,), "{start: 3000 K}"),
+    ],
+)
 def test_a_shift_with_temperature_is_found(law, numbers, start):
     place = 296.15
 
@@ -170,8 +188,10 @@ def test_a_shift_with_temperature_is_found(law, numbers, start):
 
     places = [(warm, rate) for warm in (286.15, 291.15, 296.15, 306.15, 316.15) for rate in (1.0, 4.0, 16.0)]
     stiffness = [solid(rate, shifted(warm)) - 2j * np.pi * rate * DAMPING for warm, rate in places]
-    rows = [row(f"r{warm}-{rate}", rate, 1e-3, each, temperature=warm)
-            for (warm, rate), each in zip(places, stiffness, strict=True)]  # fmt: skip
+    rows = [
+        row(f"r{warm}-{rate}", rate, 1e-3, each, temperature=warm)
+        for (warm, rate), each in zip(places, stiffness, strict=True)
+    ]
     over = f"over: {{setting: temperature, at: 23 degC, {law}: {start}}}"
     maxwell = f"{{element: maxwell, stiffness: {{start: 3e4}}, relaxation_time: {{start: 5e-3, {over}}}}}"
     model = f"  a: {{element: spring, stiffness: {{start: 1e5}}}}\n  b: {maxwell}\n"

@@ -22,8 +22,10 @@ NOISE = 20.0
 
 
 def noisy(rng, spread=NOISE) -> list[ScoredRun]:
-    return [ScoredRun(each.name, each.kind, each.drive, each.force + spread * rng.standard_normal(each.force.size), 0)
-            for each in runs()]  # fmt: skip
+    return [
+        ScoredRun(each.name, each.kind, each.drive, each.force + spread * rng.standard_normal(each.force.size), 0)
+        for each in runs()
+    ]
 
 
 def assessed(branches, scored):
@@ -79,7 +81,8 @@ def test_intervals_stay_inside_the_bounds_and_parameters_at_one_are_named():
 def test_a_parameter_that_the_data_do_not_feel_is_named_and_may_be_anything_in_its_range():
     branches = KELVIN_VOIGT + (
         "    far: {element: spring, stiffness: {deflection: [90 mm, 91 mm, 92 mm], "
-        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}")  # fmt: skip
+        "force: [0, 0, {start: 1, bounds: [0, 9]}]}}"
+    )
     coordinates, _, known = assessed(branches, noisy(np.random.default_rng(seed_of("test_uncertainty5"))))
     assert known.idle == ("far.stiffness[2]",)
     assert known.intervals[2] == (0.0, 9.0)
@@ -185,8 +188,10 @@ def test_no_user_of_a_jacobian_sees_what_could_not_be_moved(both):
 def test_a_model_that_errs_has_wider_intervals_and_one_at_the_noise_has_not():
     _, objective, coordinates = ready(KELVIN_VOIGT, noisy(np.random.default_rng(seed_of("test_uncertainty9"))))
     found = refine(objective, coordinates, coordinates.start)
-    plain, right, wrong = (assess_uncertainty(objective, coordinates, found.point, noise=noise).widths
-                           for noise in (None, 1.01 * found.loss, 0.5 * found.loss))  # fmt: skip
+    plain, right, wrong = (
+        assess_uncertainty(objective, coordinates, found.point, noise=noise).widths
+        for noise in (None, 1.01 * found.loss, 0.5 * found.loss)
+    )
     assert right == pytest.approx(plain)
     assert wrong == pytest.approx(plain * widening(1.0, 0.5))
     assert widening(1.0, 0.5) > 2.0

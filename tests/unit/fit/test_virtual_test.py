@@ -48,8 +48,13 @@ def test_gain_zero_and_delay_are_those_of_the_load_cell():
 
 
 def test_noise_has_its_size_and_its_memory():
-    runs = measured(force_noise=5.0, noise_memory=10e-3, displacement_noise=1e-6, seed=np.random.SeedSequence().entropy
-                    % 2**32, repeats=4)  # fmt: skip
+    runs = measured(
+        force_noise=5.0,
+        noise_memory=10e-3,
+        displacement_noise=1e-6,
+        seed=np.random.SeedSequence().entropy % 2**32,
+        repeats=4,
+    )
     noise = np.array([run.force - 2e5 * SWEEP.runs()[0].motion[""].displacement for run in runs])
     # 8000 samples, of which 20 in a row belong together: the root mean square scatters by 3 %
     assert np.sqrt(np.mean(noise**2)) == pytest.approx(5.0, rel=0.15)

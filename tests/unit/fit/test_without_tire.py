@@ -20,9 +20,18 @@ from dashpot_specimens.car_path import sweep
 
 EVERY = 20
 MASS, SLOPE, SPRING = 45.0, 1500.0, 24e3
-CAR = Car(wheel_mass=MASS, tire=CarTire(210e3, 1e-3, 0.0, (1e-3, 1e-2), 0.0, (1e-3, 1e-1), 0.0), spring=SPRING,
-          spring_hardening=0.0, bump_at=1.0, rebound=(SLOPE, 1e9), compression=(SLOPE, 1e9), mount_stiffness=np.inf,
-          friction=0.0, bar_friction=0.0)  # fmt: skip
+CAR = Car(
+    wheel_mass=MASS,
+    tire=CarTire(210e3, 1e-3, 0.0, (1e-3, 1e-2), 0.0, (1e-3, 1e-1), 0.0),
+    spring=SPRING,
+    spring_hardening=0.0,
+    bump_at=1.0,
+    rebound=(SLOPE, 1e9),
+    compression=(SLOPE, 1e9),
+    mount_stiffness=np.inf,
+    friction=0.0,
+    bar_friction=0.0,
+)
 QUARTER = """\
 format: dashpot-network/1
 name: quarter
@@ -47,12 +56,24 @@ def runs() -> list[Run]:
     found = []
     for added in (0.0, 10.0):
         answer = drive_car(CAR, np.array([path, path]), added)
-        channels = {"displacement@platform": path[::EVERY], "displacement@wheel": answer["wheel"][0, ::EVERY],
-                    "force@platform": answer["force"][0, ::EVERY]}  # fmt: skip
+        channels = {
+            "displacement@platform": path[::EVERY],
+            "displacement@wheel": answer["wheel"][0, ::EVERY],
+            "force@platform": answer["force"][0, ::EVERY],
+        }
         time = EVERY * STEP * np.arange(channels["force@platform"].size)
         own = {"displacement": channels["displacement@platform"], "force": channels["force@platform"]}
-        found.append(Run(f"m{added:g}@platform", "sweep", time, {**channels, **own}, {"added_mass": added},
-                         group=f"m{added:g}@platform", end="platform"))  # fmt: skip
+        found.append(
+            Run(
+                f"m{added:g}@platform",
+                "sweep",
+                time,
+                {**channels, **own},
+                {"added_mass": added},
+                group=f"m{added:g}@platform",
+                end="platform",
+            )
+        )
     return found
 
 
@@ -69,11 +90,16 @@ def test_a_wrong_tire_does_not_touch_the_mass_found_without_it(quarter, runs):
 
 
 def test_without_the_motion_of_the_wheel_or_without_a_wheel_there_is_no_answer(quarter, runs):
-    bare = [replace(run, channels={name: values for name, values in run.channels.items() if "wheel" not in name})
-            for run in runs]  # fmt: skip
+    bare = [
+        replace(run, channels={name: values for name, values in run.channels.items() if "wheel" not in name})
+        for run in runs
+    ]
     assert masses_without_tire(quarter, bare) == []
-    alone = parse_network("format: dashpot-network/1\nname: a\nbranches: {k: {element: spring, stiffness: 1 N/mm}}\n",
-                          load_registry().elements, "a.yaml")  # fmt: skip
+    alone = parse_network(
+        "format: dashpot-network/1\nname: a\nbranches: {k: {element: spring, stiffness: 1 N/mm}}\n",
+        load_registry().elements,
+        "a.yaml",
+    )
     assert wheels_behind(alone) == {} and masses_without_tire(alone, runs) == []
 
 
@@ -98,9 +124,12 @@ def test_a_damper_is_known_as_far_as_the_wheel_was_fast(quarter, runs):
 
 
 def test_a_damper_between_two_ends_sees_the_drive():
-    spec = parse_network("format: dashpot-network/1\nname: a\nbranches:\n  oil: {element: damper, damping: {velocity: "
-                         "[-1 m/s, 0 m/s, 1 m/s], force: [{start: -100 N}, 0 N, {start: 100 N}]}}\n",
-                         load_registry().elements, "a.yaml")  # fmt: skip
+    spec = parse_network(
+        "format: dashpot-network/1\nname: a\nbranches:\n  oil: {element: damper, damping: {velocity: "
+        "[-1 m/s, 0 m/s, 1 m/s], force: [{start: -100 N}, 0 N, {start: 100 N}]}}\n",
+        load_registry().elements,
+        "a.yaml",
+    )
     time = 1e-3 * np.arange(4000)
     path = 5e-3 * np.sin(2.0 * np.pi * 5.0 * time)
     one: ScoredRun = score_run(Run("a", "harmonic", time, {"displacement": path, "force": 0.0 * path}))

@@ -180,7 +180,7 @@ def test_options_overrule_what_is_found(tmp_path):
         (b"PK\x03\x04\0\0\0\0", {}, "it is a binary file", None),
         ("0;1\n1;2\n", {"skip_rows": -1}, "expected 'skip_rows' as 0 or more, got -1", None),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_with_a_file_is_told(tmp_path, text, options, message, line):
     with pytest.raises(ReadingError) as caught:
         read(tmp_path, text, **options)

@@ -18,8 +18,14 @@ def write(path, **values):
 
 
 def test_the_group_with_most_numbers_and_its_rate(tmp_path):
-    path = write(tmp_path / "a.h5", sweep__u=np.arange(50.0)[:, None], sweep__y=np.arange(50.0) ** 2,
-                 sweep__fs=np.array([[750.0]]), noise__u=np.arange(20.0), noise__fs=np.array([100.0]))  # fmt: skip
+    path = write(
+        tmp_path / "a.h5",
+        sweep__u=np.arange(50.0)[:, None],
+        sweep__y=np.arange(50.0) ** 2,
+        sweep__fs=np.array([[750.0]]),
+        noise__u=np.arange(20.0),
+        noise__fs=np.array([100.0]),
+    )
     table = Hdf5().read(path, {})
     assert table.columns["u"].tolist() == list(range(50)) and "fs" not in table.columns
     assert table.sampling == 750.0

@@ -42,12 +42,20 @@ def segment(part=slice(None), clocks="One", decimal=".", time="15:53:23.2", firs
     rows = []
     for number, (force, way) in enumerate(zip(FORCE[part].tolist(), WAY[part].tolist(), strict=True)):
         now = f"{first + step * number:.6f}"
-        cells = {"One": [now, f"{force!r}", f"{way!r}", "start" if number == 0 else ""],
-                 "Multi": [now, f"{force!r}", now, f"{way!r}", ""],
-                 "No": ["", f"{force!r}", f"{way!r}", ""]}[clocks]  # fmt: skip
+        cells = {
+            "One": [now, f"{force!r}", f"{way!r}", "start" if number == 0 else ""],
+            "Multi": [now, f"{force!r}", now, f"{way!r}", ""],
+            "No": ["", f"{force!r}", f"{way!r}", ""],
+        }[clocks]
         rows.append("\t".join(cells))
-    text = SEGMENT.format(count=len(rows), time=time, first=f"{first:.6E}", step=f"{step:.6f}", rows="\n".join(rows),
-                          names=names or (MANY if clocks == "Multi" else ONE))  # fmt: skip
+    text = SEGMENT.format(
+        count=len(rows),
+        time=time,
+        first=f"{first:.6E}",
+        step=f"{step:.6f}",
+        rows="\n".join(rows),
+        names=names or (MANY if clocks == "Multi" else ONE),
+    )
     return text.replace(".", decimal)
 
 
@@ -129,12 +137,15 @@ def test_a_file_without_a_heading_is_a_text_table(tmp_path):
 PLAIN = HEADING.format(decimal=".", clocks="One", multi="No")
 
 
-@pytest.mark.parametrize("text, message", [
-    ("LabVIEW Measurement\t\nSeparator\tTab\n", "expected a line"),
-    (PLAIN, "no segment with channels"),
-    (PLAIN + "Channels\t1\n***End_of_Header***\t\n", "names of the columns"),
-    (PLAIN + "Channels\t1\n***End_of_Header***\t\nX_Value\tF\n", "no rows"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("LabVIEW Measurement\t\nSeparator\tTab\n", "expected a line"),
+        (PLAIN, "no segment with channels"),
+        (PLAIN + "Channels\t1\n***End_of_Header***\t\n", "names of the columns"),
+        (PLAIN + "Channels\t1\n***End_of_Header***\t\nX_Value\tF\n", "no rows"),
+    ],
+)
 def test_broken_files_say_what_is_missing(tmp_path, text, message):
     path = tmp_path / "a.lvm"
     path.write_text(text)

@@ -71,10 +71,15 @@ def head_of(shape: tuple[int, ...], kind: str) -> bytes:
     return content.getvalue() + bytes(64)
 
 
-@pytest.mark.parametrize("shape, kind, told", [
-    ((10**12,), "<f8", "7450.6 GiB"), ((2**28,), "<f8", "2.0 GiB"), ((2**28,), "|i1", "2.0 GiB"),
-    ((2**14, 2**14), "<f4", "2.0 GiB"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "shape, kind, told",
+    [
+        ((10**12,), "<f8", "7450.6 GiB"),
+        ((2**28,), "<f8", "2.0 GiB"),
+        ((2**28,), "|i1", "2.0 GiB"),
+        ((2**14, 2**14), "<f4", "2.0 GiB"),
+    ],
+)
 def test_arrays_are_capped_by_what_they_unpack_to(tmp_path, shape, kind, told):
     (tmp_path / "a.npy").write_bytes(head_of(shape, kind))
     with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:

@@ -32,11 +32,14 @@ def rows(count=40):
 
 
 @needed
-@pytest.mark.parametrize("head", [
-    [["time [s]", "way [mm]", "force [kN]"]],
-    [["time", "way", "force"], ["s", "mm", "kN"]],
-    [["bush 7", None, None], [None], ["time (s)", "way (mm)", "force (kN)"]],
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "head",
+    [
+        [["time [s]", "way [mm]", "force [kN]"]],
+        [["time", "way", "force"], ["s", "mm", "kN"]],
+        [["bush 7", None, None], [None], ["time (s)", "way (mm)", "force (kN)"]],
+    ],
+)
 def test_names_units_and_numbers_of_a_sheet(tmp_path, head):
     table = Xlsx().read(write(tmp_path / "a.xlsx", data=[*head, *rows()]), {})
     assert list(table.columns) == ["time", "way", "force"]
@@ -46,8 +49,12 @@ def test_names_units_and_numbers_of_a_sheet(tmp_path, head):
 
 @needed
 def test_the_sheet_with_the_numbers_is_read_and_others_on_demand(tmp_path):
-    path = write(tmp_path / "a.xlsx", about=[["bush", 7], ["rig", "B"]], data=[["t", "x", "F"], *rows()],
-                 short=[["t", "x", "F"], *rows(20)])  # fmt: skip
+    path = write(
+        tmp_path / "a.xlsx",
+        about=[["bush", 7], ["rig", "B"]],
+        data=[["t", "x", "F"], *rows()],
+        short=[["t", "x", "F"], *rows(20)],
+    )
     assert Xlsx().read(path, {}).columns["F"].size == 40
     assert Xlsx().read(path, {"sheet": "short"}).columns["F"].size == 20
     assert Xlsx().read(path, {"sheet": 3}).columns["F"].size == 20

@@ -11,9 +11,13 @@ from dashpot.kernel.columns import see_samples, see_turns
 
 # the path turns at 4 between samples 1 and 2, and twice between samples 3 and 4
 DRIVE = Drive(
-    0.1, np.array([1.0, 3.0, 3.5, 2.0, 2.1]), np.array([9.0, 5.0, -3.0, 4.0, 1.0]), np.array([1.0, 2.0, 3.0, 4.0, 5.0]),
-    np.array([2, 4, 4]), np.array([4.0, 2.4, 1.9]),
-)  # fmt: skip
+    0.1,
+    np.array([1.0, 3.0, 3.5, 2.0, 2.1]),
+    np.array([9.0, 5.0, -3.0, 4.0, 1.0]),
+    np.array([1.0, 2.0, 3.0, 4.0, 5.0]),
+    np.array([2, 4, 4]),
+    np.array([4.0, 2.4, 1.9]),
+)
 
 
 def test_a_branch_without_memory_sees_every_sample_as_it_is():

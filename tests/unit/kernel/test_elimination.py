@@ -25,8 +25,10 @@ def sparse_positive(rng: np.random.Generator, count: int) -> np.ndarray:
 def solved(matrix: np.ndarray, right: np.ndarray, known: np.ndarray | None = None) -> np.ndarray:
     """The solution found by elimination over the graph, the zeros of ``known`` left out."""
     pattern = matrix if known is None else known
-    rows = {f"n{i}": {f"n{j}": symbol(f"m{i}.{j}") for j in range(len(right)) if i == j or pattern[i, j] != 0.0}
-            for i in range(len(right))}  # fmt: skip
+    rows = {
+        f"n{i}": {f"n{j}": symbol(f"m{i}.{j}") for j in range(len(right)) if i == j or pattern[i, j] != 0.0}
+        for i in range(len(right))
+    }
     found = solve_symmetric(rows, {f"n{i}": symbol(f"r{i}") for i in range(len(right))})
     numbers = {f"m{i}.{j}": matrix[i, j] for i in range(len(right)) for j in range(len(right))}
     numbers |= {f"r{i}": number for i, number in enumerate(right)}

@@ -42,8 +42,14 @@ def test_a_state_that_reads_the_drive_alone_follows_it():
 
 def test_a_follower_is_zero_at_rest_and_then_what_the_law_said_before():
     # two turning points in the step to sample 4
-    drive = Drive(0.1, np.array([1.0, 3.0, 3.5, 2.0, 2.1]), np.zeros(5), np.zeros(5), np.array([2, 4, 4]),
-                  np.array([4.0, 2.4, 1.9]))  # fmt: skip
+    drive = Drive(
+        0.1,
+        np.array([1.0, 3.0, 3.5, 2.0, 2.1]),
+        np.zeros(5),
+        np.zeros(5),
+        np.array([2, 4, 4]),
+        np.array([4.0, 2.4, 1.9]),
+    )
     side = {"it|side": np.where(NEW < OLD, -1.0, 1.0)}
     samples, turns = follow(side, drive, see_samples(drive), see_turns(drive))
     assert samples["it|side"].tolist() == [0.0, 1.0, 1.0, -1.0, -1.0]
@@ -57,12 +63,15 @@ def test_an_event_becomes_a_correction():
     assert correction.state == "it|memory" and correction.then is np.log(MEMORY)
 
 
-@pytest.mark.parametrize("law", [
-    np.where(symbol("it.p") > NEW, np.log(MEMORY), MEMORY),  # a lane decides
-    np.where(NEW > OLD, 2.0 * MEMORY, MEMORY),  # nothing is saved
-    np.where(NEW > OLD, np.log(MEMORY), MEMORY) + MEMORY,  # the old value is needed besides
-    np.where(NEW > OLD, np.log(MEMORY), 2.0 * MEMORY),  # not the state itself
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "law",
+    [
+        np.where(symbol("it.p") > NEW, np.log(MEMORY), MEMORY),  # a lane decides
+        np.where(NEW > OLD, 2.0 * MEMORY, MEMORY),  # nothing is saved
+        np.where(NEW > OLD, np.log(MEMORY), MEMORY) + MEMORY,  # the old value is needed besides
+        np.where(NEW > OLD, np.log(MEMORY), 2.0 * MEMORY),  # not the state itself
+    ],
+)
 def test_what_is_no_event_stays_as_it_is(law):
     spared, corrections = split_events([law], {"monotone.new", "monotone.old"})
     assert spared == [law] and not corrections

@@ -30,8 +30,9 @@ def mapped(function: Callable[..., Bundle | functions.Rare], *arguments: np.ndar
     a, names = Assembly(), [f"%x{number}" for number in range(len(arguments))]
     width, size = LANES * VECTORS, arguments[0].size
     with a.loop(0, "%samples", width) as k:
-        places = {name: [a.address(a.address(name, k), LANES * part) for part in range(VECTORS)]
-                  for name in (*names, "%out")}  # fmt: skip
+        places = {
+            name: [a.address(a.address(name, k), LANES * part) for part in range(VECTORS)] for name in (*names, "%out")
+        }
         answer = function(*(a.load(places[name]) for name in names))
         a.store(answer.amended() if isinstance(answer, functions.Rare) else answer, places["%out"])
     a.do("ret void")
@@ -43,8 +44,13 @@ def mapped(function: Callable[..., Bundle | functions.Rare], *arguments: np.ndar
 
 
 RNG = np.random.default_rng(seed_of("test_functions"))
-WIDE = np.concatenate([RNG.uniform(-700.0, 700.0, 20_000), RNG.uniform(-1.0, 1.0, 20_000),
-                       RNG.choice([-1.0, 1.0], 5000) * 10.0 ** RNG.uniform(-300.0, 2.0, 5000)])  # fmt: skip
+WIDE = np.concatenate(
+    [
+        RNG.uniform(-700.0, 700.0, 20_000),
+        RNG.uniform(-1.0, 1.0, 20_000),
+        RNG.choice([-1.0, 1.0], 5000) * 10.0 ** RNG.uniform(-300.0, 2.0, 5000),
+    ]
+)
 
 
 def test_exp_is_good_to_fourteen_digits(run):
@@ -83,9 +89,13 @@ ORDINARY = RNG.uniform(-3.0, 3.0, 1500)
 PLACES = {
     "expm1": [DENORMAL_AND_UP, ORDINARY, RNG.uniform(-50.0, 709.7, 1500)],
     "tanh": [DENORMAL_AND_UP, ORDINARY, RNG.uniform(-30.0, 30.0, 1500)],
-    "log1p": [DENORMAL_AND_UP, np.abs(ORDINARY), 10.0 ** RNG.uniform(0.0, 308.0, 1500),
-              -1.0 + np.geomspace(1e-15, 0.9, 1500)],
-}  # fmt: skip
+    "log1p": [
+        DENORMAL_AND_UP,
+        np.abs(ORDINARY),
+        10.0 ** RNG.uniform(0.0, 308.0, 1500),
+        -1.0 + np.geomspace(1e-15, 0.9, 1500),
+    ],
+}
 
 
 def units_away(found: np.ndarray, exact: Callable[..., mpmath.mpf], *arguments: np.ndarray) -> float:
@@ -111,8 +121,28 @@ def test_a_power_is_good_to_its_last_places_everywhere(run):
     assert units_away(run("power", x, y), mpmath.power, x, y) < 1.5
 
 
-STRANGE = np.array([-np.inf, -1e300, -3.0, -2.5, -1.0, -0.5, -1e-310, -0.0, 0.0, 1e-310, 0.5, 1.0, 2.0, 2.5, 3.0, 1e300,
-                    np.inf, np.nan])  # fmt: skip
+STRANGE = np.array(
+    [
+        -np.inf,
+        -1e300,
+        -3.0,
+        -2.5,
+        -1.0,
+        -0.5,
+        -1e-310,
+        -0.0,
+        0.0,
+        1e-310,
+        0.5,
+        1.0,
+        2.0,
+        2.5,
+        3.0,
+        1e300,
+        np.inf,
+        np.nan,
+    ]
+)
 
 
 @pytest.mark.parametrize(("name", "count"), [("expm1", 1), ("tanh", 1), ("log1p", 1), ("power", 2)])

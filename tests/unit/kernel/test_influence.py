@@ -70,8 +70,9 @@ def test_a_force_that_is_zero_changes_nothing():
 def test_with_friction_the_change_is_that_of_a_small_load_on_the_wheel():
     """The same force as a known load of the node, downwards on the wheel: it was there before and is coded apart."""
     force, small = np.sin(2.0 * np.pi * 7.0 * TIME), 1.0
-    loaded = compile_network(parse_network((TEXT + SLIDER).replace("wheel: {mass", "wheel: {hold: loaded, mass"),
-                                           ELEMENTS))  # fmt: skip
+    loaded = compile_network(
+        parse_network((TEXT + SLIDER).replace("wheel: {mass", "wheel: {hold: loaded, mass"), ELEMENTS)
+    )
     answers = [
         loaded.simulate(loaded.prepare(Excitation(excitation().motions, {"wheel": load}, dt=STEP, samples=TIME.size)))
         for load in (-small * force, small * force)

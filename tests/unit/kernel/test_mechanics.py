@@ -20,11 +20,24 @@ branches:
   top: {element: damper, damping: 7 N*s/m, between: [block, wall]}
 """
 NUMBERS = {
-    "foot.stiffness": 50.0, "foot.offset": 0.02, "top.damping": 7.0, "block.mass": 3.0, "block.added_mass": 1.0,
-    "gravity": 9.81, "dt": 0.1, "rule.slope": 20.0, "rule.now": -20.0, "rule.before": 0.0, "rule.swing": -1.0,
-    "newton.tolerance": 1e-9, "newton.farthest": 10.0, "newton|done": 0.0, "newton|damping": 1.0,
-    "newton|distance": 1e300, "newton|nothing": 0.0,
-}  # fmt: skip
+    "foot.stiffness": 50.0,
+    "foot.offset": 0.02,
+    "top.damping": 7.0,
+    "block.mass": 3.0,
+    "block.added_mass": 1.0,
+    "gravity": 9.81,
+    "dt": 0.1,
+    "rule.slope": 20.0,
+    "rule.now": -20.0,
+    "rule.before": 0.0,
+    "rule.swing": -1.0,
+    "newton.tolerance": 1e-9,
+    "newton.farthest": 10.0,
+    "newton|done": 0.0,
+    "newton|damping": 1.0,
+    "newton|distance": 1e300,
+    "newton|nothing": 0.0,
+}
 
 
 KEPT = {reached_row(force_row("table")): 123.0}
@@ -43,11 +56,20 @@ def value(rows, name: str, **more: float) -> float:
 
 
 MOVING = {
-    "table.old": 0.0, "table.new": 0.01, "table.velocity_old": 0.0, "table.velocity_new": 0.2,
+    "table.old": 0.0,
+    "table.new": 0.01,
+    "table.velocity_old": 0.0,
+    "table.velocity_new": 0.2,
     "table.acceleration": 0.0,
-    "block|position": 0.001, "block|velocity": 0.03, "block|acceleration": 0.4, "block|position_before": 0.0005,
-    "block|velocity_before": 0.01, "block|next": 0.004, "block|drift": 0.05, "block|swing": 0.6,
-}  # fmt: skip
+    "block|position": 0.001,
+    "block|velocity": 0.03,
+    "block|acceleration": 0.4,
+    "block|position_before": 0.0005,
+    "block|velocity_before": 0.01,
+    "block|next": 0.004,
+    "block|drift": 0.05,
+    "block|swing": 0.6,
+}
 
 
 def test_the_platform_feels_the_spring_and_its_offset_where_newtons_step_leads_to():

@@ -56,8 +56,11 @@ def test_branches_of_all_makes_are_kept_apart():
 
 
 def test_branches_of_one_make_share_a_block():
-    parts = take_apart(compiled("it: {repeat: 3, element: maxwell, stiffness: 5, relaxation_time: 5}\n"
-                                "more: {element: damper, damping: 5}").spec)  # fmt: skip
+    parts = take_apart(
+        compiled(
+            "it: {repeat: 3, element: maxwell, stiffness: 5, relaxation_time: 5}\nmore: {element: damper, damping: 5}"
+        ).spec
+    )
     assert sorted(len(part.slots) for part in parts.members) == [1, 3]
 
 

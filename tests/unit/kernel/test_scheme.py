@@ -24,8 +24,9 @@ def test_each_rule_is_exact_for_what_it_promises():
     rule = alternate(step, 3)
     assert rule.slope.size == PAIR * 3
     # constants do not move, straight lines have their slope; after the first step parabolas are exact as well
-    for number, (slope, now, before, swing) in enumerate(zip(rule.slope, rule.now, rule.before, rule.swing,
-                                                            strict=True)):  # fmt: skip
+    for number, (slope, now, before, swing) in enumerate(
+        zip(rule.slope, rule.now, rule.before, rule.swing, strict=True)
+    ):
         assert slope + now + before == pytest.approx(0.0, abs=1e-12)
         assert slope * step - before * step + swing == pytest.approx(1.0)
         if number:

@@ -53,8 +53,15 @@ def test_the_same_topology_with_other_numbers_and_names_gives_the_same_text():
 
 def test_what_was_traced_before_does_not_matter():
     reversed_parts = "it = printed('d', 'c', 'b', 'a', 1.0)"
-    digests = {subprocess.run([sys.executable, "-c", PRINTER.format(path=sys.path, before=before)], check=True,
-                              capture_output=True, text=True).stdout for before in ("", reversed_parts)}  # fmt: skip
+    digests = {
+        subprocess.run(
+            [sys.executable, "-c", PRINTER.format(path=sys.path, before=before)],
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout
+        for before in ("", reversed_parts)
+    }
     assert len(digests) == 1
 
 

@@ -17,12 +17,14 @@ def network(branches, **keys):
 
 
 def test_linear_branches_have_their_complex_stiffness():
-    model = network({
-        "spring": {"element": "spring", "stiffness": 2e5},
-        "damper": {"element": "damper", "damping": 300.0},
-        "maxwell": {"element": "maxwell", "stiffness": 6e4, "relaxation_time": 0.02},
-        "inerter": {"element": "inerter", "inertance": 3.0},
-    })  # fmt: skip
+    model = network(
+        {
+            "spring": {"element": "spring", "stiffness": 2e5},
+            "damper": {"element": "damper", "damping": 300.0},
+            "maxwell": {"element": "maxwell", "stiffness": 6e4, "relaxation_time": 0.02},
+            "inerter": {"element": "inerter", "inertance": 3.0},
+        }
+    )
     turning = 1j * OMEGA
     expected = 2e5 + 300.0 * turning + 6e4 * 0.02 * turning / (1.0 + 0.02 * turning) + 3.0 * turning**2
     found = model.dynamic_stiffness(FREQUENCY[:, None], [1e-4, 1e-3], 5e-3)
@@ -38,10 +40,12 @@ def test_slow_relaxation_is_waited_for():
 
 def test_a_carried_mass_resonates():
     model = network(
-        {"mount": {"element": "spring", "stiffness": 2e5, "between": ["platform", "engine"]},
-         "loss": {"element": "damper", "damping": 2e3, "between": ["platform", "engine"]}},
+        {
+            "mount": {"element": "spring", "stiffness": 2e5, "between": ["platform", "engine"]},
+            "loss": {"element": "damper", "damping": 2e3, "between": ["platform", "engine"]},
+        },
         nodes={"platform": "driven", "engine": {"mass": "40 kg"}},
-    )  # fmt: skip
+    )
     carrying, mass = 2e5 + 2e3j * OMEGA, -40.0 * OMEGA**2
     assert model.dynamic_stiffness(FREQUENCY, 1e-3) == pytest.approx(carrying * mass / (carrying + mass), rel=2e-3)
 
@@ -68,7 +72,9 @@ def test_what_has_no_dynamic_stiffness_is_told():
 
 
 def test_what_does_not_settle_is_told():
-    free = network({"mount": {"element": "spring", "stiffness": 2e5, "between": ["platform", "engine"]}},
-                   nodes={"platform": "driven", "engine": {"mass": "40 kg"}})  # fmt: skip
+    free = network(
+        {"mount": {"element": "spring", "stiffness": 2e5, "between": ["platform", "engine"]}},
+        nodes={"platform": "driven", "engine": {"mass": "40 kg"}},
+    )
     with pytest.warns(RuntimeWarning, match="does not settle within 256 periods of 5.1 Hz"):
         free.dynamic_stiffness(5.1, 1e-3)

@@ -95,8 +95,10 @@ def test_a_score_is_the_weighted_sum_of_squared_errors_at_every_driven_node(axle
     runs = [axle.prepare(shaken(axle)), axle.prepare(shaken(axle, 1e-3, 90, added_mass=4.0))]
     measured = [1e3 * rng.standard_normal((2, run.excitation.samples)) for run in runs]
     weights = [rng.uniform(0.0, 1.0, target.shape) for target in measured]
-    expected = [np.einsum("lns,ns->nl", (axle.forces(run, block) - target) ** 2, weight)
-                for run, target, weight in zip(runs, measured, weights, strict=True)]  # fmt: skip
+    expected = [
+        np.einsum("lns,ns->nl", (axle.forces(run, block) - target) ** 2, weight)
+        for run, target, weight in zip(runs, measured, weights, strict=True)
+    ]
     for jobs in (1, 2):
         assert axle.score(runs, measured, weights, block, jobs) == pytest.approx(np.array(expected), rel=1e-11)
 
@@ -190,8 +192,10 @@ def test_a_long_record_goes_through_in_pieces_to_the_same_bits(monkeypatch, back
     monkeypatch.setenv("DASHPOT_BACKEND", backend)
     network = compile_network(read_network("axle_model_1", ELEMENTS))
     time = 1e-3 * np.arange(700)
-    motions = {node: drive_from_samples(1e-3, 5e-3 * np.sin(2 * np.pi * f * time) + 1e-3 * np.cos(70.0 * time))
-               for node, f in (("platform_left", 3.0), ("platform_right", 4.3))}  # fmt: skip
+    motions = {
+        node: drive_from_samples(1e-3, 5e-3 * np.sin(2 * np.pi * f * time) + 1e-3 * np.cos(70.0 * time))
+        for node, f in (("platform_left", 3.0), ("platform_right", 4.3))
+    }
     excitation = Excitation(motions, dt=1e-3, samples=700, settings={"added_mass": 0.0})
     whole = network.solve(network.prepare(excitation))
     measured, weight = np.zeros((2, 700)), np.ones((2, 700))
@@ -214,8 +218,11 @@ stop: {element: end_stop, stiffness: 900 N/mm, compression: 0.5 mm, rebound: -0.
 
 
 def test_steps_are_halved_until_the_error_is_within_the_tolerance():
-    text = ("format: dashpot-network/1\nname: n\nnodes: {base: driven, hub: free, wall: ground}\nbranches:\n"
-            + textwrap.indent(SLIDING.strip("\n"), "  ") + "\n")  # fmt: skip
+    text = (
+        "format: dashpot-network/1\nname: n\nnodes: {base: driven, hub: free, wall: ground}\nbranches:\n"
+        + textwrap.indent(SLIDING.strip("\n"), "  ")
+        + "\n"
+    )
     network = compile_network(parse_network(text, ELEMENTS))
     time = 1e-3 * np.arange(400)
     excitation = Excitation.of_drive(drive_from_samples(1e-3, 2e-3 * np.sin(2 * np.pi * 7.0 * time)))

@@ -18,14 +18,17 @@ def traced(line: str):
     return trace_branch(network(f"it: {{{line}}}").leaves()[0])
 
 
-@pytest.mark.parametrize(("line", "sight"), [
-    ("element: spring, stiffness: 5", "still"),
-    ("element: damper, damping: 5", "still"),
-    ("element: inerter, inertance: 5", "still"),
-    ("element: maxwell, stiffness: 5, relaxation_time: 5", "path"),
-    ("element: dahl, stiffness: 5, limit: 5", "monotone"),
-    ("element: prandtl, stiffness: 5, limit: 5", "monotone"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("line", "sight"),
+    [
+        ("element: spring, stiffness: 5", "still"),
+        ("element: damper, damping: 5", "still"),
+        ("element: inerter, inertance: 5", "still"),
+        ("element: maxwell, stiffness: 5, relaxation_time: 5", "path"),
+        ("element: dahl, stiffness: 5, limit: 5", "monotone"),
+        ("element: prandtl, stiffness: 5, limit: 5", "monotone"),
+    ],
+)
 def test_a_branch_sees_as_much_of_the_motion_as_it_uses(line, sight):
     branch = traced(line)
     assert branch.sight == sight
@@ -35,7 +38,12 @@ def test_a_branch_sees_as_much_of_the_motion_as_it_uses(line, sight):
 
 def test_numbers_that_are_left_out_are_constants_of_the_law():
     assert symbols_of(traced("element: dahl, stiffness: 5, limit: 5").force) == {
-        "monotone.old", "monotone.new", "it|force", "it.stiffness", "it.limit"}  # fmt: skip
+        "monotone.old",
+        "monotone.new",
+        "it|force",
+        "it.stiffness",
+        "it.limit",
+    }
     assert "it.exponent" in symbols_of(traced("element: dahl, stiffness: 5, limit: 5, exponent: 2").force)
 
 
@@ -94,11 +102,18 @@ class Shifted(Element):
 TABLE = "{deflection: [0, 1], force: [1, 2]}"
 
 
-@pytest.mark.parametrize(("element", "numbers", "told"), [
-    (Worn, "stiffness: 5, limit: CURVE", r"'it.limit' at it.stiffness, it\|force, expected along the drive"),
-    (Placed, "stiffness: 5, limit: CURVE", "'it.limit' for its memory between two samples, expected along the drive"),
-    (Shifted, "shift: 5 mm, stiffness: CURVE", "'it.stiffness' at it.shift, expected along the drive"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("element", "numbers", "told"),
+    [
+        (Worn, "stiffness: 5, limit: CURVE", r"'it.limit' at it.stiffness, it\|force, expected along the drive"),
+        (
+            Placed,
+            "stiffness: 5, limit: CURVE",
+            "'it.limit' for its memory between two samples, expected along the drive",
+        ),
+        (Shifted, "shift: 5 mm, stiffness: CURVE", "'it.stiffness' at it.shift, expected along the drive"),
+    ],
+)
 def test_a_table_that_the_kernel_cannot_look_up_is_refused(element, numbers, told):
     def spec(curve):
         entry = f"it: {{element: {element.word}, {numbers.replace('CURVE', curve)}}}"
@@ -153,10 +168,13 @@ class Raising(Confused):
         return {}["far"] * x
 
 
-@pytest.mark.parametrize("element, line, told", [
-    (Branching, Branching.step.__code__.co_firstlineno + 2, "a law may not branch on a traced value; use np.where"),
-    (Raising, Raising.force_at.__code__.co_firstlineno + 1, "it raises KeyError: 'far'"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "element, line, told",
+    [
+        (Branching, Branching.step.__code__.co_firstlineno + 2, "a law may not branch on a traced value; use np.where"),
+        (Raising, Raising.force_at.__code__.co_firstlineno + 1, "it raises KeyError: 'far'"),
+    ],
+)
 def test_a_law_that_fails_is_told_as_the_fault_of_its_plugin_with_the_line(element, line, told):
     text = f"{HEAD}  it: {{element: {element.word}, stiffness: 5}}\n"
     with pytest.raises(InputError, match=told) as caught:

@@ -65,8 +65,12 @@ def fitted(measured):
     spec = with_ranges(parse_network(VOIGT, load_registry().elements), natural_sizes(scored))
     coordinates = search_coordinates(spec)
     truth = {"rubber.stiffness": 2e5, "oil.damping": 400.0}
-    point = np.array([np.log(truth[path]) if log else truth[path]
-                      for path, log in zip(coordinates.paths, coordinates.log, strict=True)])  # fmt: skip
+    point = np.array(
+        [
+            np.log(truth[path]) if log else truth[path]
+            for path, log in zip(coordinates.paths, coordinates.log, strict=True)
+        ]
+    )
     return Objective(compile_network(spec), scored, 2), coordinates, point
 
 

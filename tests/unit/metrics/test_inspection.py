@@ -48,9 +48,15 @@ def least_angle(damping: float) -> float:
 def measured(rig: str, damping: float, **options: str) -> list[Run]:
     spec = parse_network(CAR.replace("DAMPING", str(damping)), REGISTRY.elements)
     bench = find_bench(rig, REGISTRY.rigs, {"sampling": "500 Hz", **options})
-    return [replace(run, channels={"displacement": run.channels["displacement@platform"],
-                                   "force": run.channels["force@platform"]} if "force@platform" in run.channels
-                    else run.channels) for run in virtual_test(spec, bench)]  # fmt: skip
+    return [
+        replace(
+            run,
+            channels={"displacement": run.channels["displacement@platform"], "force": run.channels["force@platform"]}
+            if "force@platform" in run.channels
+            else run.channels,
+        )
+        for run in virtual_test(spec, bench)
+    ]
 
 
 @pytest.mark.parametrize(("damping", "told"), [(300.0, 18.0), (600.0, 35.0), (1474.0, 71.0)])
@@ -113,18 +119,28 @@ def test_every_angle_of_a_force_made_by_hand_is_found(angle):
     phase = 2.0 * np.pi * (25.0 * time - 0.5 * time**2)
     moving = np.clip(time - 0.5, 0.0, 1.0)
     force = 4000.0 - 2000.0 * moving * np.cos(phase - np.radians(angle)) + 150.0 * np.sin(1200.0 * time)
-    run = Run("made", "sweep", time, {"displacement": AMPLITUDE * moving * np.cos(phase), "force": force},
-              {"start": 25.0, "stop": 5.0})  # fmt: skip
+    run = Run(
+        "made",
+        "sweep",
+        time,
+        {"displacement": AMPLITUDE * moving * np.cos(phase), "force": force},
+        {"start": 25.0, "stop": 5.0},
+    )
     frequency, found = angles(run)
     inside = (frequency > 6.0) & (frequency < 18.0)
     assert np.median(found[inside]) == pytest.approx(angle, abs=1.0)
     assert PhaseShift().measure(run) == pytest.approx(angle, abs=2.0)
 
 
-@pytest.mark.parametrize(("kind", "start", "stop", "mean"), [
-    ("sweep", 1.0, 25.0, 4000.0), ("sweep", 12.0, 5.0, 4000.0), ("harmonic", 25.0, 5.0, 4000.0),
-    ("sweep", 25.0, 5.0, 0.0),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("kind", "start", "stop", "mean"),
+    [
+        ("sweep", 1.0, 25.0, 4000.0),
+        ("sweep", 12.0, 5.0, 4000.0),
+        ("harmonic", 25.0, 5.0, 4000.0),
+        ("sweep", 25.0, 5.0, 0.0),
+    ],
+)
 def test_other_tests_have_no_such_number(kind, start, stop, mean):
     time = 1e-3 * np.arange(4000)
     x = AMPLITUDE * np.sin(60.0 * time)

@@ -55,8 +55,9 @@ def test_a_response_names_its_states():
     assert (response.force, response.states) == (2.0, {"force": 3.0, "wear": 4.0})
 
 
-@pytest.mark.parametrize(("over", "units"), [("m", ["N/m", "N/m^2", "N/m^3"]),
-                                             ("m/s", ["N/(m/s)", "N/(m/s)^2", "N/(m/s)^3"])])  # fmt: skip
+@pytest.mark.parametrize(
+    ("over", "units"), [("m", ["N/m", "N/m^2", "N/m^3"]), ("m/s", ["N/(m/s)", "N/(m/s)^2", "N/(m/s)^3"])]
+)
 def test_the_coefficients_of_a_polynomial_have_their_units(over, units):
     curve = Curve(("force", "N"), ("argument", over), "a curve")
     assert [curve.coefficient_unit(power) for power in (1, 2, 3)] == units

@@ -15,8 +15,13 @@ format: dashpot-network/1
 name: mount
 branches: {rubber: {element: spring, stiffness: {value: 5 N/mm}}}
 """
-SEEN = {"displacement": (-1e-3, 19e-3), "speed": (0.0, 0.25), "amplitude": (5e-4, 4e-3), "preload": (0.0, 15e-3),
-        "frequency": (0.1, 25.0)}  # fmt: skip
+SEEN = {
+    "displacement": (-1e-3, 19e-3),
+    "speed": (0.0, 0.25),
+    "amplitude": (5e-4, 4e-3),
+    "preload": (0.0, 15e-3),
+    "frequency": (0.1, 25.0),
+}
 
 
 def read(text: str):
@@ -38,12 +43,15 @@ def test_a_file_without_a_range_reads_as_before(record):
     assert read(HEAD + f"identified: {record}\n").identified.range == {}
 
 
-@pytest.mark.parametrize(("entry", "message"), [
-    ("speed: [0 m/s]", "expected [least, largest]"),
-    ("speed: [2 m/s, 1 m/s]", "expected [least, largest]"),
-    ("speed: [0 mm, 1 mm]", "expected a quantity in m/s, got 'mm'"),
-    ("sped: [0 m/s, 1 m/s]", "the range of identification has no key 'sped'"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("entry", "message"),
+    [
+        ("speed: [0 m/s]", "expected [least, largest]"),
+        ("speed: [2 m/s, 1 m/s]", "expected [least, largest]"),
+        ("speed: [0 mm, 1 mm]", "expected a quantity in m/s, got 'mm'"),
+        ("sped: [0 m/s, 1 m/s]", "the range of identification has no key 'sped'"),
+    ],
+)
 def test_a_mistake_in_a_range_is_told(entry, message):
     with pytest.raises(InputError) as told:
         read(HEAD + f"identified:\n  range: {{{entry}}}\n")

@@ -14,8 +14,11 @@ from dashpot.model.shipped import shipped_networks
 
 ELEMENTS = load_registry().elements
 NODES = "nodes: {a: driven, b: ground, m: {mass: {start: 30 kg}}}"
-LAW = {"s": "element: spring, stiffness: 200 N/mm", "d": "element: damper, damping: 90",
-       "r": "element: dahl, stiffness: 60 N/mm, limit: 15 N"}  # fmt: skip
+LAW = {
+    "s": "element: spring, stiffness: 200 N/mm",
+    "d": "element: damper, damping: 90",
+    "r": "element: dahl, stiffness: 60 N/mm, limit: 15 N",
+}
 
 
 def net(branches: str, head: str = "", name: str = "n") -> NetworkSpec:
@@ -39,16 +42,26 @@ def test_every_shipped_network_is_like_itself_and_not_like_the_next(name):
     assert not compare_structures(spec, read_network(other, ELEMENTS)).same_structure
 
 
-@pytest.mark.parametrize(("first", "second"), [
-    ("{x: {<s>}, y: {<d>}}", "{oil: {<d>}, rubber: {<s>}}"),
-    ("{x: {<s>}, y: {<d>}}", "{both: {parallel: {oil: {<d>}, rubber: {<s>}}}}"),
-    ("{x: {series: {p: {<s>}, q: {<d>}}}}", "{x: {series: {p: {<d>}, q: {<s>}}}}"),
-    ("{x: {series: {p: {<s>}, q: {<d>}, r: {<r>}}}}", "{x: {series: {p: {series: {u: {<r>}, v: {<s>}}}, q: {<d>}}}}"),
-    ("{x: {series: {p: {<d>}, q: {parallel: {u: {<s>}, v: {<d>}}}}}}",
-     "{x: {series: {p: {parallel: {u: {<d>}, v: {<s>}}}, q: {<d>}}}}"),
-    ("{x: {element: dahl, stiffness: 60 N/mm, limit: 15 N}}",
-     "{x: {element: dahl, stiffness: 60 N/mm, limit: 15 N, exponent: 1}}"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("{x: {<s>}, y: {<d>}}", "{oil: {<d>}, rubber: {<s>}}"),
+        ("{x: {<s>}, y: {<d>}}", "{both: {parallel: {oil: {<d>}, rubber: {<s>}}}}"),
+        ("{x: {series: {p: {<s>}, q: {<d>}}}}", "{x: {series: {p: {<d>}, q: {<s>}}}}"),
+        (
+            "{x: {series: {p: {<s>}, q: {<d>}, r: {<r>}}}}",
+            "{x: {series: {p: {series: {u: {<r>}, v: {<s>}}}, q: {<d>}}}}",
+        ),
+        (
+            "{x: {series: {p: {<d>}, q: {parallel: {u: {<s>}, v: {<d>}}}}}}",
+            "{x: {series: {p: {parallel: {u: {<d>}, v: {<s>}}}, q: {<d>}}}}",
+        ),
+        (
+            "{x: {element: dahl, stiffness: 60 N/mm, limit: 15 N}}",
+            "{x: {element: dahl, stiffness: 60 N/mm, limit: 15 N, exponent: 1}}",
+        ),
+    ],
+)
 def test_names_and_order_do_not_count(first, second):
     likeness = against(first, second)
     assert likeness == Likeness((), ())
@@ -56,8 +69,10 @@ def test_names_and_order_do_not_count(first, second):
 
 def test_nodes_may_have_other_names_and_a_linear_law_may_lie_the_other_way_round():
     first = net("{x: {<s>, between: [a, m]}, y: {<d>, between: [m, b]}}", NODES)
-    second = net("{p: {<d>, between: [body, wheel]}, q: {<s>, between: [road, wheel]}}",
-                 "nodes: {wheel: {mass: {start: 30 kg}}, body: ground, road: driven}")  # fmt: skip
+    second = net(
+        "{p: {<d>, between: [body, wheel]}, q: {<s>, between: [road, wheel]}}",
+        "nodes: {wheel: {mass: {start: 30 kg}}, body: ground, road: driven}",
+    )
     assert compare_structures(first, second) == Likeness((), ())
 
 
@@ -71,17 +86,31 @@ def test_two_ends_are_the_same_whether_they_are_named_or_not():
     assert against("{x: {<s>}}", "{x: {<s>, between: [p, q]}}", "", "nodes: {p: driven, q: ground}") == Likeness((), ())
 
 
-@pytest.mark.parametrize(("first", "second", "told"), [
-    ("{x: {<s>}}", "{x: {<s>}, y: {<r>}}", "'two' has one dahl more between the driven end and ground"),
-    ("{x: {<s>}, y: {<r>}, z: {<r>}}", "{x: {<s>}}", "'one' has two dahl more between the driven end and ground"),
-    ("{x: {<s>}}", "{x: {element: spring, stiffness: {start: 5}}}", "between the driven end and ground: spring "
-     "(nothing free) in 'one', spring (stiffness free) in 'two'"),
-    ("{x: {<s>}}", "{x: {element: spring, stiffness: {polynomial: [5, 6]}}}", "between the driven end and ground: "
-     "spring (nothing free) in 'one', spring (stiffness as a polynomial of degree 2; nothing free) in "
-     "'two'"),
-    ("{x: {<d>}}", "{x: {<d>, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}}", "between the driven end and "
-     "ground: damper (nothing free) in 'one', damper (scale as a table of 2; nothing free) in 'two'"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("first", "second", "told"),
+    [
+        ("{x: {<s>}}", "{x: {<s>}, y: {<r>}}", "'two' has one dahl more between the driven end and ground"),
+        ("{x: {<s>}, y: {<r>}, z: {<r>}}", "{x: {<s>}}", "'one' has two dahl more between the driven end and ground"),
+        (
+            "{x: {<s>}}",
+            "{x: {element: spring, stiffness: {start: 5}}}",
+            "between the driven end and ground: spring (nothing free) in 'one', spring (stiffness free) in 'two'",
+        ),
+        (
+            "{x: {<s>}}",
+            "{x: {element: spring, stiffness: {polynomial: [5, 6]}}}",
+            "between the driven end and ground: "
+            "spring (nothing free) in 'one', spring (stiffness as a polynomial of degree 2; nothing free) in "
+            "'two'",
+        ),
+        (
+            "{x: {<d>}}",
+            "{x: {<d>, scale: {deflection: [0 mm, 1 mm], factor: [1, 2]}}}",
+            "between the driven end and "
+            "ground: damper (nothing free) in 'one', damper (scale as a table of 2; nothing free) in 'two'",
+        ),
+    ],
+)
 def test_what_one_has_more_or_otherwise_is_told(first, second, told):
     assert against(first, second).structure == (told,)
 
@@ -104,21 +133,35 @@ def test_where_a_branch_lies_counts():
 
 def test_a_two_sided_characteristic_may_not_be_turned_round():
     table = "element: damper, damping: {velocity: [-1 m/s, 0 m/s, 1 m/s], force: [-9 N, 0 N, 5 N]}"
-    likeness = against(f"{{x: {{{table}, between: [a, b]}}, y: {{<s>, between: [a, m]}}, z: {{<s>, between: [m, b]}}}}",
-                       f"{{x: {{{table}, between: [b, a]}}, y: {{<s>, between: [a, m]}}, z: {{<s>, between: [m, b]}}}}",
-                       NODES)  # fmt: skip
+    likeness = against(
+        f"{{x: {{{table}, between: [a, b]}}, y: {{<s>, between: [a, m]}}, z: {{<s>, between: [m, b]}}}}",
+        f"{{x: {{{table}, between: [b, a]}}, y: {{<s>, between: [a, m]}}, z: {{<s>, between: [m, b]}}}}",
+        NODES,
+    )
     (found,) = likeness.structure
-    assert found == ("between a and b: damper (damping as a table of 3; nothing free) in 'one', damper (damping "
-                     "as a table of 3; nothing free; reversed) in 'two'")  # fmt: skip
+    assert found == (
+        "between a and b: damper (damping as a table of 3; nothing free) in 'one', damper (damping "
+        "as a table of 3; nothing free; reversed) in 'two'"
+    )
 
 
-@pytest.mark.parametrize(("other", "told"), [
-    ("nodes: {a: driven, b: ground, m: {mass: 30 kg}}",
-     "the node m is free with mass free in 'one', m is free with mass in 'two'"),
-    ("nodes: {a: loaded, b: ground, m: {mass: {start: 30 kg}}}", "the node a is driven in 'one', a is loaded in 'two'"),
-    ("nodes: {a: driven, b: ground, m: {mass: {start: 30 kg}}, c: ground}",
-     "'two' has one node more, c, which is ground"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        (
+            "nodes: {a: driven, b: ground, m: {mass: 30 kg}}",
+            "the node m is free with mass free in 'one', m is free with mass in 'two'",
+        ),
+        (
+            "nodes: {a: loaded, b: ground, m: {mass: {start: 30 kg}}}",
+            "the node a is driven in 'one', a is loaded in 'two'",
+        ),
+        (
+            "nodes: {a: driven, b: ground, m: {mass: {start: 30 kg}}, c: ground}",
+            "'two' has one node more, c, which is ground",
+        ),
+    ],
+)
 def test_what_is_different_about_a_node_is_told(other, told):
     branches = "{x: {<s>, between: [a, m]}, y: {<d>, between: [m, b]}}"
     assert against(branches, branches, NODES, other).structure == (told,)
@@ -128,18 +171,22 @@ def test_numbers_that_a_twin_shares_are_not_numbers_of_its_own():
     model = "x: {element: spring, stiffness: {start: 5}, between: [a, m]}"
     own = model.replace("x:", "y:").replace("[a, m]", "[m, b]")
     (found,) = against(f"{{{model}, y: {{same_as: x, between: [m, b]}}}}", f"{{{model}, {own}}}", NODES).structure
-    assert found == ("between b and m: spring (stiffness free, as those of another branch) in 'one', spring "
-                     "(stiffness free) in 'two'")  # fmt: skip
+    assert found == (
+        "between b and m: spring (stiffness free, as those of another branch) in 'one', spring "
+        "(stiffness free) in 'two'"
+    )
 
 
 def test_of_one_structure_the_numbers_are_compared():
     head = "gravity: 9.81\nnodes: {a: driven, b: ground, m: {mass: {start: 30 kg}}}"
     other = "gravity: 9.80\nnodes: {a: driven, b: ground, n: {mass: {start: 33 kg}}}"
-    likeness = against("{x: {<s>, between: [a, m], offset: 3 mm}, y: {<r>, between: [m, b]}, "
-                       "z: {<s>, between: [m, b]}}",
-                       "{z: {<s>, between: [n, b]}, x: {<s>, between: [a, n], offset: 4 mm}, "
-                       "q: {element: dahl, stiffness: 60 N/mm, limit: 16 N, exponent: 2, between: [n, b]}}",
-                       head, other)  # fmt: skip
+    likeness = against(
+        "{x: {<s>, between: [a, m], offset: 3 mm}, y: {<r>, between: [m, b]}, z: {<s>, between: [m, b]}}",
+        "{z: {<s>, between: [n, b]}, x: {<s>, between: [a, n], offset: 4 mm}, "
+        "q: {element: dahl, stiffness: 60 N/mm, limit: 16 N, exponent: 2, between: [n, b]}}",
+        head,
+        other,
+    )
     assert likeness.structure == ()
     assert likeness.numbers == (
         "x.offset: 3 mm in 'one', 4 mm in 'two'",
@@ -153,24 +200,30 @@ def test_of_one_structure_the_numbers_are_compared():
 def test_tables_are_compared_knot_by_knot():
     table = "{x: {element: spring, stiffness: {deflection: [0 mm, %s], force: [0 N, %s]}}}"
     assert against(table % ("5 mm", "9 N"), table % ("6 mm", "8 N")).numbers == (
-        "x.stiffness[1]: 9 N in 'one', 8 N in 'two'", "x.stiffness, knot 2: 5 mm in 'one', 6 mm in 'two'")  # fmt: skip
+        "x.stiffness[1]: 9 N in 'one', 8 N in 'two'",
+        "x.stiffness, knot 2: 5 mm in 'one', 6 mm in 'two'",
+    )
 
 
 def test_what_the_load_cell_does_is_compared():
-    spec = ("format: dashpot-network/1\nname: n\nbranches: {x: {element: spring, stiffness: 5}}\n"
-            "measurement: {force: {%s}}\n")  # fmt: skip
+    spec = (
+        "format: dashpot-network/1\nname: n\nbranches: {x: {element: spring, stiffness: 5}}\n"
+        "measurement: {force: {%s}}\n"
+    )
     first, second, third = (parse_network(spec % cell, ELEMENTS) for cell in ("gain: 1.1", "gain: 1.2", "delay: 1 ms"))
-    assert compare_structures(first, second).numbers == (
-        "measurement.force.gain: 1.1 in the first, 1.2 in the second",)  # fmt: skip
+    assert compare_structures(first, second).numbers == ("measurement.force.gain: 1.1 in the first, 1.2 in the second",)
     assert compare_structures(first, third).structure == (
-        "measurement: force.gain in the first, force.delay in the second",)  # fmt: skip
+        "measurement: force.gain in the first, force.delay in the second",
+    )
 
 
 def test_many_nodes_are_paired_exactly():
     def chain(names: list[str], first: int = 0) -> NetworkSpec:
         masses = ", ".join(f"{name}: {{mass: 3 kg}}" for name in names[1:-1])
-        branches = ", ".join(f"x{k}: {{<{'sd'[(k + first) % 3 > 0]}>, between: [{low}, {high}]}}"
-                             for k, (low, high) in enumerate(zip(names, names[1:], strict=False)))  # fmt: skip
+        branches = ", ".join(
+            f"x{k}: {{<{'sd'[(k + first) % 3 > 0]}>, between: [{low}, {high}]}}"
+            for k, (low, high) in enumerate(zip(names, names[1:], strict=False))
+        )
         return net(f"{{{branches}}}", f"nodes: {{{names[0]}: driven, {masses}, {names[-1]}: ground}}")
 
     names = [f"n{k}" for k in range(12)]

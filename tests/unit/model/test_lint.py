@@ -42,10 +42,13 @@ def test_a_node_that_nothing_connects():
 
 
 def test_nodes_that_hang_on_nothing():
-    found = weak(f"""
+    found = weak(
+        f"""
         it: {{{SPRING}, between: [a, b]}}
         other: {{{SPRING}, between: [c, d]}}
-    """, "{a: driven, b: ground, c: {mass: 3 kg}, d: free}")  # fmt: skip
+    """,
+        "{a: driven, b: ground, c: {mass: 3 kg}, d: free}",
+    )
     assert told(found) == [
         f"n.yaml:3:{column}: the node '{name}' floats: no chain of branches leads from it to a driven or held node. "
         "connect it to a node that is 'driven' or 'ground'"
@@ -63,19 +66,30 @@ def test_the_mass_of_a_held_node():
     assert "nothing depends on the mass of 'b', which is held still" in str(found) and found.severity == "warning"
 
 
-@pytest.mark.parametrize("branch", [
-    "{element: damper, damping: 100}", "{element: quadratic_damper, damping: 100}", "{element: inerter, inertance: 3}",
-    "{element: dahl, stiffness: 60 N/mm, limit: 15}", "{element: prandtl, stiffness: 60 N/mm, limit: 15}",
-    "{element: coulomb, limit: 15, creep_velocity: 1e-3}",
-    "{element: maxwell, stiffness: 60 N/mm, relaxation_time: 1}", "{element: spring, stiffness: 0}",
-    "{element: stribeck, stiffness: 60 N/mm, limit: 9, breakaway: 15, stribeck_velocity: 1 mm/s}",
-    "{element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "branch",
+    [
+        "{element: damper, damping: 100}",
+        "{element: quadratic_damper, damping: 100}",
+        "{element: inerter, inertance: 3}",
+        "{element: dahl, stiffness: 60 N/mm, limit: 15}",
+        "{element: prandtl, stiffness: 60 N/mm, limit: 15}",
+        "{element: coulomb, limit: 15, creep_velocity: 1e-3}",
+        "{element: maxwell, stiffness: 60 N/mm, relaxation_time: 1}",
+        "{element: spring, stiffness: 0}",
+        "{element: stribeck, stiffness: 60 N/mm, limit: 9, breakaway: 15, stribeck_velocity: 1 mm/s}",
+        "{element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600}",
+    ],
+)
 def test_a_node_that_can_only_slide(branch):
-    found = weak(f"""
+    found = weak(
+        f"""
         top: {branch.replace("}", ", between: [a, m]}")}
         bottom: {branch.replace("}", ", between: [m, b]}")}
-    """, "{a: driven, m: {mass: 3 kg}, b: ground}", "gravity: 9.81\n")  # fmt: skip
+    """,
+        "{a: driven, m: {mass: 3 kg}, b: ground}",
+        "gravity: 9.81\n",
+    )
     (slides,) = [problem for problem in found if "can only slide" in problem.message]
     assert str(slides) == (
         "n.yaml:4:23: warning: the node 'm' can only slide: no chain of branches that hold a static force leads from "
@@ -83,18 +97,26 @@ def test_a_node_that_can_only_slide(branch):
     )
 
 
-@pytest.mark.parametrize("branch", [
-    SPRING, "element: spring, stiffness: {polynomial: [0, 1 N/mm^2]}", "element: contact, stiffness: 200 N/mm",
-    "element: bedding_in, stiffness: 60 N/mm, depth: 5 mm",
-    "element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600, compensation_stiffness: 20 N/mm",
-    "element: spring, stiffness: {deflection: [0 mm, 5 mm, 10 mm], force: [0 N, 0 N, 900 N]}",
-    "parallel: {x: {element: damper, damping: 5}, y: {element: spring, stiffness: 5}}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "branch",
+    [
+        SPRING,
+        "element: spring, stiffness: {polynomial: [0, 1 N/mm^2]}",
+        "element: contact, stiffness: 200 N/mm",
+        "element: bedding_in, stiffness: 60 N/mm, depth: 5 mm",
+        "element: hydro, fluid_mass: 50, stiffness: 200 N/mm, damping: 1600, compensation_stiffness: 20 N/mm",
+        "element: spring, stiffness: {deflection: [0 mm, 5 mm, 10 mm], force: [0 N, 0 N, 900 N]}",
+        "parallel: {x: {element: damper, damping: 5}, y: {element: spring, stiffness: 5}}",
+    ],
+)
 def test_a_node_that_a_spring_holds_does_not_slide(branch):
-    assert not weak(f"""
+    assert not weak(
+        f"""
         top: {{element: damper, damping: 100, between: [a, m]}}
         bottom: {{{branch}, between: [m, b]}}
-    """, "{a: driven, m: {mass: 3 kg}, b: ground}")  # fmt: skip
+    """,
+        "{a: driven, m: {mass: 3 kg}, b: ground}",
+    )
 
 
 def test_a_series_that_can_only_slide():
@@ -109,22 +131,29 @@ def test_a_loaded_node_that_can_only_slide():
 
 
 def test_a_branch_on_which_nothing_depends():
-    found = weak(f"""
+    found = weak(
+        f"""
         it: {{{SPRING}, between: [a, b]}}
         dead: {{element: damper, damping: {{start: 5}}, between: [b, c]}}
         end: {{{SPRING}, between: [b, d]}}
-    """, "{a: driven, b: ground, c: ground, d: free}")  # fmt: skip
+    """,
+        "{a: driven, b: ground, c: ground, d: free}",
+    )
     assert told(found) == [
         f"n.yaml:{line}: warning: nothing that can be measured depends on the branch '{name}'. connect it to a node "
-        "that moves, or remove it" for line, name in (("6:9", "dead"), ("7:8", "end"))
-    ]  # fmt: skip
+        "that moves, or remove it"
+        for line, name in (("6:9", "dead"), ("7:8", "end"))
+    ]
 
 
 def test_a_number_on_which_nothing_depends():
-    (found,) = weak(f"""
+    (found,) = weak(
+        f"""
         it: {{{SPRING}, between: [a, b]}}
         oil: {{element: damper, damping: 5, between: [a, b], offset: {{start: 3 mm}}}}
-    """, "{a: driven, b: ground}")  # fmt: skip
+    """,
+        "{a: driven, b: ground}",
+    )
     assert str(found) == (
         "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it by a "
         "plain number, or remove it"
@@ -137,24 +166,46 @@ def confused(found: list[Problem]) -> list[list[str]]:
     return [[word for word in message.split("'")[1::2]] for message in groups]
 
 
-@pytest.mark.parametrize(("branches", "paths"), [
-    ("{a: {element: damper, damping: {start: 5}}, b: {element: damper, damping: {start: 9}}}",
-     ["a.damping", "b.damping"]),
-    ("{a: {element: spring, stiffness: {start: 5}}, b: {parallel: {c: {element: spring, stiffness: {start: 9}}}}}",
-     ["a.stiffness", "b.c.stiffness"]),
-    ("{a: {element: spring, stiffness: {from: quasi_static}}, b: {element: spring, stiffness: {start: 5 N/mm}}}",
-     ["a.stiffness", "b.stiffness"]),
-    ("{a: {series: {b: {element: spring, stiffness: {start: 5}}, c: {element: spring, stiffness: {start: 9}}}}}",
-     ["a.b.stiffness", "a.c.stiffness"]),
-    ("{a: {series: {b: {element: damper, damping: {start: 5}}, c: {element: damper, damping: {start: 9}}}}}",
-     ["a.b.damping", "a.c.damping"]),
-    ("{s: {element: spring, stiffness: 1e5}, a: {element: damper, damping: {start: 5 N*s/mm}, scale: {deflection: "
-     "[0 mm, 5 mm], factor: [{start: 1.1}, {start: 0.9}]}}}", ["a.damping", "a.scale"]),
-    ("{m: {element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: 1 s}}, s: {element: spring, "
-     "stiffness: 0}, a: {series: {b: {element: spring, stiffness: {start: 8 N/mm}}, c: {element: damper, damping: "
-     "{start: 9 N*s/mm}}}}, d: {series: {e: {element: spring, stiffness: {start: 9 N/mm}}, f: {element: spring, "
-     "stiffness: 7 N/mm}, g: {element: spring, stiffness: {start: 9 N/mm}}}}}", ["d.e.stiffness", "d.g.stiffness"]),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("branches", "paths"),
+    [
+        (
+            "{a: {element: damper, damping: {start: 5}}, b: {element: damper, damping: {start: 9}}}",
+            ["a.damping", "b.damping"],
+        ),
+        (
+            "{a: {element: spring, stiffness: {start: 5}}, b: {parallel: {c: {element: "
+            "spring, stiffness: {start: 9}}}}}",
+            ["a.stiffness", "b.c.stiffness"],
+        ),
+        (
+            "{a: {element: spring, stiffness: {from: quasi_static}}, b: {element: spring, stiffness: {start: 5 N/mm}}}",
+            ["a.stiffness", "b.stiffness"],
+        ),
+        (
+            "{a: {series: {b: {element: spring, stiffness: {start: 5}}, c: {element: spring, stiffness: {start: 9}}}}}",
+            ["a.b.stiffness", "a.c.stiffness"],
+        ),
+        (
+            "{a: {series: {b: {element: damper, damping: {start: 5}}, c: {element: damper, damping: {start: 9}}}}}",
+            ["a.b.damping", "a.c.damping"],
+        ),
+        (
+            "{s: {element: spring, stiffness: 1e5}, a: {element: damper, damping: {start: "
+            "5 N*s/mm}, scale: {deflection: "
+            "[0 mm, 5 mm], factor: [{start: 1.1}, {start: 0.9}]}}}",
+            ["a.damping", "a.scale"],
+        ),
+        (
+            "{m: {element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: 1 s}}, s: {element: spring, "
+            "stiffness: 0}, a: {series: {b: {element: spring, stiffness: {start: 8 "
+            "N/mm}}, c: {element: damper, damping: "
+            "{start: 9 N*s/mm}}}}, d: {series: {e: {element: spring, stiffness: {start: 9 N/mm}}, f: {element: spring, "
+            "stiffness: 7 N/mm}, g: {element: spring, stiffness: {start: 9 N/mm}}}}}",
+            ["d.e.stiffness", "d.g.stiffness"],
+        ),
+    ],
+)
 def test_numbers_that_cannot_be_told_apart(branches, paths):
     assert confused(weak(branches)) == [paths]
 
@@ -166,7 +217,8 @@ def test_parts_of_one_kind_cannot_be_told_apart_whatever_their_numbers(sizes, se
     law = "element: damper, damping: {start: %r N*s/mm}"
     parts = f"{{b: {{{law % first}}}, c: {{{law % second}}}, d: {{element: spring, stiffness: {third!r} N/mm}}}}"
     assert confused(weak(f"{{a: {{{'series' if series else 'parallel'}: {parts}}}}}")) == [
-        ["a.b.damping", "a.c.damping"]]  # fmt: skip
+        ["a.b.damping", "a.c.damping"]
+    ]
 
 
 def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():
@@ -181,10 +233,11 @@ def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():
 
 
 def test_a_gain_of_the_load_cell_and_a_free_specimen():
-    text = ("format: dashpot-network/1\nname: n\nbranches:\n  a: {element: spring, stiffness: {start: 5}}\n"
-            "measurement: {force: {gain: {start: 1.0}}}\n")  # fmt: skip
-    assert confused(list(find_weaknesses(parse_network(text, ELEMENTS)))) == [
-        ["a.stiffness", "measurement.force.gain"]]  # fmt: skip
+    text = (
+        "format: dashpot-network/1\nname: n\nbranches:\n  a: {element: spring, stiffness: {start: 5}}\n"
+        "measurement: {force: {gain: {start: 1.0}}}\n"
+    )
+    assert confused(list(find_weaknesses(parse_network(text, ELEMENTS)))) == [["a.stiffness", "measurement.force.gain"]]
 
 
 FREE = "{a: {element: spring, stiffness: {start: 80 N/mm}}, b: {element: damper, damping: {start: 300 N*s/m}}}"
@@ -195,10 +248,16 @@ def in_the_channel(branches: str, entry: str) -> list[Problem]:
     return list(find_weaknesses(parse_network(text, ELEMENTS)))
 
 
-@pytest.mark.parametrize("entry", [
-    "lag: {start: 3 ms}", "largest: {start: 3 kN}", "least: {start: 0 N}", "offset: {start: 3 N}",
-    "hum: {frequency: {start: 50 Hz}, cosine: {start: 1 N}, sine: {start: 0 N}}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "entry",
+    [
+        "lag: {start: 3 ms}",
+        "largest: {start: 3 kN}",
+        "least: {start: 0 N}",
+        "offset: {start: 3 N}",
+        "hum: {frequency: {start: 50 Hz}, cosine: {start: 1 N}, sine: {start: 0 N}}",
+    ],
+)
 def test_a_channel_that_the_specimen_does_not_make_up_for(entry):
     assert told(in_the_channel(FREE, entry)) == []
 
@@ -211,15 +270,20 @@ def test_a_fixture_is_told_from_a_damped_specimen_but_not_from_a_spring():
     assert confused(in_the_channel(spring, entry)) == [["a.stiffness", "measurement.force.compliance"]]
 
 
-@pytest.mark.parametrize("branches", [
-    "{a: {element: damper, damping: {start: 5}}, b: {element: damper, damping: 9}}",
-    "{a: {element: damper, damping: {start: 5}}, b: {element: quadratic_damper, damping: {start: 9}}}",
-    "{a: {element: damper, damping: {start: 5 N*s/mm}, scale: {deflection: [0 mm, 5 mm], factor: [{start: 1.1}, 1]}}}",
-    "{a: {element: spring, stiffness: {start: 5}}, b: {element: dahl, stiffness: {start: 5 N/mm}, limit: {start: 9}}}",
-    "{a: {series: {b: {element: spring, stiffness: {start: 8 N/mm}}, c: {element: damper, damping: {start: 9}}}}}",
-    "{a: {element: spring, stiffness: {polynomial: [{start: 5 N/mm}, {start: 5 N/mm^2}, {start: 1 N/mm^3}]}}}",
-    "{a: {repeat: 2, element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: [1 s, 10 ms]}}}",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "branches",
+    [
+        "{a: {element: damper, damping: {start: 5}}, b: {element: damper, damping: 9}}",
+        "{a: {element: damper, damping: {start: 5}}, b: {element: quadratic_damper, damping: {start: 9}}}",
+        "{a: {element: damper, damping: {start: 5 N*s/mm}, scale: {deflection: [0 mm, 5 "
+        "mm], factor: [{start: 1.1}, 1]}}}",
+        "{a: {element: spring, stiffness: {start: 5}}, b: {element: dahl, stiffness: "
+        "{start: 5 N/mm}, limit: {start: 9}}}",
+        "{a: {series: {b: {element: spring, stiffness: {start: 8 N/mm}}, c: {element: damper, damping: {start: 9}}}}}",
+        "{a: {element: spring, stiffness: {polynomial: [{start: 5 N/mm}, {start: 5 N/mm^2}, {start: 1 N/mm^3}]}}}",
+        "{a: {repeat: 2, element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: [1 s, 10 ms]}}}",
+    ],
+)
 def test_numbers_that_can_be_told_apart(branches):
     assert told(weak(branches)) == []
 
@@ -277,11 +341,18 @@ def test_a_factor_that_makes_a_law_give_work():
     assert not find_weaknesses(parse_network(even, {"mass_between": Mass}))
 
 
-@pytest.mark.parametrize("element", [
-    "damper, damping: 100", "quadratic_damper, damping: 100", "maxwell, stiffness: 9 N/mm, relaxation_time: 50 ms",
-    "dahl, stiffness: 60 N/mm, limit: 15 N", "prandtl, stiffness: 60 N/mm, limit: 15 N", "spring, stiffness: 60 N/mm",
-    "coulomb, limit: 15 N, creep_velocity: 1 mm/s",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "element",
+    [
+        "damper, damping: 100",
+        "quadratic_damper, damping: 100",
+        "maxwell, stiffness: 9 N/mm, relaxation_time: 50 ms",
+        "dahl, stiffness: 60 N/mm, limit: 15 N",
+        "prandtl, stiffness: 60 N/mm, limit: 15 N",
+        "spring, stiffness: 60 N/mm",
+        "coulomb, limit: 15 N, creep_velocity: 1 mm/s",
+    ],
+)
 def test_a_factor_on_a_law_that_loses_work_at_every_instant(element):
     for factors in ("[3, 0.3]", "[0.3, 3]"):
         assert not weak(f"it: {{element: {element}, {FALLING.replace('[3, 0.3]', factors)}}}")

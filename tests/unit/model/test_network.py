@@ -21,16 +21,23 @@ SPEC = """
 
 def test_the_slots_come_branch_by_branch_in_the_order_of_the_declaration():
     assert [slot.path for slot in network(SPEC).slots()] == [
-        "rubber.stiffness[0]", "rubber.stiffness[1]", "leg.oil.damping", "leg.oil.scale[0]", "leg.oil.scale[1]",
-        "friction.stiffness", "friction.limit",
-    ]  # fmt: skip
+        "rubber.stiffness[0]",
+        "rubber.stiffness[1]",
+        "leg.oil.damping",
+        "leg.oil.scale[0]",
+        "leg.oil.scale[1]",
+        "friction.stiffness",
+        "friction.limit",
+    ]
 
 
 def test_other_values_take_their_places_and_leave_the_rest():
     spec = network(SPEC)
     values = {slot.path: slot.value for slot in spec.slots()}
-    new = {"leg.oil.scale[1]": replace(values["leg.oil.scale[1]"], number=0.7),
-           "rubber.stiffness[0]": replace(values["rubber.stiffness[0]"], number=1.0)}  # fmt: skip
+    new = {
+        "leg.oil.scale[1]": replace(values["leg.oil.scale[1]"], number=0.7),
+        "rubber.stiffness[0]": replace(values["rubber.stiffness[0]"], number=1.0),
+    }
     changed = spec.with_values(new)
     assert numbers(changed) == numbers(spec) | {"leg.oil.scale[1]": 0.7, "rubber.stiffness[0]": 1.0}
     assert changed.with_values({path: values[path] for path in new}) == spec

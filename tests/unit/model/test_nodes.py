@@ -53,10 +53,18 @@ def problems(nodes: str, branches: str = "it: {element: elastic, stiffness: 5, b
 
 
 def test_nodes_are_held_driven_loaded_or_free():
-    spec = small("{a: driven, b: ground, c: loaded, d: free, e: {mass: 3 kg}, f: {hold: loaded, mass: 2 kg}}",
-                 "it: {element: elastic, stiffness: 5, between: [a, b]}")  # fmt: skip
+    spec = small(
+        "{a: driven, b: ground, c: loaded, d: free, e: {mass: 3 kg}, f: {hold: loaded, mass: 2 kg}}",
+        "it: {element: elastic, stiffness: 5, between: [a, b]}",
+    )
     assert {name: joint.hold for name, joint in spec.joints.items()} == {
-        "a": "driven", "b": "ground", "c": "loaded", "d": "free", "e": "free", "f": "loaded"}  # fmt: skip
+        "a": "driven",
+        "b": "ground",
+        "c": "loaded",
+        "d": "free",
+        "e": "free",
+        "f": "loaded",
+    }
     assert spec.joints["f"].masses["mass"].number == 2.0 and not spec.joints["d"].masses
 
 
@@ -78,11 +86,20 @@ def test_any_number_may_be_given_by_a_setting_of_the_run():
 
 def test_every_number_has_one_path_and_twins_have_none():
     assert numbers(axle()) == {
-        "tire.stiffness": 200e3, "strut.damper.damping": 1500.0, "strut.mount.rubber.stiffness": 350e3,
-        "strut.mount.loss.damping": 50.0, "tire.offset": 0.02, "wheel.mass": 40.0, "wheel.added_mass": 0.0,
-    }  # fmt: skip
-    assert list(axle().curves()) == ["tire.stiffness", "strut.damper.damping", "strut.mount.rubber.stiffness",
-                                     "strut.mount.loss.damping"]  # fmt: skip
+        "tire.stiffness": 200e3,
+        "strut.damper.damping": 1500.0,
+        "strut.mount.rubber.stiffness": 350e3,
+        "strut.mount.loss.damping": 50.0,
+        "tire.offset": 0.02,
+        "wheel.mass": 40.0,
+        "wheel.added_mass": 0.0,
+    }
+    assert list(axle().curves()) == [
+        "tire.stiffness",
+        "strut.damper.damping",
+        "strut.mount.rubber.stiffness",
+        "strut.mount.loss.damping",
+    ]
 
 
 def test_the_graph_has_a_node_between_the_parts_of_a_series():
@@ -101,7 +118,9 @@ def test_the_graph_has_a_node_between_the_parts_of_a_series():
 
 
 def test_an_offset_belongs_to_all_that_lies_in_parallel_and_once_to_what_lies_in_series():
-    spec = small("{a: driven, b: ground}", """
+    spec = small(
+        "{a: driven, b: ground}",
+        """
         both:
           between: [a, b]
           offset: 3 mm
@@ -110,7 +129,8 @@ def test_an_offset_belongs_to_all_that_lies_in_parallel_and_once_to_what_lies_in
           between: [a, b]
           offset: 4 mm
           series: {x: {element: elastic, stiffness: 5}, y: {element: viscous, damping: 5}}
-    """)  # fmt: skip
+    """,
+    )
     assert [edge.offset for edge in topology_of(spec).edges] == ["both.offset", "both.offset", "chain.offset", ""]
 
 
@@ -134,19 +154,23 @@ def test_a_change_of_a_curve_reaches_the_twin():
 
 
 def test_a_twin_may_have_an_offset_of_its_own_and_a_twin_of_a_twin_shares_with_the_first():
-    spec = small("{a: driven, b: ground, c: driven}", """
+    spec = small(
+        "{a: driven, b: ground, c: driven}",
+        """
         one: {element: elastic, stiffness: 5, between: [a, b], offset: 3 mm}
         two: {same_as: one, between: [c, b], offset: 4 mm}
         three: {same_as: two, between: [c, a]}
-    """)  # fmt: skip
+    """,
+    )
     assert numbers(spec) == {"one.stiffness": 5.0, "one.offset": 0.003, "two.offset": 0.004}
     assert [edge.offset for edge in topology_of(spec).edges] == ["one.offset", "two.offset", "two.offset"]
     assert {branch.numbers for branch in spec.leaves()} == {"one"}
 
 
 def test_the_copies_of_a_branch_lie_between_the_same_nodes_and_share_their_offset():
-    spec = small("{a: driven, b: ground}",
-                 "it: {repeat: 2, element: elastic, stiffness: [5, 6], between: [a, b], offset: 3 mm}")  # fmt: skip
+    spec = small(
+        "{a: driven, b: ground}", "it: {repeat: 2, element: elastic, stiffness: [5, 6], between: [a, b], offset: 3 mm}"
+    )
     assert numbers(spec) == {"it_1.stiffness": 5.0, "it_2.stiffness": 6.0, "it_1.offset": 0.003}
     assert [(edge.lower, edge.upper, edge.offset) for edge in topology_of(spec).edges] == [
         ("a", "b", "it_1.offset")
@@ -154,18 +178,23 @@ def test_the_copies_of_a_branch_lie_between_the_same_nodes_and_share_their_offse
 
 
 def test_a_twin_inside_a_group_shares_too():
-    spec = small("{a: driven, b: ground}", """
+    spec = small(
+        "{a: driven, b: ground}",
+        """
         leg:
           between: [a, b]
           parallel: {x: {element: elastic, stiffness: {start: 5}}, y: {same_as: x}}
-    """)  # fmt: skip
+    """,
+    )
     assert numbers(spec) == {"leg.x.stiffness": 5.0}
     assert [(branch.name, branch.shares) for branch in spec.leaves()] == [("leg.x", ""), ("leg.y", "leg.x")]
 
 
 def test_a_node_that_is_the_same_as_another_is_held_in_the_same_way():
-    spec = small("{a: {hold: loaded, mass: 3 kg}, b: ground, c: {same_as: a}, d: {same_as: a, hold: free}}",
-                 "it: {element: elastic, stiffness: 5, between: [a, b]}")  # fmt: skip
+    spec = small(
+        "{a: {hold: loaded, mass: 3 kg}, b: ground, c: {same_as: a}, d: {same_as: a, hold: free}}",
+        "it: {element: elastic, stiffness: 5, between: [a, b]}",
+    )
     assert [spec.joints[name].hold for name in "acd"] == ["loaded", "loaded", "free"]
     assert [spec.joints[name].numbers for name in "acd"] == ["a", "a", "a"]
 
@@ -177,23 +206,39 @@ def test_a_network_of_two_ends_is_a_graph_of_one_driven_and_one_held_node():
     assert not topology_of(axle()).parallel
 
 
-@pytest.mark.parametrize(("nodes", "told"), [
-    ("{a: drivn, b: ground}", "n.yaml:3:12: the node 'a': expected driven, loaded, ground, free or '{mass: ...}', got "
-     "'drivn'. did you mean 'driven'?"),
-    ("{a: driven, b: {mas: 3 kg}}", "n.yaml:3:24: the node 'b' has no key 'mas'. did you mean 'mass'?"),
-    ("{a: driven, b: {mass: 3 N}}", "n.yaml:3:30: b.mass: expected a quantity in kg, got 'N'"),
-    ("{a: driven, b: {mass: -3 kg}}", "n.yaml:3:30: b.mass: expected 1e-09 to 1e+09 kg, got -3"),
-    ("{a: driven, b: {mass: {setting: m, value: -3 kg}}}", "n.yaml:3:50: b.mass: expected 1e-09 to 1e+09 kg, got -3"),
-    ("{a: driven, b: {mass: {setting: m}}}", "n.yaml:3:30: b.mass lacks 'value'. add a line 'value: ...'"),
-    ("{a: driven, b: {hold: grund}}", "n.yaml:3:30: the node 'b', 'hold': expected one of driven, loaded, ground, "
-     "free, got 'grund'; did you mean 'ground'?"),
-    ("{b: {same_as: a}, a: driven}", "n.yaml:3:22: the node 'b', 'same_as': there is no node 'a' above"),
-    ("{a: {mass: 3 kg}, b: {same_as: a, mass: 4 kg}}", "n.yaml:3:39: the node 'b' has masses of its own and those of "
-     "'a'. remove one of them"),
-    ("{a: driven, b: ground, 'c:1': free}", "n.yaml:3:38: expected a name of letters, digits, '_', '-' and '+', got "
-     "'c:1'. rename the node"),
-    ("{a: driven, b: [1]}", "n.yaml:3:23: expected the node 'b' as 'key: value' lines, got a list of 1"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("nodes", "told"),
+    [
+        (
+            "{a: drivn, b: ground}",
+            "n.yaml:3:12: the node 'a': expected driven, loaded, ground, free or '{mass: ...}', got "
+            "'drivn'. did you mean 'driven'?",
+        ),
+        ("{a: driven, b: {mas: 3 kg}}", "n.yaml:3:24: the node 'b' has no key 'mas'. did you mean 'mass'?"),
+        ("{a: driven, b: {mass: 3 N}}", "n.yaml:3:30: b.mass: expected a quantity in kg, got 'N'"),
+        ("{a: driven, b: {mass: -3 kg}}", "n.yaml:3:30: b.mass: expected 1e-09 to 1e+09 kg, got -3"),
+        (
+            "{a: driven, b: {mass: {setting: m, value: -3 kg}}}",
+            "n.yaml:3:50: b.mass: expected 1e-09 to 1e+09 kg, got -3",
+        ),
+        ("{a: driven, b: {mass: {setting: m}}}", "n.yaml:3:30: b.mass lacks 'value'. add a line 'value: ...'"),
+        (
+            "{a: driven, b: {hold: grund}}",
+            "n.yaml:3:30: the node 'b', 'hold': expected one of driven, loaded, ground, "
+            "free, got 'grund'; did you mean 'ground'?",
+        ),
+        ("{b: {same_as: a}, a: driven}", "n.yaml:3:22: the node 'b', 'same_as': there is no node 'a' above"),
+        (
+            "{a: {mass: 3 kg}, b: {same_as: a, mass: 4 kg}}",
+            "n.yaml:3:39: the node 'b' has masses of its own and those of 'a'. remove one of them",
+        ),
+        (
+            "{a: driven, b: ground, 'c:1': free}",
+            "n.yaml:3:38: expected a name of letters, digits, '_', '-' and '+', got 'c:1'. rename the node",
+        ),
+        ("{a: driven, b: [1]}", "n.yaml:3:23: expected the node 'b' as 'key: value' lines, got a list of 1"),
+    ],
+)
 def test_a_wrong_node_is_told_once_with_its_place(nodes, told):
     (found,) = problems(nodes)
     assert found.startswith(told)
@@ -201,49 +246,87 @@ def test_a_wrong_node_is_told_once_with_its_place(nodes, told):
 
 @pytest.mark.parametrize("nodes", ["[a, b]", "{}", "driven"])
 def test_nodes_that_are_no_named_nodes_are_told(nodes):
-    assert problems(nodes)[0].startswith("n.yaml:3:8: the network, 'nodes': expected named nodes 'name: driven' or "
-                                         "'name: {mass: 40 kg}', got")  # fmt: skip
+    assert problems(nodes)[0].startswith(
+        "n.yaml:3:8: the network, 'nodes': expected named nodes 'name: driven' or 'name: {mass: 40 kg}', got"
+    )
 
 
-@pytest.mark.parametrize(("branch", "told"), [
-    ("element: elastic, stiffness: 5", "n.yaml:5:7: 'it' of branches lacks 'between'. add a line 'between: ...'"),
-    ("element: elastic, stiffness: 5, between: [a]", "n.yaml:5:49: 'it' of branches, 'between': expected two different "
-     "nodes, the lower one first, got [a]"),
-    ("element: elastic, stiffness: 5, between: [a, a]", "expected two different nodes, the lower one first, got [a, "
-     "a]"),
-    ("element: elastic, stiffness: 5, between: a", "'it' of branches, 'between': expected a list [..., ...], got"),
-    ("element: elastic, stiffness: 5, between: [a, plattform]", "there is no node 'plattform'; did you mean "
-     "'platform'?"),
-    ("element: elastic, stiffness: 5, between: [a, q]", "there is no node 'q'; known nodes: a, platform"),
-    ("element: elastic, stiffness: 5, between: [a, platform], offset: 3 N", "n.yaml:5:72: it.offset: expected a "
-     "quantity in m, got 'N'"),
-    ("element: elastic, stiffness: 5, between: [a, platform], offset: 30", "it.offset: expected -10 to 10 m, got 30"),
-    ("between: [a, platform], same_as: other", "n.yaml:5:41: 'it' of branches, 'same_as': there is no branch 'other' "
-     "above"),
-    ("between: [a, platform], parallel: {x: {element: elastic, stiffness: 5, between: [a, platform]}}",
-     "n.yaml:5:79: 'x' of parallel has no key 'between'"),
-    ("element: elastic, stiffness: {from: quasi_static}, between: [a, platform]", "n.yaml:5:37: 'it.stiffness' cannot "
-     "come from quasi_static data in a network with nodes: the loop of the whole is not the curve of a part. write a "
-     "table; or fit the part by itself, on runs of its own, and write 'use: fitted.yaml, fixed: true'"),
-    ("element: elastic, stiffness: {from: quasi_static, deflection: [0, 1], force: [0, 1]}, between: [a, platform]",
-     "'it.stiffness' cannot come from quasi_static data in a network with nodes"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("branch", "told"),
+    [
+        ("element: elastic, stiffness: 5", "n.yaml:5:7: 'it' of branches lacks 'between'. add a line 'between: ...'"),
+        (
+            "element: elastic, stiffness: 5, between: [a]",
+            "n.yaml:5:49: 'it' of branches, 'between': expected two different nodes, the lower one first, got [a]",
+        ),
+        (
+            "element: elastic, stiffness: 5, between: [a, a]",
+            "expected two different nodes, the lower one first, got [a, a]",
+        ),
+        ("element: elastic, stiffness: 5, between: a", "'it' of branches, 'between': expected a list [..., ...], got"),
+        (
+            "element: elastic, stiffness: 5, between: [a, plattform]",
+            "there is no node 'plattform'; did you mean 'platform'?",
+        ),
+        ("element: elastic, stiffness: 5, between: [a, q]", "there is no node 'q'; known nodes: a, platform"),
+        (
+            "element: elastic, stiffness: 5, between: [a, platform], offset: 3 N",
+            "n.yaml:5:72: it.offset: expected a quantity in m, got 'N'",
+        ),
+        (
+            "element: elastic, stiffness: 5, between: [a, platform], offset: 30",
+            "it.offset: expected -10 to 10 m, got 30",
+        ),
+        (
+            "between: [a, platform], same_as: other",
+            "n.yaml:5:41: 'it' of branches, 'same_as': there is no branch 'other' above",
+        ),
+        (
+            "between: [a, platform], parallel: {x: {element: elastic, stiffness: 5, between: [a, platform]}}",
+            "n.yaml:5:79: 'x' of parallel has no key 'between'",
+        ),
+        (
+            "element: elastic, stiffness: {from: quasi_static}, between: [a, platform]",
+            "n.yaml:5:37: 'it.stiffness' cannot "
+            "come from quasi_static data in a network with nodes: the loop of the whole "
+            "is not the curve of a part. write a "
+            "table; or fit the part by itself, on runs of its own, and write 'use: fitted.yaml, fixed: true'",
+        ),
+        (
+            "element: elastic, stiffness: {from: quasi_static, deflection: [0, 1], force: "
+            "[0, 1]}, between: [a, platform]",
+            "'it.stiffness' cannot come from quasi_static data in a network with nodes",
+        ),
+    ],
+)
 def test_a_wrong_branch_is_told_once_with_its_place(branch, told):
     (found,) = problems("{a: driven, platform: ground}", f"it: {{{branch}}}")
     assert told in found and found.startswith("n.yaml:5:")
 
 
-@pytest.mark.parametrize(("branches", "told"), [
-    ("{x: {element: elastic, stiffness: 5, between: [a, b]}, y: {same_as: x, stiffness: 5, between: [a, b]}}",
-     "n.yaml:5:74: 'y' of branches has no key 'stiffness'"),
-    ("{x: {element: elastic, stiffness: 5, between: [a, b]}, y.z: {same_as: x, between: [a, b]}}",
-     "expected a name of letters, digits"),
-    ("{x: {element: elastic, stiffness: 5, between: [a, b]}, x_1: {same_as: x, between: [a, b]}, "
-     "x_2: {same_as: x2, between: [a, b]}}", "there is no branch 'x2' above; did you mean 'x'?"),
-    ("{x: {element: elastic, stiffness: 5, between: [a, b], offset: &o {start: 1 mm}}, "
-     "y: {element: elastic, stiffness: 5, between: [a, b], offset: *o}}",
-     "'y.offset' is an alias of 'x.offset', a parameter to be identified. write it out"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("branches", "told"),
+    [
+        (
+            "{x: {element: elastic, stiffness: 5, between: [a, b]}, y: {same_as: x, stiffness: 5, between: [a, b]}}",
+            "n.yaml:5:74: 'y' of branches has no key 'stiffness'",
+        ),
+        (
+            "{x: {element: elastic, stiffness: 5, between: [a, b]}, y.z: {same_as: x, between: [a, b]}}",
+            "expected a name of letters, digits",
+        ),
+        (
+            "{x: {element: elastic, stiffness: 5, between: [a, b]}, x_1: {same_as: x, between: [a, b]}, "
+            "x_2: {same_as: x2, between: [a, b]}}",
+            "there is no branch 'x2' above; did you mean 'x'?",
+        ),
+        (
+            "{x: {element: elastic, stiffness: 5, between: [a, b], offset: &o {start: 1 mm}}, "
+            "y: {element: elastic, stiffness: 5, between: [a, b], offset: *o}}",
+            "'y.offset' is an alias of 'x.offset', a parameter to be identified. write it out",
+        ),
+    ],
+)
 def test_twins_that_do_not_go_together_are_told(branches, told):
     (found,) = problems("{a: driven, b: ground}", branches)
     assert told in found
@@ -277,8 +360,14 @@ def test_nodes_and_gravity_go_together():
 
 def test_a_curve_inside_a_series_cannot_come_from_data():
     with pytest.raises(InputError, match="4:.*'it.x.stiffness' cannot come from quasi_static data inside a series"):
-        parse_network(written("it: {series: {x: {element: elastic, stiffness: {from: quasi_static}}, "
-                              "y: {element: viscous, damping: 5}}}"), ELEMENTS, "n.yaml")  # fmt: skip
+        parse_network(
+            written(
+                "it: {series: {x: {element: elastic, stiffness: {from: quasi_static}}, "
+                "y: {element: viscous, damping: 5}}}"
+            ),
+            ELEMENTS,
+            "n.yaml",
+        )
 
 
 TIRE = """
@@ -303,8 +392,11 @@ def test_a_fitted_network_is_used_with_its_numbers_fixed(tmp_path):
     assert [slot.path for slot in spec.slots() if slot.value.searched] == ["wheel.mass"]
     assert spec.curves()["tire.core.stiffness"].form == "table" and not spec.data_curves()
     assert [(branch.name, branch.shares) for branch in spec.leaves()][2:] == [
-        ("tire.twin", "tire.oil"), ("right.core", "tire.core"),
-        ("right.oil", "tire.oil"), ("right.twin", "tire.oil")]  # fmt: skip
+        ("tire.twin", "tire.oil"),
+        ("right.core", "tire.core"),
+        ("right.oil", "tire.oil"),
+        ("right.twin", "tire.oil"),
+    ]
     mass = replace(spec.joints["wheel"].masses["mass"], number=47.5, interval=(47.0, 48.0))
     text = fill_numbers(spec, spec.with_values({"wheel.mass": mass}), {"seed": "1"})
     assert "use: tire.yaml" in text and "mass: {value: 47.5 kg, interval: [47 kg, 48 kg]}" in text
@@ -313,8 +405,10 @@ def test_a_fitted_network_is_used_with_its_numbers_fixed(tmp_path):
 
 def test_a_network_with_curves_from_data_has_to_be_fitted_before_it_is_used_in_an_axle(tmp_path):
     (tmp_path / "tire.yaml").write_text(written("core: {element: elastic, stiffness: {from: quasi_static}}"))
-    for fixed, told in ((", fixed: true", "has no knots yet. fit this network first and use the file that the fit"),
-                        ("", "cannot come from quasi_static data in a network with nodes")):  # fmt: skip
+    for fixed, told in (
+        (", fixed: true", "has no knots yet. fit this network first and use the file that the fit"),
+        ("", "cannot come from quasi_static data in a network with nodes"),
+    ):
         (tmp_path / "n.yaml").write_text(HEAD + USER.lstrip("\n") % fixed)
         with pytest.raises(InputError, match=told) as caught:
             read_network(tmp_path / "n.yaml", ELEMENTS)
@@ -338,10 +432,12 @@ def test_a_network_with_nodes_cannot_be_used(tmp_path):
 def moved(spec: NetworkSpec) -> NetworkSpec:
     """The network with larger numbers in all searched places, known within a fifth."""
     found = {slot.path: slot.value for slot in spec.slots() if slot.value.searched}
-    return spec.with_values({
-        path: replace(value, number=1.25 * value.number, interval=(value.number, 1.5 * value.number))
-        for path, value in found.items()
-    })  # fmt: skip
+    return spec.with_values(
+        {
+            path: replace(value, number=1.25 * value.number, interval=(value.number, 1.5 * value.number))
+            for path, value in found.items()
+        }
+    )
 
 
 def test_masses_and_offsets_are_filled_in_and_everything_else_stays():

@@ -16,8 +16,10 @@ ELEMENTS = load_registry().elements
 
 
 def text(number, more=""):
-    return ("format: dashpot-network/1\nname: over\nbranches:\n  it:\n    element: dahl\n    stiffness: 100 N/mm\n"
-            f"    limit: {number}\n{more}")  # fmt: skip
+    return (
+        "format: dashpot-network/1\nname: over\nbranches:\n  it:\n    element: dahl\n    stiffness: 100 N/mm\n"
+        f"    limit: {number}\n{more}"
+    )
 
 
 def read(number, more=""):
@@ -59,24 +61,29 @@ def test_factors_between_places():
     assert [value.searched for value in found.values()][2:] == [False, True, True]
 
 
-@pytest.mark.parametrize(("number", "message"), [
-    ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
-    ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
-    ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
-    ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
-    ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
-    ("{start: 30 N, over: {at: 2 bar, slope: 1 N/bar}}", "lacks 'setting'"),
-    ("{start: 30 N, over: {setting: p, at: 2 bar, slope: 1 N/mm}}", "expected a quantity in N/Pa, got 'N/mm'"),
-    ("{start: 30 N, over: {setting: p, at: 2 furlong, slope: 1 N}}", "unknown unit 'furlong'"),
-    ("{start: 30 N, over: {setting: p, at: [1, 2], factor: [1]}}", "expected a list of 2 factors"),
-    ("{start: 30 N, over: {setting: p, at: [2, 1], factor: [1, 2]}}", "expected growing settings"),
-    ("{start: 30 N, over: {setting: p, at: [1 bar, 2], factor: [1, 2]}}", "expected settings of one kind"),
-    ("{start: 30 N, over: {setting: p, at: 1, slope: 1 N, rate: 2}}", "has no key 'rate'"),
-    ("{start: 30 N, over: {setting: p, at: 1, slope: {start: 1 N, over: {setting: q, at: 1, slope: 1 N}}}}",
-     "the slope cannot depend on a setting itself"),
-    ("{fixed: 30 N}", "'fixed' is for a number with 'over'. write the number alone"),
-    ("{fixed: 1e9 N, over: {setting: p, at: 1, slope: 1 N}}", "expected 0.001 to 1e+06 N, got 1e+09"),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("number", "message"),
+    [
+        ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
+        ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
+        ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
+        ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
+        ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
+        ("{start: 30 N, over: {at: 2 bar, slope: 1 N/bar}}", "lacks 'setting'"),
+        ("{start: 30 N, over: {setting: p, at: 2 bar, slope: 1 N/mm}}", "expected a quantity in N/Pa, got 'N/mm'"),
+        ("{start: 30 N, over: {setting: p, at: 2 furlong, slope: 1 N}}", "unknown unit 'furlong'"),
+        ("{start: 30 N, over: {setting: p, at: [1, 2], factor: [1]}}", "expected a list of 2 factors"),
+        ("{start: 30 N, over: {setting: p, at: [2, 1], factor: [1, 2]}}", "expected growing settings"),
+        ("{start: 30 N, over: {setting: p, at: [1 bar, 2], factor: [1, 2]}}", "expected settings of one kind"),
+        ("{start: 30 N, over: {setting: p, at: 1, slope: 1 N, rate: 2}}", "has no key 'rate'"),
+        (
+            "{start: 30 N, over: {setting: p, at: 1, slope: {start: 1 N, over: {setting: q, at: 1, slope: 1 N}}}}",
+            "the slope cannot depend on a setting itself",
+        ),
+        ("{fixed: 30 N}", "'fixed' is for a number with 'over'. write the number alone"),
+        ("{fixed: 1e9 N, over: {setting: p, at: 1, slope: 1 N}}", "expected 0.001 to 1e+06 N, got 1e+09"),
+    ],
+)
 def test_mistakes_are_told_where_they_are(number, message):
     with pytest.raises(InputError) as caught:
         read(number)
@@ -96,7 +103,9 @@ def test_shifts_with_temperature():
     found = slots(read(WLF))
     assert list(found)[2:] == ["it.limit.wlf[0]", "it.limit.wlf[1]"]
     assert [(value.number, value.unit, value.searched) for value in list(found.values())[2:]] == [
-        (17.44, "1", False), (51.6, "K", True)]  # fmt: skip
+        (17.44, "1", False),
+        (51.6, "K", True),
+    ]
     found = slots(read(ARRHENIUS))
     assert found["it.limit.arrhenius"].number == 5000.0 and found["it.limit"].over.at == (pytest.approx(293.15),)
 
@@ -107,8 +116,15 @@ def test_the_schema_knows_them(number):
     assert not list(validator.iter_errors(Document.parse(text(number)).root.plain()))
 
 
-@pytest.mark.parametrize("over", ["{setting: p, slope: 1}", "{setting: p, channel: q, at: 1, slope: 1}",
-                                  "{setting: p, at: 1, factor: [1, 2]}", "{setting: p, at: 1}"])  # fmt: skip
+@pytest.mark.parametrize(
+    "over",
+    [
+        "{setting: p, slope: 1}",
+        "{setting: p, channel: q, at: 1, slope: 1}",
+        "{setting: p, at: 1, factor: [1, 2]}",
+        "{setting: p, at: 1}",
+    ],
+)
 def test_the_schema_refuses_what_reading_refuses(over):
     number = f"{{start: 30 N, over: {over}}}"
     validator = Draft7Validator(network_schema(ELEMENTS))
@@ -120,8 +136,11 @@ def test_the_schema_refuses_what_reading_refuses(over):
 @pytest.mark.parametrize("number", [LINE, TABLE])
 def test_what_was_found_is_written_and_read_again(number):
     spec = read(number)
-    moved = {path: replace(value, number=1.5 * value.number, interval=(value.number, 2.0 * value.number))
-             for path, value in slots(spec).items() if value.searched}  # fmt: skip
+    moved = {
+        path: replace(value, number=1.5 * value.number, interval=(value.number, 2.0 * value.number))
+        for path, value in slots(spec).items()
+        if value.searched
+    }
     again = parse_network(fill_numbers(spec, spec.with_values(moved), {}), ELEMENTS)
     for path, value in moved.items():
         assert slots(again)[path].number == pytest.approx(value.number)
@@ -131,8 +150,10 @@ def test_what_was_found_is_written_and_read_again(number):
 
 
 def test_the_copies_of_a_repeated_branch_have_slopes_of_their_own_that_are_written_as_a_list():
-    more = ("  r: {repeat: 2, element: maxwell, relaxation_time: [10 ms, 0.1 s], stiffness: {start: [5 N/mm, 6 N/mm], "
-            "over: {setting: p, at: 2 bar, slope: {start: 0 N/mm/bar}}}}\n")  # fmt: skip
+    more = (
+        "  r: {repeat: 2, element: maxwell, relaxation_time: [10 ms, 0.1 s], stiffness: {start: [5 N/mm, 6 N/mm], "
+        "over: {setting: p, at: 2 bar, slope: {start: 0 N/mm/bar}}}}\n"
+    )
     spec = read("30 N", more)
     slopes = [path for path in slots(spec) if path.endswith("slope")]
     assert slopes == ["r_1.stiffness.slope", "r_2.stiffness.slope"]
@@ -142,6 +163,9 @@ def test_the_copies_of_a_repeated_branch_have_slopes_of_their_own_that_are_writt
 
 
 def test_a_slope_over_a_pressure_is_written_in_the_unit_of_its_number():
-    spec = read(LINE, "  s: {element: spring, stiffness: {start: 1 N/mm, over: {setting: p, "
-                "at: 2 bar, slope: {start: 1 N/mm/bar}}}}\n")  # fmt: skip
+    spec = read(
+        LINE,
+        "  s: {element: spring, stiffness: {start: 1 N/mm, over: {setting: p, "
+        "at: 2 bar, slope: {start: 1 N/mm/bar}}}}\n",
+    )
     assert "N/m/Pa" in fill_numbers(spec, spec, {})

@@ -42,8 +42,10 @@ BLOCK = written("""
 FLOW = (
     HEAD.rstrip() + " {rubber: {element: elastic, stiffness: {start: 220 N/mm}}, oil: {element: viscous, damping: 3}}\n"
 )
-JSON = ('{"format": "dashpot-network/1", "name": "bench", "branches": '
-        '{"rubber": {"element": "elastic", "stiffness": {"start": "220 N/mm"}}}}')  # fmt: skip
+JSON = (
+    '{"format": "dashpot-network/1", "name": "bench", "branches": '
+    '{"rubber": {"element": "elastic", "stiffness": {"start": "220 N/mm"}}}}'
+)
 
 
 def read(text: str) -> NetworkSpec:
@@ -299,8 +301,9 @@ def test_a_branch_that_was_added_can_be_removed(text):
     assert comments(remove_branch(remove_branch(between, "friction"), "last")) == comments(text)
     assert read(remove_branch(between, "friction")) == read(add_branch(text, NEW.replace("friction", "last", 1)))
     without_first = read(remove_branch(between, "rubber"))
-    assert numbers(without_first) == {path: number for path, number in numbers(read(between)).items()
-                                      if not path.startswith("rubber")}  # fmt: skip
+    assert numbers(without_first) == {
+        path: number for path, number in numbers(read(between)).items() if not path.startswith("rubber")
+    }
 
 
 def test_comments_of_a_removed_branch_go_and_others_stay():
@@ -309,8 +312,9 @@ def test_comments_of_a_removed_branch_go_and_others_stay():
 
 
 def test_a_branch_inside_groups_is_removed():
-    text = written("leg: {parallel: {a: {series: {oil: {element: viscous, damping: 3}, k: {element: elastic, "
-                   "stiffness: 5}}}}}")  # fmt: skip
+    text = written(
+        "leg: {parallel: {a: {series: {oil: {element: viscous, damping: 3}, k: {element: elastic, stiffness: 5}}}}}"
+    )
     assert numbers(read(remove_branch(text, "leg.a.oil"))) == {"leg.a.k.stiffness": 5.0}
     with pytest.raises(InputError, match="the network has no branch 'leg.b'"):
         remove_branch(text, "leg.b")
@@ -324,8 +328,10 @@ def test_an_entry_is_set_whether_it_was_there_or_not(text):
     assert numbers(read(twice)) == numbers(read(set_once)) and "of the leg" in twice
 
 
-@pytest.mark.parametrize("lines", ["scale: {deflection: [0 mm, 5 mm], factor: [1.2, 1]}",
-                                   "scale:\n  deflection: [0 mm, 5 mm]\n  factor: [1.2, 1]"])  # fmt: skip
+@pytest.mark.parametrize(
+    "lines",
+    ["scale: {deflection: [0 mm, 5 mm], factor: [1.2, 1]}", "scale:\n  deflection: [0 mm, 5 mm]\n  factor: [1.2, 1]"],
+)
 @pytest.mark.parametrize("text", [BLOCK, FLOW], ids=["block", "flow"])
 @pytest.mark.parametrize("branch", ["rubber", "oil"])
 def test_an_entry_is_added_to_a_branch(text, branch, lines):
@@ -357,12 +363,18 @@ def test_an_alias_is_not_edited_behind_its_back():
         add_to_branch(text, "b", "about: it")
 
 
-@pytest.mark.parametrize("before", [
-    "", "measurement: {force: {gain: 1.1}}\n", "measurement:\n  force:\n    gain: 1.1   # checked\n",
-    "measurement: {force: {gain: 1.1, delay: 3 ms}}\n",
-    "measurement:\n  force:\n    delay: 7 ms  # guessed\n    gain: 1.1\n",
-    "measurement: {force: {}}\n", "measurement: {}\n",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "before",
+    [
+        "",
+        "measurement: {force: {gain: 1.1}}\n",
+        "measurement:\n  force:\n    gain: 1.1   # checked\n",
+        "measurement: {force: {gain: 1.1, delay: 3 ms}}\n",
+        "measurement:\n  force:\n    delay: 7 ms  # guessed\n    gain: 1.1\n",
+        "measurement: {force: {}}\n",
+        "measurement: {}\n",
+    ],
+)
 def test_the_force_channel_gets_an_entry(before):
     text = add_measurement(BLOCK + before, "delay", "{start: 2 ms, bounds: [-5 ms, 5 ms]}")
     found = {slot.path: slot.value.number for slot in read(text).slots() if slot.path.startswith("measurement")}
@@ -375,13 +387,19 @@ def test_the_force_channel_gets_an_entry(before):
 @pytest.mark.parametrize(
     "before", ["", "measurement:\n  force:\n    gain: 1.1   # checked\n", "measurement: {force: {}}\n"]
 )
-@pytest.mark.parametrize(("key", "entry", "expected"), [
-    ("lag", "{start: 2 ms}", {"lag": 2e-3}),
-    ("largest", "1.5 kN", {"largest": 1500.0}),
-    ("compliance", "{start: 1e-8 m/N, bounds: [0 m/N, 1e-6 m/N]}", {"compliance": 1e-8}),
-    ("hum", "{frequency: 50 Hz, cosine: {start: 1 N}, sine: {start: -2 N}}",
-     {"hum.frequency": 50.0, "hum.cosine": 1.0, "hum.sine": -2.0}),
-])  # fmt: skip
+@pytest.mark.parametrize(
+    ("key", "entry", "expected"),
+    [
+        ("lag", "{start: 2 ms}", {"lag": 2e-3}),
+        ("largest", "1.5 kN", {"largest": 1500.0}),
+        ("compliance", "{start: 1e-8 m/N, bounds: [0 m/N, 1e-6 m/N]}", {"compliance": 1e-8}),
+        (
+            "hum",
+            "{frequency: 50 Hz, cosine: {start: 1 N}, sine: {start: -2 N}}",
+            {"hum.frequency": 50.0, "hum.cosine": 1.0, "hum.sine": -2.0},
+        ),
+    ],
+)
 def test_the_force_channel_gets_any_entry_and_another_one_in_its_place(before, key, entry, expected):
     text = add_measurement(BLOCK + before, key, entry)
     gain = {"gain": 1.1} if "gain" in before else {}

@@ -19,8 +19,10 @@ def remembered(x: Motion, dt: float, time: float) -> float:
         return np.exp(-(dt - s) / time) * velocity
 
     # what fades within a small part of the step is looked at there
-    return sum(quad(faded, low, high, epsabs=1e-17, epsrel=1e-12)[0]
-               for low, high in ((0.0, max(dt - 40 * time, 0.0)), (max(dt - 40 * time, 0.0), dt)))  # fmt: skip
+    return sum(
+        quad(faded, low, high, epsabs=1e-17, epsrel=1e-12)[0]
+        for low, high in ((0.0, max(dt - 40 * time, 0.0)), (max(dt - 40 * time, 0.0), dt))
+    )
 
 
 @pytest.mark.parametrize("ratio", [1e-9, 1e-3, 0.1, SERIES_BELOW * 0.999, SERIES_BELOW * 1.001, 2.0, 30.0, 1e3])

@@ -14,9 +14,19 @@ from dashpot_specimens.car_laws import Car
 
 def test_the_shipped_networks_lie_beside_the_other_specifications():
     assert (spec_folder() / "networks").is_dir()
-    assert set(shipped_networks()) >= {"spring", "kelvin_voigt", "gehmann", "ftire", "tire_model_1", "tire_model_5",
-                                       "axle_model_1", "axle_model_2", "axle_model_3", "axle_model_3_top_mount",
-                                       "quarter_car"}  # fmt: skip
+    assert set(shipped_networks()) >= {
+        "spring",
+        "kelvin_voigt",
+        "gehmann",
+        "ftire",
+        "tire_model_1",
+        "tire_model_5",
+        "axle_model_1",
+        "axle_model_2",
+        "axle_model_3",
+        "axle_model_3_top_mount",
+        "quarter_car",
+    }
 
 
 def test_a_network_is_found_by_its_shipped_name_or_its_file(tmp_path, monkeypatch):
@@ -74,8 +84,14 @@ def test_an_axle_has_two_wheels_of_the_same_numbers_between_two_platforms_and_th
 def test_of_an_axle_everything_but_the_tire_is_searched(name):
     spec = read_network(name, load_registry().elements)
     searched = {slot.path.partition("[")[0] for slot in spec.slots() if slot.value.searched}
-    slow = {"suspension.stiffness", "friction.stiffness", "friction.limit", "anti_roll_bar.bar.stiffness",
-            "anti_roll_bar.friction.stiffness", "anti_roll_bar.friction.limit"}  # fmt: skip
+    slow = {
+        "suspension.stiffness",
+        "friction.stiffness",
+        "friction.limit",
+        "anti_roll_bar.bar.stiffness",
+        "anti_roll_bar.friction.stiffness",
+        "anti_roll_bar.friction.limit",
+    }
     assert slow | {"wheel_left.mass"} <= searched
     fast = searched - slow - {"wheel_left.mass"}
     assert sum("shock_absorber.damping" in path for path in fast) == 1
@@ -95,8 +111,11 @@ def test_the_tire_of_an_axle_is_exchanged_in_one_line(name, tmp_path):
 
 def test_the_shipped_car_tires_have_numbers_and_the_structure_of_their_models():
     elements = load_registry().elements
-    for name, model in (("car_tire_kelvin_voigt", "kelvin_voigt"), ("car_tire_ftire", "ftire"),
-                        ("car_tire_model_5", "tire_model_5")):  # fmt: skip
+    for name, model in (
+        ("car_tire_kelvin_voigt", "kelvin_voigt"),
+        ("car_tire_ftire", "ftire"),
+        ("car_tire_model_5", "tire_model_5"),
+    ):
         tire, found = read_network(name, elements), read_network(model, elements)
         assert not tire.data_curves() and not any(slot.value.searched for slot in tire.slots())
         assert [(b.name, b.element.word) for b in tire.leaves()] == [(b.name, b.element.word) for b in found.leaves()]

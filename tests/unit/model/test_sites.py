@@ -63,8 +63,10 @@ def test_a_network_with_two_ends_has_no_sites():
 
 def test_the_shipped_axle_has_tire_suspension_and_anti_roll_bar():
     assert [site.pairs[0] for site in sites_of(read_network("axle_model_3", ELEMENTS))] == [
-        ("platform_left", "wheel_left"), ("wheel_left", "body"), ("wheel_left", "wheel_right"),
-    ]  # fmt: skip
+        ("platform_left", "wheel_left"),
+        ("wheel_left", "body"),
+        ("wheel_left", "wheel_right"),
+    ]
 
 
 def test_what_is_added_is_connected_at_all_twins_and_the_rest_of_the_text_stays():

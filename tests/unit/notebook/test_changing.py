@@ -82,8 +82,9 @@ def test_masses_of_nodes_are_numbers_too():
 
 def test_branches_come_and_go(model):
     model.add("friction", "dahl", stiffness="400 N/mm", limit=20.0)
-    model.add("second", series={"a": {"element": "damper", "damping": 10.0},
-                                "b": {"element": "spring", "stiffness": 1e5}})  # fmt: skip
+    model.add(
+        "second", series={"a": {"element": "damper", "damping": 10.0}, "b": {"element": "spring", "stiffness": 1e5}}
+    )
     assert [branch.name for branch in model.leaves()][-3:] == ["friction", "second.a", "second.b"]
     del model["rubber"]
     del model["strut"]
@@ -105,16 +106,22 @@ def test_what_is_saved_and_read_again_gives_the_same_forces(model, data, tmp_pat
 def test_a_network_built_from_nothing_is_the_one_of_the_text(data):
     built = dp.Network("mount")
     built.add("rubber", "spring", stiffness="220 N/mm")
-    built.add("strut", series={"damper": {"element": "damper", "damping": 500.0},
-                               "bracket": {"element": "spring", "stiffness": 2e6}})  # fmt: skip
+    built.add(
+        "strut",
+        series={"damper": {"element": "damper", "damping": 500.0}, "bracket": {"element": "spring", "stiffness": 2e6}},
+    )
     built.add("maxwell", "maxwell", repeat=2, stiffness=[2e4, "30 N/mm"], relaxation_time=[0.01, "100 ms"])
     assert built == dp.declare(TEXT)
     nodes = {"platform": "driven", "engine": {"mass": "40 kg"}, "body": "ground"}
-    carried = dp.Network("carried", {
-        "mount": {"element": "spring", "stiffness": "220 N/mm", "between": ["platform", "engine"]},
-        "loss": {"element": "damper", "damping": "0.3 N*s/mm", "between": ["platform", "engine"]},
-        "stay": {"element": "spring", "stiffness": "15 N/mm", "between": ["engine", "body"]},
-    }, nodes=nodes)  # fmt: skip
+    carried = dp.Network(
+        "carried",
+        {
+            "mount": {"element": "spring", "stiffness": "220 N/mm", "between": ["platform", "engine"]},
+            "loss": {"element": "damper", "damping": "0.3 N*s/mm", "between": ["platform", "engine"]},
+            "stay": {"element": "spring", "stiffness": "15 N/mm", "between": ["engine", "body"]},
+        },
+        nodes=nodes,
+    )
     assert carried == dp.declare(CARRIED)
 
 

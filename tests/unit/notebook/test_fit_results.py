@@ -98,8 +98,9 @@ def sines():
 def test_cross_validation_leaves_groups_out(sines):
     selection = pytest.importorskip("sklearn.model_selection")
     folds = selection.GroupKFold(3)
-    scores = selection.cross_val_score(dp.Estimator(dp.Network("voigt", VOIGT)), sines.runs, groups=sines.groups,
-                                       cv=folds)  # fmt: skip
+    scores = selection.cross_val_score(
+        dp.Estimator(dp.Network("voigt", VOIGT)), sines.runs, groups=sines.groups, cv=folds
+    )
     for score, (train, test) in zip(scores, folds.split(sines.runs, groups=sines.groups), strict=True):
         assert {sines.groups[k] for k in train}.isdisjoint(sines.groups[k] for k in test)
         # the noise has variance 1, the force nearly that of its sine

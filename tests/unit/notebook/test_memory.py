@@ -40,8 +40,9 @@ runs:
 
 def test_units_are_brought_to_si_and_the_arrays_are_copied():
     depth = X * 1e3
-    data = dp.Data.from_arrays(TIME * 1e3, depth, FORCE / 1e3,
-                               units={"time": "ms", "displacement": "mm", "force": "kN"})  # fmt: skip
+    data = dp.Data.from_arrays(
+        TIME * 1e3, depth, FORCE / 1e3, units={"time": "ms", "displacement": "mm", "force": "kN"}
+    )
     depth[:] = 0.0
     run = data.runs[0]
     assert run.displacement == pytest.approx(X, rel=1e-12) and run.force == pytest.approx(FORCE, rel=1e-12)
@@ -69,7 +70,7 @@ def test_a_sampling_rate_replaces_the_time_and_the_kind_is_found():
         ({"channels": {"temperature": np.ones((4000, 1))}}, r"expected samples \(n,\), got an array of shape"),
         ({"channels": {"temperature": ["warm"] * 4000}}, "the temperature: expected numbers"),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_with_arrays_is_told(keys, told):
     with pytest.raises(InputError, match=told):
         sine(**keys)
@@ -86,8 +87,10 @@ def test_joined_runs_know_their_repeats():
     first = sine("a", settings={"preload": "3 mm"})
     data = dp.Data.join([sine("c", repeats="b"), first, sine("b", repeats="a")], "all")
     assert [(run.name, run.repeats, run.group, run.order) for run in data.runs] == [
-        ("c", "a", "a", 0), ("a", None, "a", 1), ("b", "a", "a", 2),
-    ]  # fmt: skip
+        ("c", "a", "a", 0),
+        ("a", None, "a", 1),
+        ("b", "a", "a", 2),
+    ]
     assert data.groups == ["a", "a", "a"] and data.run("c").settings == {"preload": 3e-3} and data.name == "all"
 
 
@@ -152,11 +155,20 @@ def test_dynamic_stiffness_of_data_is_that_of_the_sine():
 def test_runs_in_memory_are_fitted_compared_and_simulated():
     time, frequencies = np.arange(0.0, 2.0, 2e-3), (2.0, 4.0, 8.0, 16.0)
     phases = [2.0 * np.pi * f * time for f in frequencies]
-    parts = [dp.Data.from_arrays(time, 1e-3 * np.sin(p), 200.0 * np.sin(p) + 0.5 * 2.0 * np.pi * f * np.cos(p),
-                                 name=f"f{f:g}") for f, p in zip(frequencies, phases, strict=True)]  # fmt: skip
+    parts = [
+        dp.Data.from_arrays(
+            time, 1e-3 * np.sin(p), 200.0 * np.sin(p) + 0.5 * 2.0 * np.pi * f * np.cos(p), name=f"f{f:g}"
+        )
+        for f, p in zip(frequencies, phases, strict=True)
+    ]
     data = dp.Data.join(parts, "sines")
-    model = dp.Network("voigt", {"rubber": {"element": "spring", "stiffness": {"start": 1e5}},
-                                 "loss": {"element": "damper", "damping": {"start": 100.0}}})  # fmt: skip
+    model = dp.Network(
+        "voigt",
+        {
+            "rubber": {"element": "spring", "stiffness": {"start": 1e5}},
+            "loss": {"element": "damper", "damping": {"start": 100.0}},
+        },
+    )
     found = dp.fit(model, data)
     assert found.model["rubber"].stiffness == pytest.approx(2e5, rel=1e-4)
     assert found.model["loss"].damping == pytest.approx(500.0, rel=1e-4)

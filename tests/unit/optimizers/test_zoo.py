@@ -22,11 +22,15 @@ AT_LEAST = {
     "pso": {"quadratic": 0.96, "rosenbrock": 0.96, "many_valleys": 0.8, "relaxation": 0.93, "friction": 0.75},
     "least_squares": {"quadratic": 0.96, "rosenbrock": 0.8, "relaxation": 0.96, "friction": 0.92},
     "differential_evolution": {
-        "quadratic": 0.96, "rosenbrock": 0.9, "many_valleys": 0.89, "relaxation": 0.96, "friction": 0.93
+        "quadratic": 0.96,
+        "rosenbrock": 0.9,
+        "many_valleys": 0.89,
+        "relaxation": 0.96,
+        "friction": 0.93,
     },
     "cmaes": {"quadratic": 0.96, "rosenbrock": 0.96, "many_valleys": 0.95, "relaxation": 0.96, "friction": 0.96},
     "multistart": {"quadratic": 0.96, "rosenbrock": 0.96, "relaxation": 0.96, "friction": 0.96},
-}  # fmt: skip
+}
 CLAIMS = [(word, problem, rate) for word, rates in AT_LEAST.items() for problem, rate in rates.items()]
 
 

@@ -12,32 +12,92 @@ NUMBER = {"value": 2e5, "unit": "N/m", "interval": [1.9e5, 2.1e5]}
 
 
 def specimen(name: str, **more) -> dict:
-    fit = {"numbers": {"k.stiffness": NUMBER}, "rmse": {"train": 2.0, "held_out": None}, "noise_floor": 2.0,
-           "ending": "converged", "unlike": 0.01, "group": 1}  # fmt: skip
-    return {"specimen": name, "data": f"x/{name}", "digest": "0", "properties": {"temperature": 20.0, "batch": "A"},
-            "models": {"m": fit}, "verdicts": {}, "reports": [f"{name}-fit-m"], "remarks": [], **more}  # fmt: skip
+    fit = {
+        "numbers": {"k.stiffness": NUMBER},
+        "rmse": {"train": 2.0, "held_out": None},
+        "noise_floor": 2.0,
+        "ending": "converged",
+        "unlike": 0.01,
+        "group": 1,
+    }
+    return {
+        "specimen": name,
+        "data": f"x/{name}",
+        "digest": "0",
+        "properties": {"temperature": 20.0, "batch": "A"},
+        "models": {"m": fit},
+        "verdicts": {},
+        "reports": [f"{name}-fit-m"],
+        "remarks": [],
+        **more,
+    }
 
 
 def content(**more) -> dict:
-    number = {"parameter": "k.stiffness", "unit": "N/m", "relative": True, "mean": 2e5, "interval": [1.9e5, 2.1e5],
-              "scatter": 0.04, "scatter_interval": [0.03, 0.06], "error": 0.01}  # fmt: skip
-    effect = {"parameter": "k.stiffness", "unit": "N/m", "relative": True, "property": "temperature",
-              "effect": -0.006, "interval": [-0.008, -0.004], "certain": True}  # fmt: skip
+    number = {
+        "parameter": "k.stiffness",
+        "unit": "N/m",
+        "relative": True,
+        "mean": 2e5,
+        "interval": [1.9e5, 2.1e5],
+        "scatter": 0.04,
+        "scatter_interval": [0.03, 0.06],
+        "error": 0.01,
+    }
+    effect = {
+        "parameter": "k.stiffness",
+        "unit": "N/m",
+        "relative": True,
+        "property": "temperature",
+        "effect": -0.006,
+        "interval": [-0.008, -0.004],
+        "certain": True,
+    }
     batch = {"batch": "A", "count": 2, "mean": 2e5, "low": 1.8e5, "high": 2.2e5, "outside": False}
-    chart = {"parameter": "k.stiffness", "unit": "N/m", "center": 2e5,
-             "batches": [batch, {**batch, "batch": "B", "mean": 2.5e5, "outside": True}]}  # fmt: skip
-    shared = {"numbers": {"k.stiffness": {"value": 2e5, "interval": [1.9e5, 2.1e5]}}, "probability": 1e-9,
-              "error_ratio": 1.5, "specimens": {}}  # fmt: skip
-    population = {"model": "m", "specimens": ["a", "b"], "numbers": [number], "correlation": [[1.0]],
-                  "dependence": [effect], "ways": [], "probability": [], "groups": [1, 2], "charts": [chart],
-                  "remarks": ["'wear' is the same for all specimens"], "shared": shared}  # fmt: skip
-    cause = {"model": "m", "cause": "play", "title": "play", "place": None, "class": "specimen",
-             "probability": {"a": 0.9, "b": 0.0}}  # fmt: skip
-    return {"format": "dashpot-campaign-result/1", "version": "9", "campaign": {"name": "c", "about": "", "seed": 0},
-            "specimens": [specimen("a"), specimen("b", models={}, reports=[])], "populations": [population],
-            "named": [{"specimen": "a", "model": "m", "kind": "damaged", "probability": 0.99, "evidence": ["why"]}],
-            "causes": [cause], **more,
-            "failures": more.get("failures", [{"job": "b-fit-m", "specimen": "b", "reason": "no file"}])}  # fmt: skip
+    chart = {
+        "parameter": "k.stiffness",
+        "unit": "N/m",
+        "center": 2e5,
+        "batches": [batch, {**batch, "batch": "B", "mean": 2.5e5, "outside": True}],
+    }
+    shared = {
+        "numbers": {"k.stiffness": {"value": 2e5, "interval": [1.9e5, 2.1e5]}},
+        "probability": 1e-9,
+        "error_ratio": 1.5,
+        "specimens": {},
+    }
+    population = {
+        "model": "m",
+        "specimens": ["a", "b"],
+        "numbers": [number],
+        "correlation": [[1.0]],
+        "dependence": [effect],
+        "ways": [],
+        "probability": [],
+        "groups": [1, 2],
+        "charts": [chart],
+        "remarks": ["'wear' is the same for all specimens"],
+        "shared": shared,
+    }
+    cause = {
+        "model": "m",
+        "cause": "play",
+        "title": "play",
+        "place": None,
+        "class": "specimen",
+        "probability": {"a": 0.9, "b": 0.0},
+    }
+    return {
+        "format": "dashpot-campaign-result/1",
+        "version": "9",
+        "campaign": {"name": "c", "about": "", "seed": 0},
+        "specimens": [specimen("a"), specimen("b", models={}, reports=[])],
+        "populations": [population],
+        "named": [{"specimen": "a", "model": "m", "kind": "damaged", "probability": 0.99, "evidence": ["why"]}],
+        "causes": [cause],
+        **more,
+        "failures": more.get("failures", [{"job": "b-fit-m", "specimen": "b", "reason": "no file"}]),
+    }
 
 
 def test_the_headline_counts_and_names():
@@ -48,9 +108,17 @@ def test_the_headline_counts_and_names():
 def test_the_page_holds_all_parts_and_its_links():
     page = campaign_page(content())
     titles = [part.title for section in page.sections for part in section.parts if hasattr(part, "title")]
-    assert {"Specimens that stand out", "The population", "Specimens", "k.stiffness", "Dependence on properties",
-            "k.stiffness over temperature", "Control chart of k.stiffness", "Numbers in common",
-            "Causes found from m"} <= set(titles)  # fmt: skip
+    assert {
+        "Specimens that stand out",
+        "The population",
+        "Specimens",
+        "k.stiffness",
+        "Dependence on properties",
+        "k.stiffness over temperature",
+        "Control chart of k.stiffness",
+        "Numbers in common",
+        "Causes found from m",
+    } <= set(titles)
     html = render(page)
     assert '<a href="jobs/a-fit-m/report.html">a</a>' in html and "Outside: B." in html
     assert "There are 2 groups of specimens alike: a; b." in html

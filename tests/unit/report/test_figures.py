@@ -43,16 +43,30 @@ def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
     ]
 
 
-DAMPER = {"curve": "a.b", "velocity": [-1.0, -0.5, 0.0, 0.5], "force": [-90.0, -50.0, 0.0, 40.0],
-          "low": [-99.0, -55.0, 0.0, 38.0], "high": [-80.0, -45.0, 0.0, 42.0], "reached": [-0.75, 0.25]}  # fmt: skip
-SLOW = {part: {key: np.array([1.0, 2.0, 4.0]) for key in ("deflection", "force", "half_width")}
-        for part in ("left", "right", "roll")}  # fmt: skip
+DAMPER = {
+    "curve": "a.b",
+    "velocity": [-1.0, -0.5, 0.0, 0.5],
+    "force": [-90.0, -50.0, 0.0, 40.0],
+    "low": [-99.0, -55.0, 0.0, 38.0],
+    "high": [-80.0, -45.0, 0.0, 42.0],
+    "reached": [-0.75, 0.25],
+}
+SLOW = {
+    part: {key: np.array([1.0, 2.0, 4.0]) for key in ("deflection", "force", "half_width")}
+    for part in ("left", "right", "roll")
+}
 
 
 def contact(run: str, label: str, added: float) -> dict[str, Any]:
     force = np.array([300.0, 900.0])
-    return {"run": run, "wheel": "left", "added_mass": added, "frequency": np.array([5.0, 9.0]), "measured": force,
-            "simulated": {label: force + 1.0}}  # fmt: skip
+    return {
+        "run": run,
+        "wheel": "left",
+        "added_mass": added,
+        "frequency": np.array([5.0, 9.0]),
+        "measured": force,
+        "simulated": {label: force + 1.0},
+    }
 
 
 def steady(run: str, amplitude: float, frequency: float, label: str = "before") -> dict[str, Any]:
@@ -137,8 +151,10 @@ def test_loops_over_velocity_show_a_damper_as_a_line():
 
 def test_branches_are_drawn_beside_the_measured_force():
     time = np.linspace(0.0, 1.0, 50)
-    measured = {"a": {"time": time, "displacement": time, "force": time},
-                "b": {"time": time, "displacement": np.sin(9.0 * time), "force": 3.0 * time}}  # fmt: skip
+    measured = {
+        "a": {"time": time, "displacement": time, "force": time},
+        "b": {"time": time, "displacement": np.sin(9.0 * time), "force": 3.0 * time},
+    }
     forces = {"rubber": 90.0 * time, "oil": time, "friction": 0.5 * time}
     figure = figures.branch_loops(measured, {name: {"a": force, "b": force} for name, force in forces.items()})
     shown = [trace for trace in figure.plot["data"] if trace["visible"] is True]
@@ -148,9 +164,15 @@ def test_branches_are_drawn_beside_the_measured_force():
 
 
 def test_identified_curves_are_drawn_in_rig_units_with_their_bands():
-    curve = {"over": "deflection", "over_unit": "m", "unit": "N/m", "at": np.array([0.0, 2e-3, 4e-3]),
-             "value": np.array([1e5, 2e5, 3e5]), "low": np.array([0.9e5, np.nan, 2.9e5]),
-             "high": np.array([1.1e5, np.nan, 3.1e5])}  # fmt: skip
+    curve = {
+        "over": "deflection",
+        "over_unit": "m",
+        "unit": "N/m",
+        "at": np.array([0.0, 2e-3, 4e-3]),
+        "value": np.array([1e5, 2e5, 3e5]),
+        "low": np.array([0.9e5, np.nan, 2.9e5]),
+        "high": np.array([1.1e5, np.nan, 3.1e5]),
+    }
     figure = figures.identified_curves({"rubber.stiffness": curve, "oil.scale": {**curve, "unit": "1"}})
     band, line, _, factor = plotly_figure(figure).data
     assert list(line.x) == [0.0, 2.0, 4.0] and list(line.y) == [100.0, 200.0, 300.0]

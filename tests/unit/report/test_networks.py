@@ -34,11 +34,14 @@ def test_a_single_branch_and_a_network_with_nodes_are_left_out(data):
 def test_only_tables_that_were_searched_are_curves():
     table = {"deflection": ["0 mm", "5 mm"], "force": ["0 N", {"value": "1 kN", "interval": ["900 N", "1.1 kN"]}]}
     fixed = {"deflection": ["0 mm", "5 mm"], "force": ["0 N", "1 kN"]}
-    model = dp.Network("curves", {
-        "found": {"element": "spring", "stiffness": table},
-        "fixed": {"element": "spring", "stiffness": fixed},
-        "straight": {"element": "spring", "stiffness": {"start": "5 N/mm"}},
-    })  # fmt: skip
+    model = dp.Network(
+        "curves",
+        {
+            "found": {"element": "spring", "stiffness": table},
+            "fixed": {"element": "spring", "stiffness": fixed},
+            "straight": {"element": "spring", "stiffness": {"start": "5 N/mm"}},
+        },
+    )
     [(path, curve)] = identified_curves(model).items()
     assert path == "found.stiffness" and (curve["over"], curve["over_unit"], curve["unit"]) == ("deflection", "m", "N")
     assert curve["at"].tolist() == [0.0, 5e-3] and curve["value"].tolist() == [0.0, 1000.0]

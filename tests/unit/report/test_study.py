@@ -83,8 +83,12 @@ def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told(
     assert [row["interval"] for row in masses_grid(content).rows] == ["39.00 to 41.50"] * len(content["models"])
     content["models"][1]["masses"][0]["value"] = 44.0
     best = answered(content)["masses"][0]["model"]
-    told = [part.text for section in study_page(answered(content), comparison_evidence()).sections
-            for part in section.parts if isinstance(part, Notice)]  # fmt: skip
+    told = [
+        part.text
+        for section in study_page(answered(content), comparison_evidence()).sections
+        for part in section.parts
+        if isinstance(part, Notice)
+    ]
     assert sum(text.startswith("wheel: ") and f"from {best}, which has the lowest RMSE" in text for text in told) == 1
     assert sum("other structures give" in text for text in told) == 1
 
@@ -116,9 +120,16 @@ def test_a_mass_that_comes_out_otherwise_without_the_tire_is_told():
 
 def test_rubber_behind_the_shock_absorber_is_told_only_where_it_shows():
     def axle(elastic: float, compliance: float) -> dict:
-        rows = [{"node": "wheel", "fixing": "rigid", "value": 44.0, "interval": [43.8, 44.2], "compliance": 0.0},
-                {"node": "wheel", "fixing": "elastic", "value": elastic, "interval": [elastic - 0.2, elastic + 0.2],
-                 "compliance": compliance}]  # fmt: skip
+        rows = [
+            {"node": "wheel", "fixing": "rigid", "value": 44.0, "interval": [43.8, 44.2], "compliance": 0.0},
+            {
+                "node": "wheel",
+                "fixing": "elastic",
+                "value": elastic,
+                "interval": [elastic - 0.2, elastic + 0.2],
+                "compliance": compliance,
+            },
+        ]
         return {**study(), "axle": {"wheels": rows}}
 
     def told(elastic: float, compliance: float) -> list[str]:
@@ -132,17 +143,32 @@ def test_rubber_behind_the_shock_absorber_is_told_only_where_it_shows():
 
 def test_knots_that_no_run_reached_have_no_force():
     content = study()
-    content["models"][0]["velocity_curves"] = [{
-        "curve": "oil.damping", "velocity": [-1.0, -0.5, 0.0], "force": [-900.0, -500.0, 0.0], "reached": [-0.6, 0.1],
-        "low": [-950.0, -520.0, 0.0], "high": [-850.0, -480.0, 0.0], "excited": [False, True, True]}]  # fmt: skip
+    content["models"][0]["velocity_curves"] = [
+        {
+            "curve": "oil.damping",
+            "velocity": [-1.0, -0.5, 0.0],
+            "force": [-900.0, -500.0, 0.0],
+            "reached": [-0.6, 0.1],
+            "low": [-950.0, -520.0, 0.0],
+            "high": [-850.0, -480.0, 0.0],
+            "excited": [False, True, True],
+        }
+    ]
     outside, inside, rest = excited_grid(content).rows
     assert (outside["force"], outside["interval"]) == (None, "not excited")
     assert (inside["force"], inside["interval"], rest["interval"]) == (-500.0, "-520 to -480", "–")
 
 
 def test_slow_curves_stand_in_numbers():
-    curves = {"of": "measured", "rate": [25e3, 26e3], "half_width": [60.0, 70.0], "speed": 7.2e-3, "bar_rate": 11e3,
-              "roll_half_width": 80.0, "roll_speed": 3.3e-3}  # fmt: skip
+    curves = {
+        "of": "measured",
+        "rate": [25e3, 26e3],
+        "half_width": [60.0, 70.0],
+        "speed": 7.2e-3,
+        "bar_rate": 11e3,
+        "roll_half_width": 80.0,
+        "roll_speed": 3.3e-3,
+    }
     grid = slow_grid({"slow_curves": [curves]})
     assert grid.rows[0]["heave"] == 65.0 and grid.rows[0]["bar"] == 11.0
     assert "7.2 mm/s in phase and 3.3 mm/s in anti-phase" in grid.caption

@@ -62,8 +62,9 @@ def test_stepped_sines_have_each_frequency_for_so_many_cycles():
 
 @pytest.mark.parametrize("spectrum, fall", [("road", 2.0), ("pink", 1.0), ("white", 0.0)])
 def test_a_random_motion_has_its_spectrum_and_its_size(spectrum, fall):
-    rig = RIGS["random"](spectrum=spectrum, rms=(2e-3,), preloads=(0.0,), low=1.0, high=20.0, duration=200.0, fade=1.0,
-                         sampling=500.0)  # fmt: skip
+    rig = RIGS["random"](
+        spectrum=spectrum, rms=(2e-3,), preloads=(0.0,), low=1.0, high=20.0, duration=200.0, fade=1.0, sampling=500.0
+    )
     [run] = rig.runs()
     x = run.motion[PORT].displacement
     assert x[500:-500].std() == pytest.approx(2e-3, rel=0.01)
@@ -116,8 +117,13 @@ def test_a_preload_ramp_passes_every_preload_once():
 def test_four_posts_heave_roll_pitch_and_warp():
     nodes = {"front_left": "fl", "front_right": "fr", "rear_left": "rl", "rear_right": "rr"}
     runs = {run.notes["phase"]: run for run in RIGS["four_post"](duration=2.0, **nodes).runs()}
-    signs = {mode: [np.sign(run.motion[node].displacement @ runs["heave"].motion["fl"].displacement)
-                    for node in ("fl", "fr", "rl", "rr")] for mode, run in runs.items()}  # fmt: skip
+    signs = {
+        mode: [
+            np.sign(run.motion[node].displacement @ runs["heave"].motion["fl"].displacement)
+            for node in ("fl", "fr", "rl", "rr")
+        ]
+        for mode, run in runs.items()
+    }
     assert signs == {"heave": [1, 1, 1, 1], "roll": [1, -1, 1, -1], "pitch": [1, 1, -1, -1], "warp": [1, -1, -1, 1]}
     assert [run.notes["phase"] for run in RIGS["four_post"](duration=2.0).runs()] == ["heave", "roll"]
 

@@ -30,8 +30,18 @@ def folder(seed, tmp_path_factory):
 def linear(mount):
     """A car all of whose laws are straight lines."""
     tire = CarTire(TIRE, 1e-3, 0.0, (1e-3, 1e-2), 0.0, (1e-3, 1e-1), OIL)
-    return Car(wheel_mass=45.0, tire=tire, spring=SPRING, spring_hardening=0.0, bump_at=1.0, rebound=(SLOPE, 1e9),
-               compression=(SLOPE, 1e9), mount_stiffness=mount, friction=0.0, bar_friction=0.0)  # fmt: skip
+    return Car(
+        wheel_mass=45.0,
+        tire=tire,
+        spring=SPRING,
+        spring_hardening=0.0,
+        bump_at=1.0,
+        rebound=(SLOPE, 1e9),
+        compression=(SLOPE, 1e9),
+        mount_stiffness=mount,
+        friction=0.0,
+        bar_friction=0.0,
+    )
 
 
 def transfer(car, frequency, added=0.0):

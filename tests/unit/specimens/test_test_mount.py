@@ -59,8 +59,10 @@ def test_the_fluid_keeps_out_as_long_as_the_plate_is_free():
 
 def test_the_peak_is_highest_at_a_middle_amplitude_and_turbulence_lowers_it_beyond():
     mount = Mount()
-    peaks = [max(abs(steady(mount, amplitude, frequency)) for frequency in (10.0, 11.0, 12.0, 13.0))
-             for amplitude in (0.1e-3, 0.3e-3, 1e-3, 2e-3)]  # fmt: skip
+    peaks = [
+        max(abs(steady(mount, amplitude, frequency)) for frequency in (10.0, 11.0, 12.0, 13.0))
+        for amplitude in (0.1e-3, 0.3e-3, 1e-3, 2e-3)
+    ]
     assert peaks[0] < 0.5 * peaks[3] and peaks[1] > peaks[2] > peaks[3]
 
 

@@ -18,9 +18,20 @@ from dashpot_specimens.car_path import sweep, triangle
 
 SIDES = ("left", "right")
 MASS, SPRING, TIRE, BAR, SLOPE, FRICTION = 45.0, 24e3, 210e3, 12e3, 1500.0, 30.0
-CAR = Car(wheel_mass=MASS, tire=CarTire(TIRE, 1e-3, 0.0, (1e-3, 1e-2), 0.0, (1e-3, 1e-1), 0.0), spring=SPRING,
-          spring_hardening=0.0, bump_at=1.0, rebound=(SLOPE, 1e9), compression=(SLOPE, 1e9), mount_stiffness=np.inf,
-          friction=FRICTION, breakaway=1.0, bar=BAR, bar_friction=0.0)  # fmt: skip
+CAR = Car(
+    wheel_mass=MASS,
+    tire=CarTire(TIRE, 1e-3, 0.0, (1e-3, 1e-2), 0.0, (1e-3, 1e-1), 0.0),
+    spring=SPRING,
+    spring_hardening=0.0,
+    bump_at=1.0,
+    rebound=(SLOPE, 1e9),
+    compression=(SLOPE, 1e9),
+    mount_stiffness=np.inf,
+    friction=FRICTION,
+    breakaway=1.0,
+    bar=BAR,
+    bar_friction=0.0,
+)
 NETWORK = """\
 format: dashpot-network/1
 name: straight
@@ -58,9 +69,11 @@ def record(name: str, kind: str, paths: np.ndarray, every: int, added: float = 0
 @pytest.fixture(scope="module")
 def axle() -> Axle:
     slow, fast = triangle(-20e-3, 20e-3, 12.0), sweep(3e-3, 5.0, 20.0, 6.0)
-    runs = [record("heave", "quasi_static", np.array([slow, slow]), 200),
-            record("roll", "quasi_static", np.array([slow, -slow]), 200),
-            *(record(f"m{added:g}", "sweep", np.array([fast, fast]), 20, added) for added in (0.0, 10.0))]  # fmt: skip
+    runs = [
+        record("heave", "quasi_static", np.array([slow, slow]), 200),
+        record("roll", "quasi_static", np.array([slow, -slow]), 200),
+        *(record(f"m{added:g}", "sweep", np.array([fast, fast]), 20, added) for added in (0.0, 10.0)),
+    ]
     spec = parse_network(NETWORK, load_registry().elements, "straight.yaml")
     found = axle_of(spec, one_force_each(Dataset("axle", tuple(runs))).runs)
     assert found is not None
@@ -75,8 +88,10 @@ def test_an_axle_has_a_wheel_behind_each_platform(axle):
 
 
 def without_wheels(axle: Axle) -> Axle:
-    runs = [replace(run, channels={name: each for name, each in run.channels.items() if "@wheel" not in name})
-            for run in axle.runs]  # fmt: skip
+    runs = [
+        replace(run, channels={name: each for name, each in run.channels.items() if "@wheel" not in name})
+        for run in axle.runs
+    ]
     return replace(axle, runs=tuple(runs))
 
 
@@ -107,9 +122,15 @@ def test_without_measured_wheels_there_is_no_mass_without_a_model(axle):
 def test_contact_forces_are_told_by_wheel_and_added_mass(axle):
     frequency, force = np.array([6.0, 12.0]), np.array([300.0, 2000.0])
     response = {"force": force}
-    curves = [{"run": run.name, "frequency": frequency, "measured": response, "simulated": {"m": response}}
-              for run in axle.runs]  # fmt: skip
+    curves = [
+        {"run": run.name, "frequency": frequency, "measured": response, "simulated": {"m": response}}
+        for run in axle.runs
+    ]
     found = [curve for curve in contact_responses(axle, curves) if curve["run"].startswith("m")]
     assert [(each["wheel"], each["added_mass"]) for each in found] == [
-        ("wheel_left", 0.0), ("wheel_right", 0.0), ("wheel_left", 10.0), ("wheel_right", 10.0)]  # fmt: skip
+        ("wheel_left", 0.0),
+        ("wheel_right", 0.0),
+        ("wheel_left", 10.0),
+        ("wheel_right", 10.0),
+    ]
     assert found[0]["simulated"]["m"] is force

@@ -28,11 +28,23 @@ def problems_of(text: str) -> str:
 @pytest.mark.parametrize(
     ("written", "meant"),
     [
-        ("12e3", 12e3), ("1e-3", 1e-3), ("-.5", -0.5), ("3.", 3.0), ("012", 12), ("0o17", 15), ("0x1F", 31),
-        ("+7", 7), (".inf", math.inf), ("-.INF", -math.inf), ("true", True), ("FALSE", False), ("null", None),
-        ("~", None), ("", None),
+        ("12e3", 12e3),
+        ("1e-3", 1e-3),
+        ("-.5", -0.5),
+        ("3.", 3.0),
+        ("012", 12),
+        ("0o17", 15),
+        ("0x1F", 31),
+        ("+7", 7),
+        (".inf", math.inf),
+        ("-.INF", -math.inf),
+        ("true", True),
+        ("FALSE", False),
+        ("null", None),
+        ("~", None),
+        ("", None),
     ],
-)  # fmt: skip
+)
 def test_numbers_and_truth_values_are_those_of_yaml_1_2(written, meant):
     value = value_of(written)
     assert value == meant and type(value) is type(meant)

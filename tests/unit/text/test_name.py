@@ -12,10 +12,30 @@ def test_names_of_people_are_names(name):
     assert is_name(name)
 
 
-@pytest.mark.parametrize("name", [
-    "", "x" * 121, "a/b", "a\\b", "..", ".hidden", "a\nb", "a\x7fb", "a\0b", "con:", "what?", "all*", " a", "a ",
-    "a\u202egnp.exe", "a\u200bb", "a\u2066b", "a\u2028b", "\ufeffa",
-])  # fmt: skip
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        "x" * 121,
+        "a/b",
+        "a\\b",
+        "..",
+        ".hidden",
+        "a\nb",
+        "a\x7fb",
+        "a\0b",
+        "con:",
+        "what?",
+        "all*",
+        " a",
+        "a ",
+        "a\u202egnp.exe",
+        "a\u200bb",
+        "a\u2066b",
+        "a\u2028b",
+        "\ufeffa",
+    ],
+)
 def test_what_cannot_be_a_file_or_deceives_the_reader_is_none(name):
     assert not is_name(name)
 

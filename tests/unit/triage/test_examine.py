@@ -56,13 +56,17 @@ def test_sound_runs_have_no_fault(rng):
     assert kinds(dataset(rng)) == []
 
 
-@pytest.mark.parametrize("effect", [
-    lambda x, v: 150.0 * np.tanh(v / 1e-3),
-    lambda x, v: 5e5 * np.maximum(x - 20e-3, 0.0),
-    lambda x, v: 800.0 * v * (x / 10e-3),
-    lambda x, v: 2.0e3 * np.abs(v) * v,
-    lambda x, v: np.where(x > 21e-3, -2e5 * (x - 21e-3), 0.0),
-], ids=["friction", "stop", "preload", "quadratic", "yielding"])  # fmt: skip
+@pytest.mark.parametrize(
+    "effect",
+    [
+        lambda x, v: 150.0 * np.tanh(v / 1e-3),
+        lambda x, v: 5e5 * np.maximum(x - 20e-3, 0.0),
+        lambda x, v: 800.0 * v * (x / 10e-3),
+        lambda x, v: 2.0e3 * np.abs(v) * v,
+        lambda x, v: np.where(x > 21e-3, -2e5 * (x - 21e-3), 0.0),
+    ],
+    ids=["friction", "stop", "preload", "quadratic", "yielding"],
+)
 def test_effects_of_the_specimen_are_no_faults(rng, effect):
     assert kinds(dataset(rng, effect)) == []
 

@@ -66,13 +66,17 @@ def test_each_second_of_delay_takes_away_what_is_told():
     assert work.explicable(0.0) == pytest.approx(REVERSIBILITY * work.moved)
 
 
-@pytest.mark.parametrize("law", [
-    lambda x, v: 1e5 * x,
-    lambda x, v: 1e5 * x + 3e8 * x**3,
-    lambda x, v: 1e5 * x + 20.0 * np.gradient(v, STEP),
-    lambda x, v: np.where(x > 0.0, 1e5 * x, 0.0),
-    lambda x, v: 1e5 * np.maximum(np.abs(x) - 5e-4, 0.0) * np.sign(x),
-], ids=["spring", "progressive", "mass", "lift_off", "clearance"])  # fmt: skip
+@pytest.mark.parametrize(
+    "law",
+    [
+        lambda x, v: 1e5 * x,
+        lambda x, v: 1e5 * x + 3e8 * x**3,
+        lambda x, v: 1e5 * x + 20.0 * np.gradient(v, STEP),
+        lambda x, v: np.where(x > 0.0, 1e5 * x, 0.0),
+        lambda x, v: 1e5 * np.maximum(np.abs(x) - 5e-4, 0.0) * np.sign(x),
+    ],
+    ids=["spring", "progressive", "mass", "lift_off", "clearance"],
+)
 @pytest.mark.parametrize("delay", [0.0, 0.9e-3])
 @pytest.mark.parametrize("noise", [0.0, 20.0])
 def test_an_elastic_specimen_is_not_accused(law, delay, noise):

@@ -22,8 +22,9 @@ def integrate(rate: Rate, start: Sequence[float], times: np.ndarray, turns: Sequ
     for begin, end in zip(ends, ends[1:], strict=False):
         here = (times > begin) & (times <= end)
         at = times[here] if here.any() and times[here][-1] == end else np.append(times[here], end)
-        answer = solve_ivp(rate, (begin, end), state, method="DOP853", rtol=1e-10, atol=1e-13, t_eval=at,
-                           max_step=(end - begin) / 50.0)  # fmt: skip
+        answer = solve_ivp(
+            rate, (begin, end), state, method="DOP853", rtol=1e-10, atol=1e-13, t_eval=at, max_step=(end - begin) / 50.0
+        )
         assert answer.success
         found[:, here] = answer.y[:, : here.sum()]
         state = answer.y[:, -1]

@@ -23,8 +23,14 @@ class StateSpace:
         count, omegas = self.a.shape[0], motion.omegas
         # x, x', x'', 1 from the states 1, cos(w t), sin(w t)
         none, cosine, sine = np.zeros(omegas.size), motion.amplitudes, -motion.amplitudes * omegas
-        see = np.array([[motion.mean, *cosine, *none], [0.0, *none, *sine], [0.0, *(-cosine * omegas**2), *none],
-                        [1.0, *none, *none]])  # fmt: skip
+        see = np.array(
+            [
+                [motion.mean, *cosine, *none],
+                [0.0, *none, *sine],
+                [0.0, *(-cosine * omegas**2), *none],
+                [1.0, *none, *none],
+            ]
+        )
         turning = np.zeros((1 + 2 * omegas.size,) * 2)
         for number, omega in enumerate(omegas, 1):
             turning[number, number + omegas.size], turning[number + omegas.size, number] = -omega, omega
@@ -48,17 +54,35 @@ class StateSpace:
 
 def quarter_car(m, body, k, d, ks, ds, gravity=0.0, tire_offset=0.0, offset=0.0) -> StateSpace:
     """Platform, tire, wheel, suspension, body that is free to move; states: both places and velocities."""
-    a = np.array([[0, 1, 0, 0], [-(k + ks) / m, -(d + ds) / m, ks / m, ds / m], [0, 0, 0, 1],
-                  [ks / body, ds / body, -ks / body, -ds / body]], dtype=float)  # fmt: skip
-    b = np.array([[0, 0, 0, 0], [k / m, d / m, 0, (k * tire_offset - ks * offset) / m - gravity], [0, 0, 0, 0],
-                  [0, 0, 0, ks * offset / body - gravity]], dtype=float)  # fmt: skip
+    a = np.array(
+        [
+            [0, 1, 0, 0],
+            [-(k + ks) / m, -(d + ds) / m, ks / m, ds / m],
+            [0, 0, 0, 1],
+            [ks / body, ds / body, -ks / body, -ds / body],
+        ],
+        dtype=float,
+    )
+    b = np.array(
+        [
+            [0, 0, 0, 0],
+            [k / m, d / m, 0, (k * tire_offset - ks * offset) / m - gravity],
+            [0, 0, 0, 0],
+            [0, 0, 0, ks * offset / body - gravity],
+        ],
+        dtype=float,
+    )
     return StateSpace(a, b, np.array([-k, -d, 0, 0], dtype=float), np.array([k, d, 0, k * tire_offset], dtype=float))
 
 
 def zener(k, k_inner, d_inner) -> StateSpace:
     """A spring in series with a spring and a damper in parallel; the state is the deflection of those."""
-    return StateSpace(np.array([[-(k + k_inner) / d_inner]]), np.array([[k / d_inner, 0.0, 0.0, 0.0]]),
-                      np.array([-k]), np.array([k, 0.0, 0.0, 0.0]))  # fmt: skip
+    return StateSpace(
+        np.array([[-(k + k_inner) / d_inner]]),
+        np.array([[k / d_inner, 0.0, 0.0, 0.0]]),
+        np.array([-k]),
+        np.array([k, 0.0, 0.0, 0.0]),
+    )
 
 
 def three_in_series(k, d, k_last, d_last) -> StateSpace:
@@ -75,5 +99,6 @@ def chain(m1, m2, k1, d1, k2, b2, k3, d3) -> StateSpace:
     stiff, damped = np.array([[k1 + k2, -k2], [-k2, k2 + k3]]), np.diag([d1, d3])
     pushed = np.linalg.solve(mass, np.array([[k1, d1, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]]))
     a = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(mass, stiff), -np.linalg.solve(mass, damped)]])
-    return StateSpace(a, np.vstack([np.zeros((2, 4)), pushed]), np.array([-k1, 0.0, -d1, 0.0]),
-                      np.array([k1, d1, 0.0, 0.0]))  # fmt: skip
+    return StateSpace(
+        a, np.vstack([np.zeros((2, 4)), pushed]), np.array([-k1, 0.0, -d1, 0.0]), np.array([k1, d1, 0.0, 0.0])
+    )

@@ -158,8 +158,10 @@ class Axle:
 
         def missing(z):
             bar = self.bar * (z[0] - z[1])
-            return [self.tire.spring(p - place + self.offset) - self.spring(place) - side - self.mass * GRAVITY
-                    for p, place, side in zip(platforms, z, (bar, -bar), strict=True)]  # fmt: skip
+            return [
+                self.tire.spring(p - place + self.offset) - self.spring(place) - side - self.mass * GRAVITY
+                for p, place, side in zip(platforms, z, (bar, -bar), strict=True)
+            ]
 
         found, _, status, message = fsolve(missing, [0.0, 0.0], xtol=1e-15, full_output=True)
         assert np.max(np.abs(missing(found))) < 1e-8, message
@@ -178,9 +180,15 @@ class Axle:
             (push_left, rates_left, _), (push_right, rates_right, _) = sides(t, y)
             between = y[1] - y[count + 1]
             bar = self.bar * (y[0] - y[count]) + y[-1]
-            return [y[1], (push_left - bar) / self.mass - GRAVITY, *rates_left, y[count + 1],
-                    (push_right + bar) / self.mass - GRAVITY, *rates_right,
-                    dahl_rate(y[-1], between, *self.bar_friction)]  # fmt: skip
+            return [
+                y[1],
+                (push_left - bar) / self.mass - GRAVITY,
+                *rates_left,
+                y[count + 1],
+                (push_right + bar) / self.mass - GRAVITY,
+                *rates_right,
+                dahl_rate(y[-1], between, *self.bar_friction),
+            ]
 
         rest = self.equilibrium([float(left.place(0.0)), float(right.place(0.0))])
         start = np.zeros(2 * count + 1)
@@ -216,8 +224,13 @@ class QuarterCar:
             y = y.tolist()
             v = y[1] - y[3]
             strut = self.stiffness * (y[0] - y[2] + self.suspension_offset) + self.damping * v + y[4]
-            return [y[1], (tire(t, y) - strut) / self.mass - GRAVITY, y[3], strut / self.body - GRAVITY,
-                    dahl_rate(y[4], v, *self.friction)]  # fmt: skip
+            return [
+                y[1],
+                (tire(t, y) - strut) / self.mass - GRAVITY,
+                y[3],
+                strut / self.body - GRAVITY,
+                dahl_rate(y[4], v, *self.friction),
+            ]
 
         states = integrate(rate, self.equilibrium(float(motion.place(0.0))), times, [1e-13, 1e-11, 1e-13, 1e-11, 1e-8])
         return np.array([tire(t, y.tolist()) for t, y in zip(times, states.T, strict=True)])
@@ -242,8 +255,9 @@ def scalar(motion: Cosines):
 def integrate(rate, start, times, small) -> np.ndarray:
     """States (count, n) to ten digits. All rates are continuous; where a way turns they have a kink, which is why the
     steps are short."""
-    found = solve_ivp(rate, (times[0], times[-1]), start, method="DOP853", rtol=1e-10, atol=small, t_eval=times,
-                      max_step=1e-3)  # fmt: skip
+    found = solve_ivp(
+        rate, (times[0], times[-1]), start, method="DOP853", rtol=1e-10, atol=small, t_eval=times, max_step=1e-3
+    )
     assert found.success
     return found.y
 
@@ -279,18 +293,27 @@ def axle_of(numbers: Numbers, knots: Mapping[str, Sequence[float]], kind: str, m
     (friction,) = pairs(numbers, ["friction"], "limit")
     (bar_friction,) = pairs(numbers, ["anti_roll_bar.friction"], "limit")
     return Axle(
-        numbers["wheel_left.mass"] + added, tire_of(numbers, knots, kind), numbers["tire.offset"],
-        curve(numbers, "suspension.stiffness", knots["suspension.stiffness"]), friction,
+        numbers["wheel_left.mass"] + added,
+        tire_of(numbers, knots, kind),
+        numbers["tire.offset"],
+        curve(numbers, "suspension.stiffness", knots["suspension.stiffness"]),
+        friction,
         Strut(curve(numbers, absorber, knots[absorber]), behind, numbers.get("rod_left.mass", 0.0)),
-        numbers["anti_roll_bar.bar.stiffness"], bar_friction,
-    )  # fmt: skip
+        numbers["anti_roll_bar.bar.stiffness"],
+        bar_friction,
+    )
 
 
 def quarter_car_of(numbers: Numbers, knots: Mapping[str, Sequence[float]], added: float) -> QuarterCar:
     """The quarter car with the numbers at the paths of its file."""
     (friction,) = pairs(numbers, ["friction"], "limit")
     return QuarterCar(
-        numbers["wheel.mass"] + added, numbers["body.mass"], tire_of(numbers, knots, "kelvin_voigt"),
-        numbers["tire.offset"], numbers["suspension.stiffness"], numbers["suspension.offset"],
-        numbers["shock_absorber.damping"], friction,
-    )  # fmt: skip
+        numbers["wheel.mass"] + added,
+        numbers["body.mass"],
+        tire_of(numbers, knots, "kelvin_voigt"),
+        numbers["tire.offset"],
+        numbers["suspension.stiffness"],
+        numbers["suspension.offset"],
+        numbers["shock_absorber.damping"],
+        friction,
+    )

@@ -174,8 +174,17 @@ def _finding(
         signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
         motion = find_motion(signals["displacement"], timing.step or 1.0)
     settings = motion.settings if timing.step else {}
-    return Finding(timing, channels, motion.kind, settings, rows, tuple(table.columns), tuple(confirm), signals,
-                   levels=_levels(channels, columns))  # fmt: skip
+    return Finding(
+        timing,
+        channels,
+        motion.kind,
+        settings,
+        rows,
+        tuple(table.columns),
+        tuple(confirm),
+        signals,
+        levels=_levels(channels, columns),
+    )
 
 
 def _levels(channels: Mapping[str, ChannelFound], columns: Mapping[str, np.ndarray]) -> dict[str, Level]:

@@ -9,11 +9,20 @@ from dashpot.text.quantity import measure
 
 # unit in a name -> setting, and how the unit is written
 _UNITS = {
-    "A": ("current", "A"), "mA": ("current", "mA"), "V": ("voltage", "V"), "mV": ("voltage", "mV"),
-    "bar": ("pressure", "bar"), "mbar": ("pressure", "mbar"), "kPa": ("pressure", "kPa"), "MPa": ("pressure", "MPa"),
-    "psi": ("pressure", "psi"), "degC": ("temperature", "degC"), "°C": ("temperature", "degC"),
-    "grad": ("temperature", "degC"), "C": ("temperature", "degC"),
-}  # fmt: skip
+    "A": ("current", "A"),
+    "mA": ("current", "mA"),
+    "V": ("voltage", "V"),
+    "mV": ("voltage", "mV"),
+    "bar": ("pressure", "bar"),
+    "mbar": ("pressure", "mbar"),
+    "kPa": ("pressure", "kPa"),
+    "MPa": ("pressure", "MPa"),
+    "psi": ("pressure", "psi"),
+    "degC": ("temperature", "degC"),
+    "°C": ("temperature", "degC"),
+    "grad": ("temperature", "degC"),
+    "C": ("temperature", "degC"),
+}
 _CONDITION = re.compile(
     r"(?:(?<=[_ ])(?P<minus>-|m(?=\d)))?(?<![\d.,])(?P<number>\d+(?:[.,xp]\d+)?)[ _]?"
     rf"(?P<unit>{'|'.join(sorted(map(re.escape, _UNITS), key=len, reverse=True))})(?![A-Za-z])"
@@ -27,7 +36,8 @@ _WORDS = {
 _WORD = "|".join(sorted(_WORDS, key=len, reverse=True))
 _NUMBERED = re.compile(
     rf"(?<![A-Za-z])(?:(?P<word>{_WORD})[ _-]?(?P<number>\d+(?:[.,xp]\d+)?)"
-    rf"|(?<![.,\d])(?P<before>\d+)[ _-]?(?P<noun>{_WORD}))(?![A-Za-z\d.,])", re.I
+    rf"|(?<![.,\d])(?P<before>\d+)[ _-]?(?P<noun>{_WORD}))(?![A-Za-z\d.,])",
+    re.I,
 )
 
 

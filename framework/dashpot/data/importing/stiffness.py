@@ -105,10 +105,16 @@ def _guess(kind: str, largest: float) -> str:
 
 
 def _doubts(columns: Mapping[str, ColumnFound], unused: Sequence[str]) -> list[str]:
-    doubts = [f"the {key} '{found.column}' is taken to be in {found.unit.unit}: no unit is stated"
-              for key, found in columns.items() if found.unit.by == GUESSED and key != "loss_factor"]  # fmt: skip
-    doubts += [f"no column was found for the {key}: say its column, or the one of all rows under settings"
-               for key in NEEDED if key not in columns]  # fmt: skip
+    doubts = [
+        f"the {key} '{found.column}' is taken to be in {found.unit.unit}: no unit is stated"
+        for key, found in columns.items()
+        if found.unit.by == GUESSED and key != "loss_factor"
+    ]
+    doubts += [
+        f"no column was found for the {key}: say its column, or the one of all rows under settings"
+        for key in NEEDED
+        if key not in columns
+    ]
     loads = [name for name in unused if re.search("load|last", name, re.I)]
     if loads and "preload" not in columns:
         told = f"'{loads[0]}' may be a preload told as a force"

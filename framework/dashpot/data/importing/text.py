@@ -94,8 +94,11 @@ def _table_lines(table: ImportedTable, folder: Path) -> list[str]:
         lines.append(f"  {key}: {_flow({'column': quoted(found.column), 'unit': quoted(found.unit.unit)})}{remark}")
     if table.finding.unused:
         lines.append(f"  # not used: {_one_line(', '.join(table.finding.unused[:12]))}")
-    lines += [f"# CONFIRM: settings: {{{key}: ...}}   (no column was found)" for key in NEEDED
-              if key not in table.finding.columns]  # fmt: skip
+    lines += [
+        f"# CONFIRM: settings: {{{key}: ...}}   (no column was found)"
+        for key in NEEDED
+        if key not in table.finding.columns
+    ]
     return ["  - " + lines[0], *("    " + line for line in lines[1:])]
 
 

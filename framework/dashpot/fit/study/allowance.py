@@ -71,8 +71,11 @@ def allowance(objective: Objective, branch: str, model: str, share: float) -> Al
 
 def force_slots(spec: NetworkSpec, branch: str) -> list[int]:
     """The parameters of a branch that are proportional to its force: moved alike, they move the force alike."""
-    return [number for number, slot in enumerate(spec.slots())
-            if slot.path.startswith(f"{branch}.") and force_dimension(slot.value.unit) == 1]  # fmt: skip
+    return [
+        number
+        for number, slot in enumerate(spec.slots())
+        if slot.path.startswith(f"{branch}.") and force_dimension(slot.value.unit) == 1
+    ]
 
 
 def force_error(*judged: tuple[Errors, Setting]) -> float:

@@ -11,8 +11,9 @@ from dashpot.model.reading import parse_network
 from dashpot.text.document import Document
 
 
-def with_parts(spec: NetworkSpec, parts: Mapping[str, str], texts: Mapping[str, str],
-               registry: Registry) -> NetworkSpec:  # fmt: skip
+def with_parts(
+    spec: NetworkSpec, parts: Mapping[str, str], texts: Mapping[str, str], registry: Registry
+) -> NetworkSpec:
     """The network whose branches use the identified models of ``parts`` (branch -> model), given by their ``texts``.
 
     In its text they are called ``<model>.yaml``. Raises InputError for a branch that uses no network.

@@ -177,10 +177,13 @@ class _Conduct:
         train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
         objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
         errors = measure_errors(spec, self.setting, self.jobs)
-        shares = {branch: force_error((part.fit.errors, part.setting), (errors, self.setting))
-                  for branch, part in parts.items()}  # fmt: skip
-        allowed = [allowance(objective, branch, part.fit.declared.name, shares[branch])
-                   for branch, part in parts.items()]  # fmt: skip
+        shares = {
+            branch: force_error((part.fit.errors, part.setting), (errors, self.setting))
+            for branch, part in parts.items()
+        }
+        allowed = [
+            allowance(objective, branch, part.fit.declared.name, shares[branch]) for branch, part in parts.items()
+        ]
         known_before = known_numbers(objective)
         shifts = [*(each.shift for each in allowed), *(each.shift for each in known_before)]
         known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
@@ -205,14 +208,25 @@ class _Conduct:
             known=told,
         )
         effects = [effect(coordinates, moved) for moved in known.moved]
-        owed = tuple(Owed(each.branch, each.model, each.share, numbers)
-                     for each, numbers in zip(allowed, effects, strict=False))  # fmt: skip
+        owed = tuple(
+            Owed(each.branch, each.model, each.share, numbers) for each, numbers in zip(allowed, effects, strict=False)
+        )
         curves = set(spec.data_curves())
-        to_known = tuple(OwedToKnown.of(each, numbers)
-                        for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
-                        if each.path.partition("[")[0] not in curves)  # fmt: skip
-        return ModelResult(self.setting, fit, stages, told, self._resampled(plan, spec, objective, coordinates),
-                           self._profiles(plan, objective, coordinates), owed, to_known)  # fmt: skip
+        to_known = tuple(
+            OwedToKnown.of(each, numbers)
+            for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
+            if each.path.partition("[")[0] not in curves
+        )
+        return ModelResult(
+            self.setting,
+            fit,
+            stages,
+            told,
+            self._resampled(plan, spec, objective, coordinates),
+            self._profiles(plan, objective, coordinates),
+            owed,
+            to_known,
+        )
 
     def _resampled(
         self, plan: ModelPlan, spec: NetworkSpec, objective: Objective, coordinates: Coordinates
@@ -223,9 +237,15 @@ class _Conduct:
         groups = [group_of[run.name] for run in objective.runs]
         self._tell(plan, "bootstrap")
         found = bootstrap_intervals(
-            objective, coordinates, coordinates.start, groups, self.study.bootstrap, self.study.seed, self.jobs,
+            objective,
+            coordinates,
+            coordinates.start,
+            groups,
+            self.study.bootstrap,
+            self.study.seed,
+            self.jobs,
             interchangeable(plan.network, spec),
-        )  # fmt: skip
+        )
         return dict(zip(coordinates.paths, found, strict=True))
 
     def _profiles(self, plan: ModelPlan, objective: Objective, coordinates: Coordinates) -> tuple[Profile, ...]:

@@ -81,5 +81,6 @@ def restricted(setting: Setting, plan: ModelPlan) -> Setting:
 
 def run_weights(study: StudySpec, runs: list[ScoredRun]) -> list[float]:
     """The weight of each run: its own, times that of the first pattern that names it, else 1."""
-    return [run.weight * next((w for pattern, w in study.weights.items() if named(run, [pattern])), 1.0)
-            for run in runs]  # fmt: skip
+    return [
+        run.weight * next((w for pattern, w in study.weights.items() if named(run, [pattern])), 1.0) for run in runs
+    ]

@@ -28,8 +28,9 @@ class Mount:
     gap: Node
 
 
-def solve_symmetric(matrix: Matrix, right: Mapping[str, Node],
-                    mounts: Mapping[str, Mount] = MappingProxyType({})) -> dict[str, Node]:  # fmt: skip
+def solve_symmetric(
+    matrix: Matrix, right: Mapping[str, Node], mounts: Mapping[str, Mount] = MappingProxyType({})
+) -> dict[str, Node]:
     """The unknowns by name of ``matrix x = right``, a sparse symmetric and positive matrix without its zeros.
 
     The unknown with the fewest neighbours goes first. No pivot gets smaller than a floor, so that a joint that only

@@ -44,9 +44,17 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
     still, launch, moving = Still(topology, laws), Launch(topology, laws), Moving(topology, laws)
-    passes = {"start": still.start(), "settle": still.improve(), "rest": still.rest(), "launch": search(launch),
-              "set_off": launch.set_off(), "predict": moving.predict(), "improve": moving.improve(),
-              "search": search(moving), "commit": moving.commit()}  # fmt: skip
+    passes = {
+        "start": still.start(),
+        "settle": still.improve(),
+        "rest": still.rest(),
+        "launch": search(launch),
+        "set_off": launch.set_off(),
+        "predict": moving.predict(),
+        "improve": moving.improve(),
+        "search": search(moving),
+        "commit": moving.commit(),
+    }
     if meter:
         passes["rest"] |= meter.rest(still)
         passes["commit"] |= meter.commit(moving)

@@ -53,8 +53,11 @@ class Still(Balance):
         if edge.branch.name not in self.prompt:
             return {}
         speed = self.difference(edge, self.velocity)
-        return {"edge.velocity_old": speed, "edge.velocity_new": speed,
-                "edge.acceleration": self.difference(edge, self.acceleration)}  # fmt: skip
+        return {
+            "edge.velocity_old": speed,
+            "edge.velocity_new": speed,
+            "edge.acceleration": self.difference(edge, self.acceleration),
+        }
 
     def acceleration(self, joint: str) -> Node:
         """That of the driven nodes, and of what they carry."""

@@ -61,8 +61,10 @@ class Launch(Still):
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """The measured forces at the end of the last move, by their tangents."""
         done = symbol(DONE) > 0.5
-        return {reached_row(name): where(done, symbol(reached_row(name)), node)
-                for name, node in self.outputs(self.moved_forces(moves)).items()}  # fmt: skip
+        return {
+            reached_row(name): where(done, symbol(reached_row(name)), node)
+            for name, node in self.outputs(self.moved_forces(moves)).items()
+        }
 
     def missing(self) -> dict[str, Node]:
         give = maximum(GIVES_WAY, SMALLEST_GIVE)

@@ -39,8 +39,12 @@ class EnergyMeter:
         rows: dict[str, Node] = {}
         for edge, law, force in self._edges(still):
             held = self._held(still, edge, law)
-            rows |= {edge_row(edge, "force"): force, edge_row(edge, WORK): ZERO, **_first(edge_row(edge, BEGIN), held),
-                     **_first(edge_row(edge, STORED), held)}  # fmt: skip
+            rows |= {
+                edge_row(edge, "force"): force,
+                edge_row(edge, WORK): ZERO,
+                **_first(edge_row(edge, BEGIN), held),
+                **_first(edge_row(edge, STORED), held),
+            }
         for joint in self._weighty():
             held = self._weight(still, joint)
             rows |= {row_of(joint, BEGIN): held, row_of(joint, STORED): held}
@@ -57,15 +61,20 @@ class EnergyMeter:
         for edge, law, force in self._edges(moving):
             motion = moving.motion(edge)
             done = _added(edge_row(edge, WORK), edge_row(edge, "force"), force, motion["edge.new"] - motion["edge.old"])
-            rows |= {edge_row(edge, "force"): force, edge_row(edge, WORK): done,
-                     **_first(edge_row(edge, STORED), self._held(moving, edge, law, done))}  # fmt: skip
+            rows |= {
+                edge_row(edge, "force"): force,
+                edge_row(edge, WORK): done,
+                **_first(edge_row(edge, STORED), self._held(moving, edge, law, done)),
+            }
         for joint in self._weighty():
             rows[row_of(joint, STORED)] = self._weight(moving, joint)
         for joint in self._pushed():
             push = self._outside(moving, joint)
             travel = moving.position(joint) - moving.before(joint, "old", "position")
-            rows |= {row_of(joint, WORK): _added(row_of(joint, WORK), row_of(joint, "push"), push, travel),
-                     row_of(joint, "push"): push}  # fmt: skip
+            rows |= {
+                row_of(joint, WORK): _added(row_of(joint, WORK), row_of(joint, "push"), push, travel),
+                row_of(joint, "push"): push,
+            }
         for joint in self.topology.mounts:
             rows[row_of(joint, STORED)] = self._strain(moving, joint)
         return rows

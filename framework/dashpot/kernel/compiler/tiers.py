@@ -50,9 +50,16 @@ def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
     columns, constants, lookups = hoist(everything, events, regroup.tiers)
     turning = {name for branch in branches if branch.sight == "monotone" for name in branch.states}
     return Program(
-        columns, constants, lookups, followers, force, dict(zip(states, updates, strict=True)),
-        tuple(name for name in states if name in turning), events, corrected,
-    )  # fmt: skip
+        columns,
+        constants,
+        lookups,
+        followers,
+        force,
+        dict(zip(states, updates, strict=True)),
+        tuple(name for name in states if name in turning),
+        events,
+        corrected,
+    )
 
 
 def _corrected(correction: Correction, among_others: bool) -> Node:

@@ -66,8 +66,11 @@ def refuse_missing_numbers(spec: NetworkSpec) -> None:
     for path, curve in spec.data_curves().items():
         if curve.form == "data":
             place = curve.node.place if curve.node else Place()
-            raise InputError.at(place, f"the curve '{path}' is to be taken from data and has no knots yet",
-                                "fit the network first, or write a table")  # fmt: skip
+            raise InputError.at(
+                place,
+                f"the curve '{path}' is to be taken from data and has no knots yet",
+                "fit the network first, or write a table",
+            )
 
 
 def trace_branch(branch: Branch) -> TracedBranch:
@@ -150,8 +153,10 @@ def check_states(branch: Branch, response: Response) -> None:
     """Raise TraceError where a law does not answer exactly the states that it declares."""
     declared, answered = sorted(branch.element.declares.states), sorted(response.states)
     if declared != answered:
-        raise TraceError(f"it declares the states {declared} but its step answers {answered}; "
-                         "answer Response(force, <state>=...) with each of them")  # fmt: skip
+        raise TraceError(
+            f"it declares the states {declared} but its step answers {answered}; "
+            "answer Response(force, <state>=...) with each of them"
+        )
 
 
 def _parameter(branch: Branch, key: str) -> Node | CurveLaw | float | None:

@@ -64,8 +64,13 @@ class Layout:
     ``shelves`` says for every curve that lanes look up by themselves where it stands.
     """
 
-    def __init__(self, program: Program, updates: Mapping[str, Node], force: Node | None = None,
-                 shelves: Mapping[str, Shelf] | None = None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        program: Program,
+        updates: Mapping[str, Node],
+        force: Node | None = None,
+        shelves: Mapping[str, Shelf] | None = None,
+    ) -> None:
         self.updates, self.force, self.shelves = updates, force, shelves or {}
         self.constants = {node.serial: number for number, node in enumerate(program.constants)}
         self.columns = {node.serial: number for number, node in enumerate(program.columns)}

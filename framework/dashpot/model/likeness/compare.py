@@ -63,19 +63,22 @@ class _Pair:
                 yield line + (f" ({told.count(line)} times)" if told.count(line) > 1 else "")
         yield from self._alone(self.first, self.names[0], set(self.first.joints) - set(self.pairing))
         yield from self._alone(self.second, self.names[1], set(self.second.joints) - set(self.pairing.values()))
-        cells = [{key: value.searched for key, value in network.spec.measurement.items()}
-                 for network in (self.first, self.second)]  # fmt: skip
+        cells = [
+            {key: value.searched for key, value in network.spec.measurement.items()}
+            for network in (self.first, self.second)
+        ]
         if cells[0] != cells[1]:
-            told = [", ".join(f"{key}{' free' * found}" for key, found in cell.items()) or "nothing"
-                    for cell in cells]  # fmt: skip
+            told = [", ".join(f"{key}{' free' * found}" for key, found in cell.items()) or "nothing" for cell in cells]
             yield f"measurement: {told[0]} in {self.names[0]}, {told[1]} in {self.names[1]}"
 
     def _nodes(self) -> Iterator[str]:
         for here, there in self.pairing.items():
             one, other = self.first.joints[here], self.second.joints[there]
             if role(one) != role(other):
-                yield (f"the node {_node(here)} is {_held(one)} in {self.names[0]}, {_node(there)} is {_held(other)} "
-                       f"in {self.names[1]}")  # fmt: skip
+                yield (
+                    f"the node {_node(here)} is {_held(one)} in {self.names[0]}, {_node(there)} is {_held(other)} "
+                    f"in {self.names[1]}"
+                )
 
     def _between(self, lower: str, upper: str) -> Iterator[str]:
         there = self.pairing[lower], self.pairing[upper]
@@ -87,8 +90,10 @@ class _Pair:
             if other:
                 more.remove(part)
                 less.remove(other)
-                yield (f"between {_node(lower)} and {_node(upper)}: {part.describe(True)} in {self.names[0]}, "
-                       f"{other.describe(True)} in {self.names[1]}")  # fmt: skip
+                yield (
+                    f"between {_node(lower)} and {_node(upper)}: {part.describe(True)} in {self.names[0]}, "
+                    f"{other.describe(True)} in {self.names[1]}"
+                )
         yield from _told(self.names[0], more, lower, upper)
         yield from _told(self.names[1], less, *there)
 
@@ -150,8 +155,10 @@ def _node(name: str) -> str:
 
 
 def _held(joint: Joint) -> str:
-    masses = [key + (" free" if value.searched else "") + (" given by runs" if value.setting else "")
-              for key, value in joint.masses.items()]  # fmt: skip
+    masses = [
+        key + (" free" if value.searched else "") + (" given by runs" if value.setting else "")
+        for key, value in joint.masses.items()
+    ]
     tied = ", tied to another node" if joint.shares else ""
     return joint.hold + (f" with {', '.join(masses)}{tied}" if masses else "")
 
@@ -171,8 +178,10 @@ def _numbers(part: Part, network: Reduced) -> dict[str, tuple[str, Value]]:
             found[f".{key}"] = (f"{branch.numbers}.{key}", Value(parameter.default, parameter.unit))
     for key, curve in branch.characteristics().items():
         unit = curve.curve.over[1]
-        found |= {f".{key} at {k}": (f"{branch.numbers}.{key}, knot {k + 1}", Value(at, unit))
-                  for k, at in enumerate(curve.at)}  # fmt: skip
+        found |= {
+            f".{key} at {k}": (f"{branch.numbers}.{key}, knot {k + 1}", Value(at, unit))
+            for k, at in enumerate(curve.at)
+        }
     offset = ends.offset if ends and ends.offset else Value(0.0, "m")
     return found | {" offset": (part.edge.offset or f"{branch.numbers}.offset", offset)}
 

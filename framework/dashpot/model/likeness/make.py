@@ -66,6 +66,10 @@ def is_even(branch: Branch) -> bool:
     angle = np.linspace(0.0, 6.0, STEPS + 1)[:, None]
     dt, sides = TIME / STEPS, REACH * np.array([1.0, -1.0])
     rate = 6.0 / TIME
-    force = Law.of(branch).force(sides * np.sin(angle) * angle, sides * rate * (np.sin(angle) + angle * np.cos(angle)),
-                                 sides * rate**2 * (2.0 * np.cos(angle) - angle * np.sin(angle)), dt)  # fmt: skip
+    force = Law.of(branch).force(
+        sides * np.sin(angle) * angle,
+        sides * rate * (np.sin(angle) + angle * np.cos(angle)),
+        sides * rate**2 * (2.0 * np.cos(angle) - angle * np.sin(angle)),
+        dt,
+    )
     return bool(np.max(np.abs(force.sum(axis=1))) <= EVEN * np.max(np.abs(force)))

@@ -25,8 +25,9 @@ def pair_nodes(first: Reduced, second: Reduced) -> dict[str, str]:
         return {name: name for name in first.joints if name in second.joints}
     turned = len(first.joints) > len(second.joints)
     small, large = (second, first) if turned else (first, second)
-    pairings = [dict(zip(small.joints, chosen, strict=True))
-                for chosen in permutations(large.joints, len(small.joints))]  # fmt: skip
+    pairings = [
+        dict(zip(small.joints, chosen, strict=True)) for chosen in permutations(large.joints, len(small.joints))
+    ]
     best = min(pairings, key=lambda pairing: _distance(small, large, pairing))
     return {there: here for here, there in best.items()} if turned else best
 
@@ -62,6 +63,8 @@ def _distance(first: Reduced, second: Reduced, pairing: Pairing) -> tuple[int, i
     roles = [(role(first.joints[name]), role(second.joints[other])) for name, other in pairing.items()]
     # how a node is held weighs more than its masses
     far = sum(3 * (here[0] != there[0]) + (here != there) for here, there in roles)
-    common = sum((first.labels[lower, upper] & second.labels[pairing[lower], pairing[upper]]).total()
-                 for lower, upper in combinations(pairing, 2))  # fmt: skip
+    common = sum(
+        (first.labels[lower, upper] & second.labels[pairing[lower], pairing[upper]]).total()
+        for lower, upper in combinations(pairing, 2)
+    )
     return far - 2 * common, sum(name != other for name, other in pairing.items())

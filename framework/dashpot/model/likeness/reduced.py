@@ -117,12 +117,15 @@ def _merged_at(name: str, links: list[Link]) -> list[Link]:
         if name in link[:2]:
             other, part = _seen_from(name, link)
             beside.setdefault(other, []).extend(part.members if part.kind == "parallel" else [part])
-    return others + [(name, other, parts[0] if len(parts) == 1 else Part("parallel", members=tuple(parts)))
-                     for other, parts in beside.items()]  # fmt: skip
+    return others + [
+        (name, other, parts[0] if len(parts) == 1 else Part("parallel", members=tuple(parts)))
+        for other, parts in beside.items()
+    ]
 
 
 def _joined(name: str, touching: list[Link]) -> Link:
     (below, first), (above, second) = (_seen_from(name, link) for link in touching)
-    members = [member for part in (_turned(first), second)
-               for member in (part.members if part.kind == "series" else (part,))]  # fmt: skip
+    members = [
+        member for part in (_turned(first), second) for member in (part.members if part.kind == "series" else (part,))
+    ]
     return below, above, Part("series", members=tuple(members))

@@ -20,14 +20,22 @@ def find_loose_nodes(topology: Topology, spec: NetworkSpec) -> Iterator[Problem]
     for name, joint in topology.joints.items():
         if not topology.edges_at(name):
             severity: Literal["error", "warning"] = "warning" if joint.hold in ("driven", "ground") else "error"
-            yield Problem(joint.place, f"nothing connects the node '{name}'", "connect it by a branch, or remove it",
-                          severity)  # fmt: skip
+            yield Problem(
+                joint.place, f"nothing connects the node '{name}'", "connect it by a branch, or remove it", severity
+            )
         elif name not in standing:
-            yield Problem(joint.place, f"{_called(name)} floats: no chain of branches leads from it to a driven or "
-                          "held node", "connect it to a node that is 'driven' or 'ground'")  # fmt: skip
+            yield Problem(
+                joint.place,
+                f"{_called(name)} floats: no chain of branches leads from it to a driven or held node",
+                "connect it to a node that is 'driven' or 'ground'",
+            )
         if joint.hold == "ground" and joint.masses:
-            yield Problem(joint.place, f"nothing depends on the mass of '{name}', which is held still",
-                          "remove the mass, or let the node move", "warning")  # fmt: skip
+            yield Problem(
+                joint.place,
+                f"nothing depends on the mass of '{name}', which is held still",
+                "remove the mass, or let the node move",
+                "warning",
+            )
 
 
 def find_sliding_nodes(topology: Topology, spec: NetworkSpec) -> Iterator[Problem]:
@@ -36,9 +44,13 @@ def find_sliding_nodes(topology: Topology, spec: NetworkSpec) -> Iterator[Proble
     standing = reached(topology.held("driven", "ground"), holding)
     for name in topology.unknown:
         if name not in standing:
-            yield Problem(topology.joints[name].place, f"{_called(name)} can only slide: no chain of branches that "
-                          f"hold a static force leads from it to a driven or held node{_pulled(topology, name, spec)}",
-                          "add a stiffness", "warning")  # fmt: skip
+            yield Problem(
+                topology.joints[name].place,
+                f"{_called(name)} can only slide: no chain of branches that "
+                f"hold a static force leads from it to a driven or held node{_pulled(topology, name, spec)}",
+                "add a stiffness",
+                "warning",
+            )
 
 
 def reached(start: Iterable[str], edges: Iterable[Edge]) -> set[str]:

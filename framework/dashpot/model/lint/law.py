@@ -74,8 +74,9 @@ class Law:
 
     def _given(self) -> SimpleNamespace:
         name, declared = self.branch.numbers, self.branch.element.declares
-        values = {key: self.numbers.get(f"{name}.{key}", parameter.default)
-                  for key, parameter in declared.parameters.items()}  # fmt: skip
+        values = {
+            key: self.numbers.get(f"{name}.{key}", parameter.default) for key, parameter in declared.parameters.items()
+        }
         curves = {key: _curve(f"{name}.{key}", curve, self.numbers) for key, curve in self.branch.curves.items()}
         return SimpleNamespace(**values, **curves)
 
@@ -87,8 +88,10 @@ def stand_in(branch: Branch) -> Branch:
 
 
 def _bent_line(curve: Characteristic) -> Characteristic:
-    values = tuple(Value(number, curve.curve.coefficient_unit(power), "free", scale="linear", node=curve.node)
-                   for power, number in enumerate(LINE, 1))  # fmt: skip
+    values = tuple(
+        Value(number, curve.curve.coefficient_unit(power), "free", scale="linear", node=curve.node)
+        for power, number in enumerate(LINE, 1)
+    )
     return Characteristic(curve.curve, "polynomial", values, node=curve.node)
 
 

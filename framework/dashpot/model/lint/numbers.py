@@ -25,16 +25,27 @@ def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Pr
     """Branches and free parameters without influence, and free parameters that compensate each other."""
     slots = searched_slots(spec)
     outputs, table = _sensitivities(topology, spec, slots, 0)
-    idle = [edge.branch for k, edge in enumerate(topology.edges)
-            if np.any(outputs.answers[k].stiffness) and not _is_felt(outputs.share(k))]  # fmt: skip
+    idle = [
+        edge.branch
+        for k, edge in enumerate(topology.edges)
+        if np.any(outputs.answers[k].stiffness) and not _is_felt(outputs.share(k))
+    ]
     for branch in idle:
-        yield Problem(branch.place, f"nothing that can be measured depends on the branch '{branch.name}'",
-                      "connect it to a node that moves, or remove it", "warning")  # fmt: skip
+        yield Problem(
+            branch.place,
+            f"nothing that can be measured depends on the branch '{branch.name}'",
+            "connect it to a node that moves, or remove it",
+            "warning",
+        )
     names = {branch.numbers for branch in idle}
     for slot, column in zip(slots, table.T, strict=True):
         if slot.path.rpartition(".")[0] not in names and not _is_felt(column):
-            yield Problem(_place(slot), f"'{slot.path}' is free, but has no influence on the measured signals",
-                          "fix it by a plain number, or remove it", "warning")  # fmt: skip
+            yield Problem(
+                _place(slot),
+                f"'{slot.path}' is free, but has no influence on the measured signals",
+                "fix it by a plain number, or remove it",
+                "warning",
+            )
     groups = _dependencies(table)
     if groups:
         # what is so at other numbers as well is no accident
@@ -51,9 +62,13 @@ def find_equal_starts(topology: Topology) -> Iterator[Problem]:
         searched = any(slot.value.searched for slot in branch_slots(branch))
         make = (branch.element, frozenset((edge.lower, edge.upper)), tuple(numbers), len(numbers) > 1 and searched)
         if make[-1] and make in known and not branch.shares:
-            yield Problem(branch.place, f"'{known[make].name}' and '{branch.name}' are alike and in parallel: no "
-                          "search that follows slopes can part them", "start them at different numbers",
-                          "warning")  # fmt: skip
+            yield Problem(
+                branch.place,
+                f"'{known[make].name}' and '{branch.name}' are alike and in parallel: no "
+                "search that follows slopes can part them",
+                "start them at different numbers",
+                "warning",
+            )
         known.setdefault(make, branch)
 
 
@@ -61,11 +76,19 @@ def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
     """The parameters to be found that show in a small motion; two for a curve that is to come from data."""
     curves = set(spec.data_curves())
     own = [slot for slot in spec.slots() if slot.path.partition("[")[0] not in curves]
-    bent = [slot for branch in spec.leaves() if not branch.shares for slot in branch_slots(stand_in(branch))
-            if slot.path.partition("[")[0] in curves]  # fmt: skip
+    bent = [
+        slot
+        for branch in spec.leaves()
+        if not branch.shares
+        for slot in branch_slots(stand_in(branch))
+        if slot.path.partition("[")[0] in curves
+    ]
     # what a number does over settings shows between runs only
-    return tuple(slot for slot in (*own, *bent)
-                 if slot.value.searched and slot.of is None and not slot.path.startswith(NOT_TRIED))  # fmt: skip
+    return tuple(
+        slot
+        for slot in (*own, *bent)
+        if slot.value.searched and slot.of is None and not slot.path.startswith(NOT_TRIED)
+    )
 
 
 def _numbers(spec: NetworkSpec) -> dict[str, float]:
@@ -79,8 +102,9 @@ def _others(spec: NetworkSpec, seed: int) -> dict[str, float]:
     rng = np.random.default_rng(seed + 1)
     slots = searched_slots(spec)
     factors = np.exp(rng.uniform(-SPREAD, SPREAD, len(slots)))
-    return {slot.path: _inside(slot.value, slot.value.number * factor)
-            for slot, factor in zip(slots, factors, strict=True)}  # fmt: skip
+    return {
+        slot.path: _inside(slot.value, slot.value.number * factor) for slot, factor in zip(slots, factors, strict=True)
+    }
 
 
 def _inside(value: Value, number: float) -> float:
@@ -120,17 +144,26 @@ def _dependencies(table: Array) -> list[frozenset[int]]:
     rank = int(np.sum(np.abs(np.diag(triangle)) > DEPENDENT))
     kept, spare = order[:rank], order[rank:]
     shares = [lstsq(unit[:, kept], unit[:, column])[0] for column in spare]
-    return [frozenset(int(felt[k]) for k in (column, *kept[np.abs(share) > INVOLVED]))
-            for column, share in zip(spare, shares, strict=True)]  # fmt: skip
+    return [
+        frozenset(int(felt[k]) for k in (column, *kept[np.abs(share) > INVOLVED]))
+        for column, share in zip(spare, shares, strict=True)
+    ]
 
 
 def _confusion(slots: list[Slot]) -> Problem:
     last = max(slots, key=lambda slot: slot.value.place)
     names = list(dict.fromkeys(f"'{slot.path.partition('[')[0]}'" for slot in sorted(slots, key=lambda s: s.path)))
-    listed = f"{', '.join(names[:-1])} and {names[-1]} cannot be distinguished" if len(names) > 1 else (
-        f"the parameters of {names[0]} cannot be distinguished")  # fmt: skip
-    return Problem(_place(last), f"{listed}: they compensate each other",
-                   "fix one of them with a plain number, or remove a branch", "warning")  # fmt: skip
+    listed = (
+        f"{', '.join(names[:-1])} and {names[-1]} cannot be distinguished"
+        if len(names) > 1
+        else (f"the parameters of {names[0]} cannot be distinguished")
+    )
+    return Problem(
+        _place(last),
+        f"{listed}: they compensate each other",
+        "fix one of them with a plain number, or remove a branch",
+        "warning",
+    )
 
 
 def _place(slot: Slot) -> Place:

@@ -47,10 +47,13 @@ class Outputs:
         varied = [self._varied(k, steps) for k in range(len(self.laws))]
         columns = [np.zeros((2 * self.sizes.size, 0))]
         for path, step in steps.items():
-            up, down = (self._measured([found.get((path, side), answer)
-                                        for found, answer in zip(varied, self.answers, strict=True)],
-                                       {**self.numbers, path: self.numbers[path] + side * step})
-                        for side in SIDES)  # fmt: skip
+            up, down = (
+                self._measured(
+                    [found.get((path, side), answer) for found, answer in zip(varied, self.answers, strict=True)],
+                    {**self.numbers, path: self.numbers[path] + side * step},
+                )
+                for side in SIDES
+            )
             columns.append(self._relative(up - down)[:, None])
         return np.concatenate(columns, axis=1)
 
@@ -65,12 +68,17 @@ class Outputs:
         cases = [(path, side) for path in steps if path in law.numbers or path == offset for side in SIDES]
         if not cases:
             return {}
-        moved = {path: np.repeat([number + side * steps[other] * (other == path) for other, side in cases],
-                                 trials.omega.size) for path, number in law.numbers.items()}  # fmt: skip
+        moved = {
+            path: np.repeat(
+                [number + side * steps[other] * (other == path) for other, side in cases], trials.omega.size
+            )
+            for path, number in law.numbers.items()
+        }
         shift = np.repeat([side * steps[path] * (path == offset) for path, side in cases], trials.omega.size)
         many = partial(np.tile, reps=len(cases))
-        answer = answer_of(law.with_numbers(moved), many(trials.omega), many(trials.middle[k]) + shift,
-                           many(trials.amplitude[k]))  # fmt: skip
+        answer = answer_of(
+            law.with_numbers(moved), many(trials.omega), many(trials.middle[k]) + shift, many(trials.amplitude[k])
+        )
         return dict(zip(cases, answer.split(len(cases)), strict=True))
 
     def _answer(self, k: int) -> Answer:
@@ -84,16 +92,16 @@ class Outputs:
         return np.concatenate(self._blocks(answers, numbers), axis=1)
 
     def _sizes(self) -> Array:
-        force, motion = (np.max(np.abs(block), axis=1, initial=0.0)
-                         for block in self._blocks(self.answers, self.numbers))  # fmt: skip
+        force, motion = (
+            np.max(np.abs(block), axis=1, initial=0.0) for block in self._blocks(self.answers, self.numbers)
+        )
         driven, amplitude = len(self.topology.held("driven")), np.max(self.trials.amplitude, axis=0)
         stiffness = np.max([np.abs(answer.stiffness) for answer in self.answers], axis=0)
         force[:, :driven] += FLOOR * stiffness[:, None]
         force[:, driven:] += FLOOR * (stiffness * amplitude)[:, None]
         motion[:, :driven] += FLOOR
         motion[:, driven:] += FLOOR * amplitude[:, None]
-        rows = [np.repeat(size[:, None], count, axis=1)
-                for size, count in ((force, driven), (motion, self._named()))]  # fmt: skip
+        rows = [np.repeat(size[:, None], count, axis=1) for size, count in ((force, driven), (motion, self._named()))]
         sizes = np.concatenate(rows, axis=1)
         return np.where(np.isfinite(sizes) & (sizes > 0.0), sizes, np.inf)
 
@@ -103,16 +111,19 @@ class Outputs:
     def _blocks(self, answers: Sequence[Answer], numbers: Numbers) -> tuple[Complex, Complex]:
         # forces on driven nodes and motions of named ones (trials, nodes, because of: each drive, each load, the mean)
         names = list(self.topology.joints)
-        driven, unknown = ([names.index(name) for name in group]
-                           for group in (self.topology.held("driven"), self.topology.unknown))  # fmt: skip
+        driven, unknown = (
+            [names.index(name) for name in group] for group in (self.topology.held("driven"), self.topology.unknown)
+        )
         loads = [k for k, name in enumerate(self.topology.unknown) if self.topology.joints[name].hold == "loaded"]
         stiffness, mean = self._assembled(answers, numbers, names)
         trials = len(mean)
         pushed = np.broadcast_to(-np.eye(len(unknown))[:, loads], (trials, len(unknown), len(loads)))
         asked = np.concatenate([stiffness[:, unknown][:, :, driven], pushed, mean[:, unknown, None]], axis=2)
         moved = -np.linalg.solve(stiffness[:, unknown][:, :, unknown], asked)
-        held = np.concatenate([stiffness[:, driven][:, :, driven], np.zeros((trials, len(driven), len(loads))),
-                               mean[:, driven, None]], axis=2)  # fmt: skip
+        held = np.concatenate(
+            [stiffness[:, driven][:, :, driven], np.zeros((trials, len(driven), len(loads))), mean[:, driven, None]],
+            axis=2,
+        )
         force = held + stiffness[:, driven][:, :, unknown] @ moved
         seen = [k for k, name in enumerate(self.topology.unknown) if name in self.spec.joints]
         felt, moved = self._on_the_fixture(force, moved, numbers)

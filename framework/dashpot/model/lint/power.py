@@ -20,9 +20,12 @@ def find_pumps(spec: NetworkSpec) -> Iterator[Problem]:
     for branch in spec.leaves():
         if branch.scale and branch.element.passive and not branch.shares and _gains(Law.of(branch)) > TOLERANCE:
             place = branch.scale.node.place if branch.scale.node else branch.place
-            yield Problem(place, f"with its factor over deflection the branch '{branch.name}' can "
-                          "generate energy", "use the factor on a law that dissipates at every instant",
-                          "warning")  # fmt: skip
+            yield Problem(
+                place,
+                f"with its factor over deflection the branch '{branch.name}' can generate energy",
+                "use the factor on a law that dissipates at every instant",
+                "warning",
+            )
 
 
 def _gains(law: Law) -> float:

@@ -56,8 +56,11 @@ def draw_trials(topology: Topology, lanes: int, seed: int = 0) -> Trials:
     found = [motions[frozenset((edge.lower, edge.upper))] for edge in topology.edges]
     # the same motion is a deflection of the other sign for a branch that lies the other way round
     signs = [1.0 if edge.lower < edge.upper else -1.0 for edge in topology.edges]
-    return Trials(omega, tuple(sign * middle for sign, (middle, _) in zip(signs, found, strict=True)),
-                  tuple(amplitude for _, amplitude in found))  # fmt: skip
+    return Trials(
+        omega,
+        tuple(sign * middle for sign, (middle, _) in zip(signs, found, strict=True)),
+        tuple(amplitude for _, amplitude in found),
+    )
 
 
 def _draw_motion(branches: Iterable[Branch], omega: Array, rng: np.random.Generator) -> tuple[Array, Array]:

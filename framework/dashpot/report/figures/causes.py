@@ -18,13 +18,23 @@ def cause_map(model: str, causes: Sequence[Mapping[str, Any]]) -> Figure:
     titles = [cause_title(cause) for cause in causes]
     matrix = np.array([[cause["probability"][name] for name in names] for cause in causes])
     trace = {
-        "type": "heatmap", "x": [plain(name) for name in names], "y": [plain(title) for title in titles], "z": matrix,
-        "zmin": 0.0, "zmax": 1.0, "colorscale": HEAT, "xgap": 1, "ygap": 1,
+        "type": "heatmap",
+        "x": [plain(name) for name in names],
+        "y": [plain(title) for title in titles],
+        "z": matrix,
+        "zmin": 0.0,
+        "zmax": 1.0,
+        "colorscale": HEAT,
+        "xgap": 1,
+        "ygap": 1,
         "colorbar": {"title": {"text": "probability", "side": "top"}, "thickness": 12, "outlinewidth": 0},
         "hovertemplate": "%{x}: %{y}<br>%{z:.2f}<extra></extra>",
-    }  # fmt: skip
-    columns = {"cause": np.repeat(titles, len(names)), "specimen": np.tile(names, len(titles)),
-               "probability": matrix.ravel()}  # fmt: skip
+    }
+    columns = {
+        "cause": np.repeat(titles, len(names)),
+        "specimen": np.tile(names, len(titles)),
+        "probability": matrix.ravel(),
+    }
     axes = {"xaxis": axis(type="category", tickangle=-60), "yaxis": axis(type="category", autorange="reversed")}
     plot = {"data": [trace], "layout": layout(150 + 28 * len(titles), **axes)}
     return Figure(f"Causes found from {model}", "The probability of each cause in each specimen.", plot, columns)

@@ -32,8 +32,11 @@ def over_conditions(rows: Sequence[Mapping[str, Any]], series: Sequence[str] = (
     traces = []
     for label in ["measured", *labels]:
         block = table.add(_block(label, [row for row in rows if row["label"] == label], names))
-        traces += [_trace(label, labels, block, name, panel, level, len(names))
-                   for panel, name in enumerate(names) for level in range(len(ROWS))]  # fmt: skip
+        traces += [
+            _trace(label, labels, block, name, panel, level, len(names))
+            for panel, name in enumerate(names)
+            for level in range(len(ROWS))
+        ]
     groups = [toggles.series_group(labels, measured="point", mark="point", series=series)] if labels else []
     plot = {"data": toggles.apply(traces, groups) if groups else traces, "layout": _layout(names, groups)}
     caption = (
@@ -52,14 +55,17 @@ def _varies(name: str, rows: Sequence[Mapping[str, Any]]) -> bool:
 
 
 def _block(label: str, rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> dict[str, Any]:
-    conditions = {_heading(name): _factor(name) * np.array([row["conditions"].get(name, np.nan) for row in rows])
-                  for name in names}  # fmt: skip
+    conditions = {
+        _heading(name): _factor(name) * np.array([row["conditions"].get(name, np.nan) for row in rows])
+        for name in names
+    }
     values = {title: 1e-3 * np.array([row[key] for row in rows]) for key, title, _ in ROWS}
     return {"run": np.array([row["run"] for row in rows], dtype=object), "series": label} | conditions | values
 
 
-def _trace(label: str, labels: Sequence[str], block: Mapping[str, Any], name: str, panel: int, level: int, panels: int
-           ) -> dict[str, Any]:  # fmt: skip
+def _trace(
+    label: str, labels: Sequence[str], block: Mapping[str, Any], name: str, panel: int, level: int, panels: int
+) -> dict[str, Any]:
     cell = panel + level * panels
     title = ROWS[level][1]
     return {
@@ -73,10 +79,14 @@ def _trace(label: str, labels: Sequence[str], block: Mapping[str, Any], name: st
         "xaxis": axis_number("x", cell),
         "yaxis": axis_number("y", cell),
         "showlegend": False,
-        "marker": {"color": series_color(label, labels), "size": 9 if label == "measured" else 6, "opacity": 0.7,
-                   "symbol": "circle-open" if label == "measured" else "circle"},
+        "marker": {
+            "color": series_color(label, labels),
+            "size": 9 if label == "measured" else 6,
+            "opacity": 0.7,
+            "symbol": "circle-open" if label == "measured" else "circle",
+        },
         "hovertemplate": f"%{{text}}<br>{_heading(name)} %{{x:.4g}}<br>{title} %{{y:.4g}}<extra></extra>",
-    }  # fmt: skip
+    }
 
 
 def _layout(names: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any]:
@@ -87,14 +97,21 @@ def _layout(names: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any
         for level, (_, title, domain) in enumerate(ROWS):
             cell = panel + level * len(names)
             axes[axis_number("x", cell, "axis")] = axis(
-                _heading(name) if level else "", domain=[left, left + width], anchor=axis_number("y", cell),
-                showticklabels=bool(level), zeroline=False,
-            )  # fmt: skip
+                _heading(name) if level else "",
+                domain=[left, left + width],
+                anchor=axis_number("y", cell),
+                showticklabels=bool(level),
+                zeroline=False,
+            )
             shared = {"matches": axis_number("y", level * len(names))} if panel else {}
             axes[axis_number("y", cell, "axis")] = axis(
-                "" if panel else title, domain=domain, anchor=axis_number("x", cell), showticklabels=panel == 0,
-                rangemode="tozero", **shared,
-            )  # fmt: skip
+                "" if panel else title,
+                domain=domain,
+                anchor=axis_number("x", cell),
+                showticklabels=panel == 0,
+                rangemode="tozero",
+                **shared,
+            )
     return layout(520, **axes, meta={"toggles": groups})
 
 

@@ -37,8 +37,14 @@ def contact_response(curves: Sequence[Mapping[str, Any]], series: Sequence[str] 
 
 def _block(curve: Mapping[str, Any]) -> dict[str, Any]:
     simulated = {_heading(label): force for label, force in curve["simulated"].items()}
-    return {"run": curve["run"], "wheel": curve["wheel"], "added mass (kg)": curve["added_mass"],
-            FREQUENCY: curve["frequency"], MEASURED: curve["measured"], **simulated}  # fmt: skip
+    return {
+        "run": curve["run"],
+        "wheel": curve["wheel"],
+        "added mass (kg)": curve["added_mass"],
+        FREQUENCY: curve["frequency"],
+        MEASURED: curve["measured"],
+        **simulated,
+    }
 
 
 def _traces(
@@ -89,9 +95,12 @@ def _layout(wheels: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, An
             FREQUENCY, domain=[left, left + width], anchor=axis_number("y", panel), zeroline=False, **shared
         )
         axes[axis_number("y", panel, "axis")] = axis(
-            "" if panel else "contact force (N)", anchor=axis_number("x", panel), rangemode="tozero",
-            showticklabels=not panel, **({"matches": "y"} if panel else {}),
-        )  # fmt: skip
+            "" if panel else "contact force (N)",
+            anchor=axis_number("x", panel),
+            rangemode="tozero",
+            showticklabels=not panel,
+            **({"matches": "y"} if panel else {}),
+        )
         place = {"x": left + width / 2.0, "y": 1.0, "xref": "paper", "yref": "paper"}
         titles.append({"text": plain(wheel), "showarrow": False, "xanchor": "center", "yanchor": "bottom", **place})
     return layout(420, **axes, annotations=titles, meta={"toggles": groups})

@@ -32,8 +32,18 @@ def identified_curves(curves: Mapping[str, IdentifiedCurve]) -> Figure:
         across = share(column, min(ACROSS, len(curves)), GAP)
         top, bottom = (1.0 - edge for edge in share(row, down, HEAD / height))
         axes |= _axes(index, curve["over"], units, across, (bottom, top))
-        titles.append({"text": plain(path), "x": sum(across) / 2.0, "y": top, "xref": "paper", "yref": "paper",
-                       "xanchor": "center", "yanchor": "bottom", "showarrow": False})  # fmt: skip
+        titles.append(
+            {
+                "text": plain(path),
+                "x": sum(across) / 2.0,
+                "y": top,
+                "xref": "paper",
+                "yref": "paper",
+                "xanchor": "center",
+                "yanchor": "bottom",
+                "showarrow": False,
+            }
+        )
     caption = "Markers: knots; bands: their 95 % intervals, the structure of the model taken as right."
     plot = {"data": traces, "layout": layout(height, **axes, annotations=titles, showlegend=False)}
     return Figure("Identified curves", caption, plot, table.columns)

@@ -121,8 +121,14 @@ def _traces(run: str, block: Mapping[str, Any], simulated: Mapping[str, Any]) ->
     return [_trace(run, label, block, heading, labels, panel) for label, heading in drawn for panel in PANELS]
 
 
-def _trace(run: str, label: str, block: Mapping[str, Any], heading: str, labels: Sequence[str],
-           panel: tuple[str, str, str, list[float]]) -> dict[str, Any]:  # fmt: skip
+def _trace(
+    run: str,
+    label: str,
+    block: Mapping[str, Any],
+    heading: str,
+    labels: Sequence[str],
+    panel: tuple[str, str, str, list[float]],
+) -> dict[str, Any]:
     name, (over, x, y, _) = plain(toggles.series_name(label)), panel
     unit = over.partition("(")[2].rstrip(")")
     return {

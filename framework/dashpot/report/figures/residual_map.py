@@ -26,13 +26,18 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     mean = np.asarray(told["mean"], dtype=float)
     top = float(np.nanmax(np.abs(mean)))
     trace = {
-        "type": "heatmap", "x": np.arange(x.size), "y": np.arange(y.size), "z": mean,
-        "zmin": -top, "zmax": top, "colorscale": SIGNED,
+        "type": "heatmap",
+        "x": np.arange(x.size),
+        "y": np.arange(y.size),
+        "z": mean,
+        "zmin": -top,
+        "zmax": top,
+        "colorscale": SIGNED,
         "colorbar": {"title": {"text": "N", "side": "top"}, "thickness": 12, "outlinewidth": 0},
         "text": [[f"{x_name} {wide}<br>{y_name} {high}" for wide in _ranges(x)] for high in _ranges(y)],
         "hovertemplate": "%{text}<br>%{z:.3g} N<extra></extra>",
         "hoverongaps": False,
-    }  # fmt: skip
+    }
     best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]
     alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
     caption = (
@@ -40,9 +45,16 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
         f"two variables foretell {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
         f"stretches that the map was not made of; alone: {alone}. Every row and column has as many samples."
     )
-    axes = {which: axis(name, zeroline=False, showgrid=False, tickvals=np.arange(edges.size),
-                        ticktext=[number(edge, 2) for edge in edges])
-            for which, name, edges in (("xaxis", x_name, x), ("yaxis", y_name, y))}  # fmt: skip
+    axes = {
+        which: axis(
+            name,
+            zeroline=False,
+            showgrid=False,
+            tickvals=np.arange(edges.size),
+            ticktext=[number(edge, 2) for edge in edges],
+        )
+        for which, name, edges in (("xaxis", x_name, x), ("yaxis", y_name, y))
+    }
     wide, high = (0.5 * (edges[1:] + edges[:-1]) for edges in (x, y))
     columns = {x_name: np.tile(wide, high.size), y_name: np.repeat(high, wide.size), "mean residual (N)": mean.ravel()}
     plot = {"data": [trace], "layout": layout(440, **axes)}

@@ -38,56 +38,82 @@ WAYS = {
         "Force over velocity at mid stroke",
         "One point for each stroke: the spring force is that of the middle, so what changes with velocity is "
         "damping; a step at zero is friction. The mean force of each run is taken off.",
-        "velocity (mm/s)", "force less its mean (N)", 1e3, points=True,
+        "velocity (mm/s)",
+        "force less its mean (N)",
+        1e3,
+        points=True,
     ),
     "low_speed": Way(
         "Force over deflection at low speed",
         "The runs below a tenth of the largest speed, or the slowest one, on the way in and on the way out: the middle "
         "is the spring, the distance between both ways is friction and slow relaxation.",
-        "displacement (mm)", "force (N)", 1e3,
+        "displacement (mm)",
+        "force (N)",
+        1e3,
     ),
     "less_spring": Way(
         "The same less a straight spring",
         "One straight line through all measured curves is taken off: what bends is a rising or falling stiffness, the "
         "distance between both ways is friction.",
-        "displacement (mm)", "force less a straight line (N)", 1e3,
+        "displacement (mm)",
+        "force less a straight line (N)",
+        1e3,
     ),
     "after_reversals": Way(
         "Stiffness after reversals",
         "The mean change of the force since the motion turned, over the travel since then. High at first and falling: "
         "friction behind a stiffness, in fast runs damping; low at first and rising, or a dip on the way: "
         "clearance or slack; level: a spring.",
-        "travel since the reversal (mm)", "stiffness since the reversal (N/mm)", 1e3, 1e-3, logarithmic=(True, False),
+        "travel since the reversal (mm)",
+        "stiffness since the reversal (N/mm)",
+        1e3,
+        1e-3,
+        logarithmic=(True, False),
     ),
     "cycles": Way(
         "Loss stiffness over time",
         "Energy of every closed cycle over pi times amplitude squared, over the time of a run: what falls or "
         "rises while nothing else changes is wear, warming or bedding in. In a sweep the frequency changes as well.",
-        "time (s)", "loss stiffness (N/mm)", 1.0, 1e-3,
+        "time (s)",
+        "loss stiffness (N/mm)",
+        1.0,
+        1e-3,
     ),
     "over_velocity": Way(
         "Force over velocity",
         "A single line is damping, a loop around it stiffness or inertia, a jump at zero velocity dry friction.",
-        "velocity (mm/s)", "force (N)", 1e3,
+        "velocity (mm/s)",
+        "force (N)",
+        1e3,
     ),
     "force_spectrum": Way(
         "Amplitude spectrum of the force",
         "Lines that the displacement does not have are harmonics "
         "that the specimen makes, a resonance or hum; the even carpet below is noise.",
-        "frequency (Hz)", "force (N)", logarithmic=(True, True), first=3,
+        "frequency (Hz)",
+        "force (N)",
+        logarithmic=(True, True),
+        first=3,
     ),
     "displacement_spectrum": Way(
         "Amplitude spectrum of the displacement",
         "What the actuator did: harmonics here are not the specimen's.",
-        "frequency (Hz)", "displacement (mm)", 1.0, 1e3, logarithmic=(True, True), first=3,
+        "frequency (Hz)",
+        "displacement (mm)",
+        1.0,
+        1e3,
+        logarithmic=(True, True),
+        first=3,
     ),
     "repeats": Way(
         "Repeats against each other",
         "Each run less the mean of all that repeat it, after small differences of their motion were taken out. An even "
         "band is the noise floor; a slope is drift, a level a shifted zero, a pattern means that the specimen changed.",
-        "time (s)", "departure from the mean of the repeats (N)", first=4,
+        "time (s)",
+        "departure from the mean of the repeats (N)",
+        first=4,
     ),
-}  # fmt: skip
+}
 
 
 def shape_figure(way: str, curves: Sequence[Curve], shapes: Mapping[str, Any], series: Sequence[str] = ()) -> Figure:
@@ -102,9 +128,14 @@ def shape_figure(way: str, curves: Sequence[Curve], shapes: Mapping[str, Any], s
     colors = _run_colors(curves, shapes["runs"])
     traces = []
     for curve in curves:
-        block = table.add({"run": curve["run"], "series": curve["label"],
-                           about.x: about.x_factor * np.asarray(curve["x"], dtype=float),
-                           about.y: about.y_factor * np.asarray(curve["y"], dtype=float)})  # fmt: skip
+        block = table.add(
+            {
+                "run": curve["run"],
+                "series": curve["label"],
+                about.x: about.x_factor * np.asarray(curve["x"], dtype=float),
+                about.y: about.y_factor * np.asarray(curve["y"], dtype=float),
+            }
+        )
         color = series_color(curve["label"], labels) if labels else colors[curve["run"]]
         traces.append(_trace(curve, block, about, color, labels))
     groups = _groups(curves, {} if labels else colors, series, about.first)
@@ -152,8 +183,10 @@ def _groups(
     names = list(dict.fromkeys(curve["run"] for curve in curves))
     spread = sorted(names, key=lambda name: colors.get(name, ""))
     first = set(spread[:: max(1, -(-len(names) // most))])
-    runs = [toggles.choice(name, color=colors.get(name, ""), mark="solid" if colors else "", shown=name in first)
-            for name in names]  # fmt: skip
+    runs = [
+        toggles.choice(name, color=colors.get(name, ""), mark="solid" if colors else "", shown=name in first)
+        for name in names
+    ]
     shown = [toggles.series_group(labels, series=series)] if labels else []
     return [*shown, toggles.group("run", "Runs", runs)]
 

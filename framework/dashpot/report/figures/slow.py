@@ -29,10 +29,19 @@ def slow_curves(curves: Mapping[str, Mapping[str, Mapping[str, np.ndarray]]]) ->
     traces = []
     for label, each in curves.items():
         for panel, part in enumerate(part for part in parts if part in each):
-            block = table.add({"curve": PANELS[part], "of": label, TRAVEL: 1e3 * _from_middle(each[part]["deflection"]),
-                               FORCE: each[part]["force"], WIDTH: each[part]["half_width"]})  # fmt: skip
-            traces += [_trace(label, block, what, panel + level * len(parts), labels)
-                       for level, what in enumerate((FORCE, WIDTH))]  # fmt: skip
+            block = table.add(
+                {
+                    "curve": PANELS[part],
+                    "of": label,
+                    TRAVEL: 1e3 * _from_middle(each[part]["deflection"]),
+                    FORCE: each[part]["force"],
+                    WIDTH: each[part]["half_width"],
+                }
+            )
+            traces += [
+                _trace(label, block, what, panel + level * len(parts), labels)
+                for level, what in enumerate((FORCE, WIDTH))
+            ]
     groups = [toggles.series_group([label for label in labels if label != "measured"], mark="solid")]
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(parts, groups)}
     caption = (
@@ -72,13 +81,18 @@ def _layout(parts: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any
         for level, (title, domain) in enumerate((("force (N)", [0.45, 0.98]), ("half width (N)", [0.0, 0.35]))):
             cell = panel + level * len(parts)
             axes[axis_number("x", cell, "axis")] = axis(
-                TRAVEL if level else "", domain=[left, left + width], anchor=axis_number("y", cell),
-                showticklabels=bool(level), zeroline=False,
-            )  # fmt: skip
+                TRAVEL if level else "",
+                domain=[left, left + width],
+                anchor=axis_number("y", cell),
+                showticklabels=bool(level),
+                zeroline=False,
+            )
             axes[axis_number("y", cell, "axis")] = axis(
-                title if panel == 0 else "", domain=domain, anchor=axis_number("x", cell),
+                title if panel == 0 else "",
+                domain=domain,
+                anchor=axis_number("x", cell),
                 **({"rangemode": "tozero"} if level else {}),
-            )  # fmt: skip
+            )
         place = {"x": left + width / 2.0, "y": 1.0, "xref": "paper", "yref": "paper"}
         titles.append({"text": PANELS[part], "showarrow": False, "xanchor": "center", "yanchor": "bottom", **place})
     return layout(560, **axes, annotations=titles, meta={"toggles": groups})

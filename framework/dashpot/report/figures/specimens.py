@@ -54,12 +54,21 @@ def _points(columns: Mapping[str, Sequence[Any]], heading: str, over: str, kind:
         "x": [plain(columns[over][k]) if isinstance(columns[over][k], str) else columns[over][k] for k in mine],
         "y": at.tolist(),
         "text": [plain(columns["specimen"][k]) for k in mine],
-        "marker": {"size": 8, "color": "@after" if kind == SOUND else "@bad",
-                   "symbol": "circle" if kind == SOUND else "x"},
-        "error_y": {"type": "data", "symmetric": False, "array": (high - at).tolist(),
-                    "arrayminus": (at - low).tolist(), "thickness": 1.2, "width": 0},
+        "marker": {
+            "size": 8,
+            "color": "@after" if kind == SOUND else "@bad",
+            "symbol": "circle" if kind == SOUND else "x",
+        },
+        "error_y": {
+            "type": "data",
+            "symmetric": False,
+            "array": (high - at).tolist(),
+            "arrayminus": (at - low).tolist(),
+            "thickness": 1.2,
+            "width": 0,
+        },
         "hovertemplate": "%{text}<br>%{y:.4g}<extra></extra>",
-    }  # fmt: skip
+    }
 
 
 def _band(number: Mapping[str, Any], factor: float) -> list[dict[str, Any]]:

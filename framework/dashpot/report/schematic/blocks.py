@@ -69,8 +69,9 @@ class Piece(Block):
         first = start + (end - start - self.size) // 2
         last = first + self.size
         yield Wire(frame.at(start, axis), frame.at(first, axis))
-        yield Sign(self.symbol, frame.at(first, axis), frame.at(last, axis), self.half, self.branches, self.word,
-                   self.curved)  # fmt: skip
+        yield Sign(
+            self.symbol, frame.at(first, axis), frame.at(last, axis), self.half, self.branches, self.word, self.curved
+        )
         yield Wire(frame.at(last, axis), frame.at(end, axis))
 
 
@@ -154,8 +155,9 @@ class Scaled(Block):
 class Labelled(Block):
     """A block with its name and numbers: beside it where the force runs up, above it where it runs to the right."""
 
-    def __init__(self, inner: Block, name: str, lines: tuple[str, ...], owners: tuple[str, ...], sizes: Sizes,
-                 upright: bool) -> None:  # fmt: skip
+    def __init__(
+        self, inner: Block, name: str, lines: tuple[str, ...], owners: tuple[str, ...], sizes: Sizes, upright: bool
+    ) -> None:
         self.inner, self.owners, self.upright = inner, owners, upright
         self.name, self.lines = sizes.label(name, lines)
         self.width, self.height = sizes.extent(self.name, self.lines)

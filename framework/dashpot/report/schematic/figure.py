@@ -39,8 +39,11 @@ class Style:
     def __init__(self, node: Node, arrangement: Arrangement, sizes: Sizes) -> None:
         self.node, self.sizes = node, replace(sizes, filling=0.0)
         level = arrangement.levels[node.key]
-        below = all(arrangement.span(bundle)[0] == level for bundle in arrangement.bundles
-                    if node.key in (bundle.lower, bundle.upper))  # fmt: skip
+        below = all(
+            arrangement.span(bundle)[0] == level
+            for bundle in arrangement.bundles
+            if node.key in (bundle.lower, bundle.upper)
+        )
         held = node.mark in ("driven", "ground", "terminal")
         self.side = 0
         if held and level in (0, arrangement.top):
@@ -105,8 +108,9 @@ class Style:
         end = along + self.side * self.mark_length
         assert self.node.mark
         half = reach if self.node.mark == "ground" and not self.node.measured else self.sizes.half
-        yield Support(self.node.mark, self.node.name, frame.at(along, across), frame.at(end, across), half,
-                      self.node.measured)  # fmt: skip
+        yield Support(
+            self.node.mark, self.node.name, frame.at(along, across), frame.at(end, across), half, self.node.measured
+        )
         near = end + self.side * self.sizes.space
         far = near + self.side * self.label[0]
         first = across - self._halved(self.label[1])
@@ -115,8 +119,14 @@ class Style:
     def _inner(self, frame: Frame, along: float, left: float, right: float) -> Iterator[Shape]:
         if self.node.mark:
             edge = right + self.rim
-            yield Support(self.node.mark, self.node.name, frame.at(along, edge),
-                          frame.at(along, edge + self.mark_length), self.sizes.half, self.node.measured)  # fmt: skip
+            yield Support(
+                self.node.mark,
+                self.node.name,
+                frame.at(along, edge),
+                frame.at(along, edge + self.mark_length),
+                self.sizes.half,
+                self.node.measured,
+            )
         if self.body:
             first = (left + right - self.label[1]) / 2
         else:
@@ -164,14 +174,20 @@ class Figure:
         return found
 
     def _room(self, level: int) -> float:
-        lengths = [self.blocks[bundle].length for bundle in self.arrangement.bundles
-                   if self.arrangement.span(bundle)[0] == level and not self.arrangement.sideways(bundle)]  # fmt: skip
+        lengths = [
+            self.blocks[bundle].length
+            for bundle in self.arrangement.bundles
+            if self.arrangement.span(bundle)[0] == level and not self.arrangement.sideways(bundle)
+        ]
         return max(lengths, default=2 * self.sizes.lead) + 2 * self.sizes.lead
 
     def _reach(self, level: int) -> tuple[float, float]:
         reaches = [style.reach for key, style in self.styles.items() if self.arrangement.levels[key] == level]
-        reaches += [(block.after, block.before) for bundle, block in self.blocks.items()
-                    if self.arrangement.span(bundle) == (level, level)]  # fmt: skip
+        reaches += [
+            (block.after, block.before)
+            for bundle, block in self.blocks.items()
+            if self.arrangement.span(bundle) == (level, level)
+        ]
         below, above = zip(*reaches, strict=True)
         return max(below), max(above)
 

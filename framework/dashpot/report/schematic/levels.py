@@ -46,8 +46,9 @@ def _climb(graph: Graph, bundles: Iterable[Bundle]) -> dict[str, int]:
     return {key: ranks[level] for key, level in levels.items()}
 
 
-def _lift(key: str, above: Mapping[str, list[str]], levels: dict[str, int], bases: set[str],
-          way: tuple[str, ...]) -> None:  # fmt: skip
+def _lift(
+    key: str, above: Mapping[str, list[str]], levels: dict[str, int], bases: set[str], way: tuple[str, ...]
+) -> None:
     # the longest way from below; a branch that would close a circle is drawn from above
     for upper in above[key]:
         if upper in way or upper == key or upper in bases:

@@ -66,8 +66,11 @@ class Arrangement:
     def left_of(self, key: str) -> bool:
         """Whether a sideways bundle comes to a node from its left."""
         runs = self.runs(self.levels[key])
-        return any(self.sideways(bundle) and runs.index(bundle) < runs.index(key)
-                   for bundle in self.bundles if key in (bundle.lower, bundle.upper))  # fmt: skip
+        return any(
+            self.sideways(bundle) and runs.index(bundle) < runs.index(key)
+            for bundle in self.bundles
+            if key in (bundle.lower, bundle.upper)
+        )
 
     def marked_inside(self, key: str) -> bool:
         """Whether a node has its mark beside it, as it can have it neither below nor above."""
@@ -144,8 +147,10 @@ def _side_by_side(graph: Graph, levels: Levels) -> list[Bundle]:
 def _improved(made: Callable[[Sequence[Bundle]], Arrangement], order: list[Bundle]) -> Arrangement:
     best = made(order)
     while True:
-        tried = min((made(_shifted(best.bundles, old, new)) for old in range(len(order)) for new in range(len(order))),
-                    key=_cost)  # fmt: skip
+        tried = min(
+            (made(_shifted(best.bundles, old, new)) for old in range(len(order)) for new in range(len(order))),
+            key=_cost,
+        )
         if _cost(tried) >= _cost(best):
             return best
         best = tried
@@ -157,8 +162,9 @@ def _shifted(order: Sequence[Bundle], old: int, new: int) -> list[Bundle]:
 
 
 def _cost(arrangement: Arrangement) -> tuple[int, int]:
-    crossings = sum(len(runs) - len(set(runs)) for level in range(arrangement.top + 1)
-                    if (runs := arrangement.runs(level)))  # fmt: skip
+    crossings = sum(
+        len(runs) - len(set(runs)) for level in range(arrangement.top + 1) if (runs := arrangement.runs(level))
+    )
     crossings += 2 * sum(arrangement.apart(bundle) for bundle in arrangement.bundles if arrangement.sideways(bundle))
     places = {bundle: place for place, bundle in enumerate(arrangement.graph.bundles)}
     file_order = [places[bundle] for bundle in arrangement.bundles]

@@ -43,8 +43,9 @@ class Footing:
 class Placing:
     """Sets up the program of a drawing and reads its answer."""
 
-    def __init__(self, arrangement: Arrangement, blocks: Mapping[Bundle, Block], rooms: Mapping[str, NodeRoom],
-                 sizes: Sizes) -> None:  # fmt: skip
+    def __init__(
+        self, arrangement: Arrangement, blocks: Mapping[Bundle, Block], rooms: Mapping[str, NodeRoom], sizes: Sizes
+    ) -> None:
         self.arrangement, self.blocks, self.rooms, self.sizes = arrangement, blocks, rooms, sizes
         self.program = Program(sizes.whole)
         self.axes = {bundle: self.program.unknown(1e-4) for bundle in arrangement.bundles}
@@ -61,8 +62,10 @@ class Placing:
             self._reach_over(key)
             self._straighten(key)
         found = self.program.solve()
-        return Places({key: (found[left], found[right]) for key, (left, right) in self.ends.items()},
-                      {bundle: found[axis] for bundle, axis in self.axes.items()})  # fmt: skip
+        return Places(
+            {key: (found[left], found[right]) for key, (left, right) in self.ends.items()},
+            {bundle: found[axis] for bundle, axis in self.axes.items()},
+        )
 
     def axes_of(self, bundle: Bundle) -> tuple[float, ...]:
         """The wires of a bundle beside its axis."""
@@ -132,5 +135,8 @@ class Placing:
                 self.program.near({self.axes[low]: 1.0, self.axes[high]: -1.0}, STRAIGHT)
 
     def _upright_at(self, key: str) -> list[Bundle]:
-        return [bundle for bundle in self.axes
-                if key in (bundle.lower, bundle.upper) and not self.arrangement.sideways(bundle)]  # fmt: skip
+        return [
+            bundle
+            for bundle in self.axes
+            if key in (bundle.lower, bundle.upper) and not self.arrangement.sideways(bundle)
+        ]

@@ -87,7 +87,31 @@ def columns(text: str, bold: bool = False) -> int:
     )
 
 
-PAPER = Sizes(upright=True, whole=False, symbol=48.0, half=14.0, lead=6.0, line=15.0, gap=20.0, space=8.0,
-              support=26.0, cell=24.0, pad=8.0, width=points)  # fmt: skip
-TERMINAL = Sizes(upright=False, whole=True, symbol=5.0, half=0.0, lead=1.0, line=1.0, gap=1.0, space=1.0,
-                 support=2.0, cell=3.0, pad=1.0, width=columns)  # fmt: skip
+PAPER = Sizes(
+    upright=True,
+    whole=False,
+    symbol=48.0,
+    half=14.0,
+    lead=6.0,
+    line=15.0,
+    gap=20.0,
+    space=8.0,
+    support=26.0,
+    cell=24.0,
+    pad=8.0,
+    width=points,
+)
+TERMINAL = Sizes(
+    upright=False,
+    whole=True,
+    symbol=5.0,
+    half=0.0,
+    lead=1.0,
+    line=1.0,
+    gap=1.0,
+    space=1.0,
+    support=2.0,
+    cell=3.0,
+    pad=1.0,
+    width=columns,
+)

@@ -112,8 +112,10 @@ def _(rail: Rail) -> Iterator[str]:
     box = rail.box
     yield f'<g class="node{" held" if rail.held else ""}" data-node={quoteattr(rail.node)}>'
     if rail.body:
-        yield (f'<rect class="body" x="{box.left:.1f}" y="{box.top:.1f}" width="{box.right - box.left:.1f}" '
-               f'height="{box.bottom - box.top:.1f}"/>')  # fmt: skip
+        yield (
+            f'<rect class="body" x="{box.left:.1f}" y="{box.top:.1f}" width="{box.right - box.left:.1f}" '
+            f'height="{box.bottom - box.top:.1f}"/>'
+        )
     else:
         yield f'<path d="{_path(((box.left, box.top), (box.right, box.bottom)))}"/>'
     yield "</g>"
@@ -143,8 +145,10 @@ def _boxed(sign: Sign) -> Iterator[str]:
     across, down = (0.0, inset) if upright else (inset, 0.0)
     box = Box(sign.box.left + across, sign.box.top + down, sign.box.right - across, sign.box.bottom - down)
     x, y = box.middle
-    yield (f'<rect class="body" x="{box.left:.1f}" y="{box.top:.1f}" width="{box.right - box.left:.1f}" '
-           f'height="{box.bottom - box.top:.1f}"/>')  # fmt: skip
+    yield (
+        f'<rect class="body" x="{box.left:.1f}" y="{box.top:.1f}" width="{box.right - box.left:.1f}" '
+        f'height="{box.bottom - box.top:.1f}"/>'
+    )
     yield f'<text x="{x:.1f}" y="{y + 4:.1f}" text-anchor="middle">{escape(sign.word)}</text>'
 
 

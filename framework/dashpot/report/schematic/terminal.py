@@ -26,8 +26,23 @@ SIGNS = {
     Symbol.FRACTIONAL: "─<=>─",
 }
 # right, left, up, down: where a cell is connected; light wires, and heavy lines of nodes up and down
-LIGHT = {"rl": "─", "ud": "│", "rd": "┌", "ld": "┐", "ru": "└", "lu": "┘", "rud": "├", "lud": "┤", "rld": "┬",
-         "rlu": "┴", "rlud": "┼", "r": "─", "l": "─", "u": "│", "d": "│"}  # fmt: skip
+LIGHT = {
+    "rl": "─",
+    "ud": "│",
+    "rd": "┌",
+    "ld": "┐",
+    "ru": "└",
+    "lu": "┘",
+    "rud": "├",
+    "lud": "┤",
+    "rld": "┬",
+    "rlu": "┴",
+    "rlud": "┼",
+    "r": "─",
+    "l": "─",
+    "u": "│",
+    "d": "│",
+}
 HEAVY = {"": "┃", "r": "┠", "l": "┨", "rl": "╂"}
 
 

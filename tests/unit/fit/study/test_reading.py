@@ -53,9 +53,18 @@ def test_all_mistakes_are_told_at_once():
             "models: [sprng, {network: spring, start_from: gehmann}]\nmore: 1\n"
         )
     said = str(caught.value)
-    for part in ("did you mean 'test_tire'", "weights above 0", "did you mean 'pso'", "at least 1, got 0",
-                 "one of curves, ends", "has no options", "a whole number, got 'many'", "did you mean 'spring'",
-                 "expected one of", "no key 'more'"):  # fmt: skip
+    for part in (
+        "did you mean 'test_tire'",
+        "weights above 0",
+        "did you mean 'pso'",
+        "at least 1, got 0",
+        "one of curves, ends",
+        "has no options",
+        "a whole number, got 'many'",
+        "did you mean 'spring'",
+        "expected one of",
+        "no key 'more'",
+    ):
         assert part in said, part
 
 

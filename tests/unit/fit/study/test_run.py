@@ -79,8 +79,10 @@ def test_the_truth_is_found_within_its_intervals(study, optimizer):
 
 
 def test_numbers_are_carried_over_by_path(study):
-    made = study("stages: [{name: a}]\nmodels: [one.yaml, {network: two.yaml, start_from: one, "
-                 "stages: [{name: b, free: 'oil.*'}]}]\n")  # fmt: skip
+    made = study(
+        "stages: [{name: a}]\nmodels: [one.yaml, {network: two.yaml, start_from: one, "
+        "stages: [{name: b, free: 'oil.*'}]}]\n"
+    )
     found = run(made)
     assert numbers(found, 1)["rubber.stiffness"] == numbers(found, 0)["rubber.stiffness"] != 1e5
 
@@ -235,8 +237,12 @@ def test_a_model_uses_a_part_that_was_identified_before(study, tmp_path):
         "  pad: {use: one.yaml, fixed: true, between: [platform, body]}  # a pad\n"
         "  oil: {element: damper, damping: {start: 900 N*s/m}, between: [platform, body]}\n"
     )
-    result = run(study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
-                       "  - {network: rig.yaml, parts: {pad: one}, stages: [{name: b}]}\n"))  # fmt: skip
+    result = run(
+        study(
+            "models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+            "  - {network: rig.yaml, parts: {pad: one}, stages: [{name: b}]}\n"
+        )
+    )
     first, second = numbers(result), numbers(result, 1)
     assert second["pad.rubber.stiffness"] == pytest.approx(first["rubber.stiffness"], rel=1e-6)
     assert second["oil.damping"] == pytest.approx(DAMPING, rel=0.05)
@@ -247,10 +253,14 @@ def test_a_model_uses_a_part_that_was_identified_before(study, tmp_path):
 
 def test_a_part_has_to_be_a_model_above_and_a_branch_that_uses_one(study):
     with pytest.raises(InputError, match="expected one of one, got 'two'"):
-        study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
-              "  - {network: two.yaml, parts: {oil: two}, stages: [{name: b}]}\n")  # fmt: skip
-    made = study("models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
-                 "  - {network: two.yaml, parts: {oil: one}, stages: [{name: b}]}\n")  # fmt: skip
+        study(
+            "models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+            "  - {network: two.yaml, parts: {oil: two}, stages: [{name: b}]}\n"
+        )
+    made = study(
+        "models:\n  - {network: one.yaml, stages: [{name: a}]}\n"
+        "  - {network: two.yaml, parts: {oil: one}, stages: [{name: b}]}\n"
+    )
     with pytest.raises(InputError, match="no branch 'oil' uses another network"):
         run(made)
 
@@ -258,8 +268,10 @@ def test_a_part_has_to_be_a_model_above_and_a_branch_that_uses_one(study):
 def test_a_model_is_fitted_to_its_own_runs(study):
     other = Dataset("bench", (*DATA.runs, sine("soft", 4.0, spring=1e5)))
     stages = "stages: [{name: a}]"
-    made = study(f"hold_out: f9\nmodels:\n  - {{network: one.yaml, runs: [f2, f9], {stages}}}\n"
-                 f"  - {{network: two.yaml, runs: soft, {stages}}}\n")  # fmt: skip
+    made = study(
+        f"hold_out: f9\nmodels:\n  - {{network: one.yaml, runs: [f2, f9], {stages}}}\n"
+        f"  - {{network: two.yaml, runs: soft, {stages}}}\n"
+    )
     result = run(made, other)
     assert set(result.models[0].fit.errors.per_run) == {"f2", "f9"} and set(result.models[1].fit.errors.per_run) == {
         "soft"

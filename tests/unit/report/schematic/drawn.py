@@ -11,11 +11,18 @@ from xml.etree import ElementTree
 NUMBER = r"-?\d+(?:\.\d+)?"
 # widths of Helvetica in thousandths of the size, after its AFM file; bold is at most a fifth wider
 ADVANCES = {
-    **dict.fromkeys("ijl'|", 260), **dict.fromkeys(" .,:;/!·[]It", 278), **dict.fromkeys("fr()-²³", 333),
-    **dict.fromkeys("cksvxyzJ", 500), **dict.fromkeys("=+<>~≈", 584), **dict.fromkeys("abdeghnopqu0123456789_L", 556),
-    **dict.fromkeys("ABEKPSVXYwCDHNRU", 722), **dict.fromkeys("FTZ", 611), **dict.fromkeys("GOQ", 778),
-    **dict.fromkeys("mM%", 889), **dict.fromkeys("W@…", 1000),
-}  # fmt: skip
+    **dict.fromkeys("ijl'|", 260),
+    **dict.fromkeys(" .,:;/!·[]It", 278),
+    **dict.fromkeys("fr()-²³", 333),
+    **dict.fromkeys("cksvxyzJ", 500),
+    **dict.fromkeys("=+<>~≈", 584),
+    **dict.fromkeys("abdeghnopqu0123456789_L", 556),
+    **dict.fromkeys("ABEKPSVXYwCDHNRU", 722),
+    **dict.fromkeys("FTZ", 611),
+    **dict.fromkeys("GOQ", 778),
+    **dict.fromkeys("mM%", 889),
+    **dict.fromkeys("W@…", 1000),
+}
 
 
 @dataclass(frozen=True)
@@ -37,8 +44,12 @@ class Rectangle:
 
     def inside(self, other: Rectangle, play: float = 0.2) -> bool:
         """Whether it lies in the other one."""
-        return (self.left >= other.left - play and self.top >= other.top - play
-                and self.right <= other.right + play and self.bottom <= other.bottom + play)  # fmt: skip
+        return (
+            self.left >= other.left - play
+            and self.top >= other.top - play
+            and self.right <= other.right + play
+            and self.bottom <= other.bottom + play
+        )
 
 
 @dataclass(frozen=True)
@@ -100,11 +111,18 @@ class Drawn:
         return [self._ports(group) for group in self.of("sign")]
 
     def _ports(self, group: ElementTree.Element) -> Ports:
-        paths = [points_of(child.attrib["d"]) for child in group
-                 if _tag(child) == "path" and child.attrib.get("class") != "thin"]  # fmt: skip
+        paths = [
+            points_of(child.attrib["d"])
+            for child in group
+            if _tag(child) == "path" and child.attrib.get("class") != "thin"
+        ]
         branches = tuple(group.attrib["data-branch"].split())
-        return Ports(branches, group.attrib["class"].split()[1], (paths[0][0], paths[-1][-1]),
-                     self._box(group, "sign", " ".join(branches)))  # fmt: skip
+        return Ports(
+            branches,
+            group.attrib["class"].split()[1],
+            (paths[0][0], paths[-1][-1]),
+            self._box(group, "sign", " ".join(branches)),
+        )
 
     @cached_property
     def rails(self) -> dict[str, list[Rectangle]]:
@@ -124,8 +142,11 @@ class Drawn:
 
     def words(self, owner: str) -> list[list[str]]:
         """The texts of the labels of a branch or node."""
-        return [["".join(text.itertext()) for text in group] for group in self.of("words")
-                if owner in group.attrib["data-owner"].split()]  # fmt: skip
+        return [
+            ["".join(text.itertext()) for text in group]
+            for group in self.of("words")
+            if owner in group.attrib["data-owner"].split()
+        ]
 
     @cached_property
     def scalings(self) -> list[Rectangle]:

@@ -119,8 +119,10 @@ def jointed(draw):
     names = [f"n{number}" for number in range(draw(st.integers(2, 6)))]
     holds = [draw(st.sampled_from(["driven", "ground", "free", "free", "loaded"])) for _ in names]
     masses = {"mass": Value(40.0, "kg")}
-    joints = {name: Joint(name, hold, masses if hold in ("free", "loaded") and draw(st.booleans()) else {})
-              for name, hold in zip(names, holds, strict=True)}  # fmt: skip
+    joints = {
+        name: Joint(name, hold, masses if hold in ("free", "loaded") and draw(st.booleans()) else {})
+        for name, hold in zip(names, holds, strict=True)
+    }
     pairs = st.tuples(st.sampled_from(names), st.sampled_from(names)).filter(lambda pair: pair[0] != pair[1])
     ends = [draw(pairs) for _ in range(draw(st.integers(1, 8)))]
     members = tuple(draw(trees(f"b{number}", 2)) for number in range(len(ends)))

@@ -57,8 +57,11 @@ def misdrawn(spec: NetworkSpec, drawn: Drawn) -> list[str]:
     topology = topology_of(spec)
     edges = [edge for edge in topology.edges if edge.branch.name in ends]
     _name_inner_nodes(edges, ends, known)
-    found = [edge.branch.name for edge in edges
-             if {known.get(edge.lower), known.get(edge.upper)} != set(ends[edge.branch.name])]  # fmt: skip
+    found = [
+        edge.branch.name
+        for edge in edges
+        if {known.get(edge.lower), known.get(edge.upper)} != set(ends[edge.branch.name])
+    ]
     names = set(known.values())
     found += ["two nodes are one net"] if len(names) < len(known) else []
     return found + list(_wrong_symbols(spec, drawn))

@@ -67,8 +67,12 @@ def test_every_number_stands_once_in_its_label(name, elements):
         if owner.startswith("measurement"):
             texts = [line for group in drawn.of("title") for line in re.split(", |: |\n", "".join(group.itertext()))]
         ending = [line for line in texts if re.search(rf"[=≈] {re.escape(shown)}$", line)]
-        likes = [other for other in spec.slots() if other.value.number == slot.value.number
-                 and re.sub(r"\[\d+\]$", "", other.path).rpartition(".")[0] == owner]  # fmt: skip
+        likes = [
+            other
+            for other in spec.slots()
+            if other.value.number == slot.value.number
+            and re.sub(r"\[\d+\]$", "", other.path).rpartition(".")[0] == owner
+        ]
         assert len(ending) == len(likes), (slot.path, texts)
 
 
@@ -104,8 +108,10 @@ def test_each_way_of_holding_a_node_has_its_mark(elements):
         (box.attrib["data-node"], box.attrib["class"]) for box in Drawn(svg(network("axle", elements))).of("support")
     }
     assert ("platform_left", "support driven") in marks and ("body", "support ground") in marks
-    marks = [(group.attrib["data-node"], group.attrib["class"])
-             for group in Drawn(svg(parse_network(LOADED, elements))).of("support")]  # fmt: skip
+    marks = [
+        (group.attrib["data-node"], group.attrib["class"])
+        for group in Drawn(svg(parse_network(LOADED, elements))).of("support")
+    ]
     assert sorted(marks) == [("floor", "support ground"), ("floor", "support ground"), ("seat", "support loaded")]
 
 

@@ -87,8 +87,9 @@ def single(online: Online) -> bool:
 
 def input_names(online: Online) -> list[str]:
     """What the inputs are, in their order, e.g. ``displacement@wheel``."""
-    motions = [_at(quantity, joint) for joint in online.driven
-               for quantity in ("displacement", "velocity", "acceleration")]  # fmt: skip
+    motions = [
+        _at(quantity, joint) for joint in online.driven for quantity in ("displacement", "velocity", "acceleration")
+    ]
     return [*motions, *(_at("force", joint) for joint in online.loaded)]
 
 

@@ -121,16 +121,31 @@ def print_source(online: Online, name: str, values: Sequence[float], units: Sequ
     code, own = CCode(), identifier(name)
     code.lines += [f'#include "{own}.h"', "", "#include <math.h>"]
     write_network(code, online)
-    rows = [f'    {{"{path}", "{unit}", {code.number(float(value))}}},'
-            for path, value, unit in zip(online.numbers, values, units, strict=True)]  # fmt: skip
-    places = {"name": own, "count": len(online.numbers), "size": state_size(online, seen), "inputs": online.inputs,
-              "answers": online.before - online.outputs, "outputs": online.outputs, "before": online.before,
-              "DT": DT, "SPAN": SPAN, "STATUS": STATUS, "BEGUN": BEGUN, "INPUTS": INPUTS,
-              "acceleration": f"{own}_acceleration(network, 0, x, v, dt)" if online.accelerated else "0.0",
-              "NOT_FINITE": NOT_FINITE, "smallest": SMALLEST_SPAN}  # fmt: skip
+    rows = [
+        f'    {{"{path}", "{unit}", {code.number(float(value))}}},'
+        for path, value, unit in zip(online.numbers, values, units, strict=True)
+    ]
+    places = {
+        "name": own,
+        "count": len(online.numbers),
+        "size": state_size(online, seen),
+        "inputs": online.inputs,
+        "answers": online.before - online.outputs,
+        "outputs": online.outputs,
+        "before": online.before,
+        "DT": DT,
+        "SPAN": SPAN,
+        "STATUS": STATUS,
+        "BEGUN": BEGUN,
+        "INPUTS": INPUTS,
+        "acceleration": f"{own}_acceleration(network, 0, x, v, dt)" if online.accelerated else "0.0",
+        "NOT_FINITE": NOT_FINITE,
+        "smallest": SMALLEST_SPAN,
+    }
     step = STEP.format(**places) if single(online) else ""
     watching = watch_call(online, seen, "begun")
     begun = f"    const int begun = s[{BEGUN}] != 0.0;\n" if watching else ""
-    rest = TEXT.format(numbers="\n".join(rows), step=step, begun=begun, watching=watching, flag=flag_place(online),
-                       **places)  # fmt: skip
+    rest = TEXT.format(
+        numbers="\n".join(rows), step=step, begun=begun, watching=watching, flag=flag_place(online), **places
+    )
     return code.text + watch_text(online, seen) + rest

@@ -101,9 +101,16 @@ def watch_text(online: Online, seen: Range) -> str:
     if not watched(online, seen):
         return ""
     rows = ",\n".join(f"    {{{', '.join(_limits(node, seen))}}}" for node in online.driven)
-    return TEXT.format(quantities=", ".join(QUANTITIES), count=len(online.driven), twice=2 * len(QUANTITIES),
-                       rows=rows, clock=online.size + 1, first=online.size + 2, places=PLACES,
-                       flag=flag_place(online))  # fmt: skip
+    return TEXT.format(
+        quantities=", ".join(QUANTITIES),
+        count=len(online.driven),
+        twice=2 * len(QUANTITIES),
+        rows=rows,
+        clock=online.size + 1,
+        first=online.size + 2,
+        places=PLACES,
+        flag=flag_place(online),
+    )
 
 
 def watch_call(online: Online, seen: Range, begun: str) -> str:

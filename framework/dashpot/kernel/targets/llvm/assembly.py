@@ -133,8 +133,10 @@ def joined(bundles: Sequence[Bundle]) -> Bundle:
 def parted(bundle: Bundle, count: int) -> list[Bundle]:
     """A bundle as ``count`` of equal size."""
     size = len(bundle.names) // count
-    return [Bundle(bundle.assembly, bundle.type, bundle.names[first : first + size])
-            for first in range(0, len(bundle.names), size)]  # fmt: skip
+    return [
+        Bundle(bundle.assembly, bundle.type, bundle.names[first : first + size])
+        for first in range(0, len(bundle.names), size)
+    ]
 
 
 @dataclass
@@ -200,8 +202,11 @@ class Assembly:
         """Numbers of an array, one place for each lane."""
         pointers = [self.new(f"getelementptr double, ptr {base}, {BITS} {name}") for name in index.names]
         form = f"call {NUMBER} @llvm.masked.gather.v{LANES}f64.v{LANES}p0(<{LANES} x ptr> {{}}, i32 8, {TRUTH} "
-        return Bundle(self, NUMBER, tuple(
-            self.new(form.format(each) + f"{splat(True, TRUTH)}, {NUMBER} poison)") for each in pointers))  # fmt: skip
+        return Bundle(
+            self,
+            NUMBER,
+            tuple(self.new(form.format(each) + f"{splat(True, TRUTH)}, {NUMBER} poison)") for each in pointers),
+        )
 
     def woven(self, parts: Sequence[Callable[[], T]]) -> list[T]:
         """What parts without branches answer that do not need each other, their instructions taken in turn."""
@@ -210,8 +215,11 @@ class Assembly:
             self.lines = []
             answers.append(part())
             pieces.append(self.lines)
-        order = [((place + 0.5) / len(piece), number, line) for number, piece in enumerate(pieces)
-                 for place, line in enumerate(piece)]  # fmt: skip
+        order = [
+            ((place + 0.5) / len(piece), number, line)
+            for number, piece in enumerate(pieces)
+            for place, line in enumerate(piece)
+        ]
         self.lines = whole + [line for *_, line in sorted(order, key=lambda entry: entry[:2])]
         return answers
 

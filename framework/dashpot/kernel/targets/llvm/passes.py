@@ -17,8 +17,14 @@ from dashpot.kernel.targets.llvm.packing import packed, unpacked
 POWERS = 4  # coefficients of a cubic
 TOGETHER = 8  # vectors of arguments of long functions at once
 SHORT = 4  # stages that the compiler may mix
-COMPARED = {"less": "olt", "less_equal": "ole", "greater": "ogt", "greater_equal": "oge", "equal": "oeq",
-            "not_equal": "une"}  # fmt: skip
+COMPARED = {
+    "less": "olt",
+    "less_equal": "ole",
+    "greater": "ogt",
+    "greater_equal": "oge",
+    "equal": "oeq",
+    "not_equal": "une",
+}
 ARITHMETIC: dict[str, Callable[..., Bundle]] = {
     "add": lambda a, b: a + b,
     "subtract": lambda a, b: a - b,
@@ -208,8 +214,10 @@ class Pass:
             knot = self.assembly.spread(self.assembly.scalar(self.arrays.knots, place), len(x.names))
             segment = x.compare("oge", knot).choose(segment + 1, segment)
         firsts = [self.assembly.new(f"extractelement {BITS} {name}, i64 0") for name in segment.names]
-        parts = [self.assembly.address(self.arrays.tables, self.assembly.product(first, POWERS * self.arrays.width))
-                 for first in firsts]  # fmt: skip
+        parts = [
+            self.assembly.address(self.arrays.tables, self.assembly.product(first, POWERS * self.arrays.width))
+            for first in firsts
+        ]
         starts = [self.assembly.spread(self.assembly.scalar(self.arrays.knots, first), 1) for first in firsts]
         elsewhere = segment.differs(joined([self.assembly.spread(first, 1, "i64") for first in firsts]))
         near = joined([*starts, *self._coefficients(parts)])

@@ -17,9 +17,20 @@ from dashpot.kernel.targets.llvm.passes import Arrays, Pass
 
 # the machine's full width; without the word LLVM halves the vectors of many processors
 ATTRIBUTES = 'attributes #0 = { nounwind "prefer-vector-width"="512" }\n'
-ARGUMENTS = ("ptr %columns", "ptr %index", "ptr %local", "i64 %samples", "ptr %turn_at",
-             "ptr %turn_columns", "ptr %tables", "ptr %w", "ptr %measured", "ptr %weight", "ptr %out",
-             "i64 %asked")  # fmt: skip
+ARGUMENTS = (
+    "ptr %columns",
+    "ptr %index",
+    "ptr %local",
+    "i64 %samples",
+    "ptr %turn_at",
+    "ptr %turn_columns",
+    "ptr %tables",
+    "ptr %w",
+    "ptr %measured",
+    "ptr %weight",
+    "ptr %out",
+    "i64 %asked",
+)
 
 
 def print_source(program: Program, vectors: int, alone: bool = False) -> str:
@@ -47,8 +58,12 @@ def print_source(program: Program, vectors: int, alone: bool = False) -> str:
                 Pass(a, passes.turn, arrays, alone).write()
                 a.do(f"store i64 {a.new(f'add i64 {number}, 1')}, ptr %turn")
         looked = a.product(k, len(program.lookups))
-        arrays = Arrays(a.address("%columns", a.product(k, across)), bases,
-                        index=a.address("%index", looked, "i64"), local=a.address("%local", looked))  # fmt: skip
+        arrays = Arrays(
+            a.address("%columns", a.product(k, across)),
+            bases,
+            index=a.address("%index", looked, "i64"),
+            local=a.address("%local", looked),
+        )
         _correct(a, passes, arrays, program, alone)
         step = Pass(a, passes.step, arrays, alone)
         step.write()
@@ -76,8 +91,10 @@ def _turns_at(a: Assembly, k: str) -> str:
 def _correct(a: Assembly, passes: Passes, arrays: Arrays, program: Program, alone: bool) -> None:
     if passes.correct is None:
         return
-    due = [a.new(f"fcmp une double {a.scalar(arrays.columns, passes.correct.columns[event.serial])}, 0.0")
-           for event in program.events]  # fmt: skip
+    due = [
+        a.new(f"fcmp une double {a.scalar(arrays.columns, passes.correct.columns[event.serial])}, 0.0")
+        for event in program.events
+    ]
     some = due[0]
     for other in due[1:]:
         some = a.new(f"or i1 {some}, {other}")

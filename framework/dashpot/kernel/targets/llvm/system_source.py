@@ -21,9 +21,24 @@ from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
 from dashpot.kernel.targets.llvm.passes import Arrays, Pass
 from dashpot.kernel.targets.llvm.source import whole
 
-ARGUMENTS = ("ptr %still", "ptr %coarse", "ptr %fine", "i64 %per", "i64 %samples", "ptr %space", "ptr %status",
-             "ptr %tables", "ptr %knots", "ptr %measured", "ptr %weight", "ptr %out", "ptr %miss",
-             "i64 %scoring", "i64 %begins", "i64 %asked")  # fmt: skip
+ARGUMENTS = (
+    "ptr %still",
+    "ptr %coarse",
+    "ptr %fine",
+    "i64 %per",
+    "i64 %samples",
+    "ptr %space",
+    "ptr %status",
+    "ptr %tables",
+    "ptr %knots",
+    "ptr %measured",
+    "ptr %weight",
+    "ptr %out",
+    "ptr %miss",
+    "i64 %scoring",
+    "i64 %begins",
+    "i64 %asked",
+)
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
@@ -132,8 +147,9 @@ def _call(a: Assembly, name: str, columns: str, space: str) -> None:
     a.do(f"call void @{name}(ptr {columns}, ptr {space}, ptr %tables, ptr %knots)")
 
 
-def _newton(a: Assembly, name: str, columns: str, space: str, most: int, failure: int | None, row: int,
-            vectors: int) -> None:  # fmt: skip
+def _newton(
+    a: Assembly, name: str, columns: str, space: str, most: int, failure: int | None, row: int, vectors: int
+) -> None:
     """Steps until every lane is done, ``most`` of them at most; what is left then has failed, if there is a code."""
 
     def undone() -> Bundle:

@@ -45,8 +45,15 @@ end {name};
 """
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_"
 UNSOLVED = 'assert(memory[{status}] < 0.5, "Forces at inner nodes are not balanced.", AssertionLevel.warning);'
-SAMPLED: Arguments = [("array", "s"), ("number", "dt"), ("array", "p"), ("array", "x"), ("array", "v"),
-                      ("array", "load"), ("number", "span")]  # fmt: skip
+SAMPLED: Arguments = [
+    ("array", "s"),
+    ("number", "dt"),
+    ("array", "p"),
+    ("array", "x"),
+    ("array", "v"),
+    ("array", "load"),
+    ("number", "span"),
+]
 
 
 def print_model(online: Online, name: str, title: str, values: Sequence[float], units: Sequence[str]) -> str:
@@ -54,22 +61,33 @@ def print_model(online: Online, name: str, title: str, values: Sequence[float], 
     code = ModelicaCode()
     write_network(code, online)
     _write_sampled(code, online)
-    rows = [f'    parameter Real {parameter(path)}(unit = "{unit}") = {code.number(float(value))};'
-            for path, value, unit in zip(online.numbers, values, units, strict=True)]  # fmt: skip
+    rows = [
+        f'    parameter Real {parameter(path)}(unit = "{unit}") = {code.number(float(value))};'
+        for path, value, unit in zip(online.numbers, values, units, strict=True)
+    ]
     parts = _two_ends() if online.driven == (END,) else _nodes(online)
     if online.system:
         parts["equations"] += f"\n    {UNSOLVED.format(status=STATUS + 1)}"
         parts["options"] += '\n    parameter Modelica.Units.SI.Length span = 0.05 "How far the motion goes";'
     text = TEXT.format(
-        name=name, title=title.replace("\\", "\\\\").replace('"', '\\"'), size=online.size,
-        parameters="\n".join(rows), numbers=_listed(map(parameter, online.numbers)), driven=len(online.driven),
-        force=online.outputs + 1, last=online.outputs + len(online.driven), span="span" if online.system else "0.0",
-        loads=_listed(f"load_{plain(node)}" for node in online.loaded), functions=code.text.rstrip(),
-        places="\n".join(f'    discrete Modelica.Units.SI.Position place_{plain(node)}(start = 0.0, fixed = true);'
-                         for node in _named(online)),
+        name=name,
+        title=title.replace("\\", "\\\\").replace('"', '\\"'),
+        size=online.size,
+        parameters="\n".join(rows),
+        numbers=_listed(map(parameter, online.numbers)),
+        driven=len(online.driven),
+        force=online.outputs + 1,
+        last=online.outputs + len(online.driven),
+        span="span" if online.system else "0.0",
+        loads=_listed(f"load_{plain(node)}" for node in online.loaded),
+        functions=code.text.rstrip(),
+        places="\n".join(
+            f"    discrete Modelica.Units.SI.Position place_{plain(node)}(start = 0.0, fixed = true);"
+            for node in _named(online)
+        ),
         found="\n".join(f"      place_{plain(node)} = memory[{number}];" for node, number in _named(online).items()),
         **parts,
-    )  # fmt: skip
+    )
     return "\n".join(line for line in text.splitlines() if line.strip() or not line) + "\n"
 
 
@@ -80,18 +98,20 @@ def _two_ends() -> dict[str, str]:
         "sign": "Presses the flanges apart",
         "connectors": f'    {FLANGE}a flange_a "Squeezes where it moves ahead of flange_b";\n    {FLANGE}b flange_b;',
         "options": '    parameter Modelica.Units.SI.Length free = 0.0 "Distance of the flanges where the deflection is '
-                   'zero";',
+        'zero";',
         "equations": "    x[1] = flange_a.s - flange_b.s + free;\n    flange_a.f = force[1];\n"
-                     "    flange_b.f = -force[1];",
-    }  # fmt: skip
+        "    flange_b.f = -force[1];",
+    }
 
 
 def _nodes(online: Online) -> dict[str, str]:
     """A flange for each driven node, an input for each load."""
     flanges = [f"    {FLANGE}a flange_{plain(node)};" for node in online.driven]
     loads = [f'    Modelica.Blocks.Interfaces.RealInput load_{plain(node)}(unit = "N");' for node in online.loaded]
-    equations = [f"    x[{number}] = flange_{plain(node)}.s;\n    flange_{plain(node)}.f = force[{number}];"
-                 for number, node in enumerate(online.driven, 1)]  # fmt: skip
+    equations = [
+        f"    x[{number}] = flange_{plain(node)}.s;\n    flange_{plain(node)}.f = force[{number}];"
+        for number, node in enumerate(online.driven, 1)
+    ]
     return {
         "about": "Forces at the flanges, sampled",
         "motion": "Of the flanges, upwards",

@@ -27,16 +27,29 @@ from dashpot.kernel.targets.scalar.graph import Writer, truth
 
 ARRAYS = ("columns", "index", "local", "tables", "w")
 PASS: Arguments = [*(("array", name) for name in ARRAYS), ("count", "c"), ("count", "i")]
-RUN: Arguments = [*(("array", name) for name in ("columns", "index", "local")), ("count", "samples"),
-                  *(("array", name) for name in ("turn_at", "turn_columns", "all_tables", "space", "measured", "weight",
-                                                 "out")), ("count", "asked"), ("count", "n")]  # fmt: skip
-SYSTEM_PASS: Arguments = [*(("array", name) for name in ("columns", "w", "tables", "knots")), ("count", "c"),
-                          ("count", "o")]  # fmt: skip
+RUN: Arguments = [
+    *(("array", name) for name in ("columns", "index", "local")),
+    ("count", "samples"),
+    *(("array", name) for name in ("turn_at", "turn_columns", "all_tables", "space", "measured", "weight", "out")),
+    ("count", "asked"),
+    ("count", "n"),
+]
+SYSTEM_PASS: Arguments = [
+    *(("array", name) for name in ("columns", "w", "tables", "knots")),
+    ("count", "c"),
+    ("count", "o"),
+]
 NEWTON: Arguments = [*SYSTEM_PASS, ("array", "status"), ("count", "l")]
-SYSTEM: Arguments = [*(("array", name) for name in ("still", "coarse", "fine")), ("count", "per"), ("count", "samples"),
-                     *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight",
-                                                    "out", "miss")),
-                     ("count", "scoring"), ("count", "begins"), ("count", "asked"), ("count", "n")]  # fmt: skip
+SYSTEM: Arguments = [
+    *(("array", name) for name in ("still", "coarse", "fine")),
+    ("count", "per"),
+    ("count", "samples"),
+    *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight", "out", "miss")),
+    ("count", "scoring"),
+    ("count", "begins"),
+    ("count", "asked"),
+    ("count", "n"),
+]
 
 
 def print_network(program: Program) -> str:
@@ -106,9 +119,11 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
 
 def _cubic(array: str, c: str, u: str, order: int) -> str:
     c0, c1, c2, c3 = (f"{array}[{c} + {power}]" for power in range(4))
-    return (f"({c0} + {u} * ({c1} + {u} * ({c2} + {u} * {c3})))",
-            f"({c1} + {u} * (2.0 * {c2} + 3.0 * {u} * {c3}))",
-            f"(2.0 * {c2} + 6.0 * {u} * {c3})")[order]  # fmt: skip
+    return (
+        f"({c0} + {u} * ({c1} + {u} * ({c2} + {u} * {c3})))",
+        f"({c1} + {u} * (2.0 * {c2} + 3.0 * {u} * {c3}))",
+        f"(2.0 * {c2} + 6.0 * {u} * {c3})",
+    )[order]
 
 
 def _write_lane(code: PythonCode, program: Program, passes: Passes) -> None:
@@ -176,8 +191,7 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
     )
 
 
-def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int,
-                  failure: int | None = None) -> None:  # fmt: skip
+def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int, failure: int | None = None) -> None:
     done = f"w[o + {system.row(system.done)}]"
     with code.function("nothing", name, NEWTON, "Newton's steps until they are short."):
         code.let("left", str(most), "count")
@@ -214,8 +228,9 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
             _each(code, system, [*system.forces], _score)
 
 
-def _each(code: PythonCode, system: SystemProgram, names: list[str],
-          write: Callable[[PythonCode, int, int], None]) -> None:  # fmt: skip
+def _each(
+    code: PythonCode, system: SystemProgram, names: list[str], write: Callable[[PythonCode, int, int], None]
+) -> None:
     for number, name in enumerate(names):
         row = system.row(name)
         code.let("short", f"w[{system.rows + row}]")

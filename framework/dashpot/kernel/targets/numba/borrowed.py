@@ -56,8 +56,14 @@ def _on_stack(typing: Any, count: Any) -> Any:
         cgutils.memset(builder, place, context.get_constant(types.intp, WIDTH * length), 0)
         found, counted = context.make_array(kind)(context, builder), context.get_constant(types.intp, length)
         width = context.get_constant(types.intp, WIDTH)
-        populate_array(found, data=builder.bitcast(place, ir.PointerType(ir.DoubleType())), shape=(counted,),
-                       strides=(width,), itemsize=width, meminfo=None)  # fmt: skip
+        populate_array(
+            found,
+            data=builder.bitcast(place, ir.PointerType(ir.DoubleType())),
+            shape=(counted,),
+            strides=(width,),
+            itemsize=width,
+            meminfo=None,
+        )
         return found._getvalue()
 
     return kind(count), generate

@@ -52,11 +52,15 @@ class PythonCode(Code):
     @property
     def text(self) -> str:
         """All that is written, and the packs that it uses."""
-        return super().text + "".join(PACK.format(
-            omegas=omegas, settings=f"{SETTINGS}, {INNER}",
-            beyond=" | ".join(f"({x} > {OMEGA_HIGH if k < omegas else HIGHEST})" for k, x in enumerate("abcd")),
-            answers=", ".join(f"omega({x})" if k < omegas else f"exp({x})" for k, x in enumerate("abcd")),
-        ) for omegas in sorted(self.packs))  # fmt: skip
+        return super().text + "".join(
+            PACK.format(
+                omegas=omegas,
+                settings=f"{SETTINGS}, {INNER}",
+                beyond=" | ".join(f"({x} > {OMEGA_HIGH if k < omegas else HIGHEST})" for k, x in enumerate("abcd")),
+                answers=", ".join(f"omega({x})" if k < omegas else f"exp({x})" for k, x in enumerate("abcd")),
+            )
+            for omegas in sorted(self.packs)
+        )
 
     def let(self, name: str, value: str, kind: Kind = "number") -> None:
         """An assignment."""

@@ -94,8 +94,9 @@ def _packed(omegas: int) -> Callable[..., Any]:
             start = builder.select(chosen, vectors.begin_omega(x), x) if omegas else x
             y = vectors.exponential(start)
             found = builder.select(chosen, vectors.end_omega(x, start, y), y) if omegas else y
-            return context.make_tuple(builder, signature.return_type,
-                                      [builder.extract_element(found, place) for place in places])  # fmt: skip
+            return context.make_tuple(
+                builder, signature.return_type, [builder.extract_element(found, place) for place in places]
+            )
 
         return types.UniTuple(types.float64, WIDTH)(a, b, c, d), generate
 

@@ -10,8 +10,15 @@ from dashpot.kernel.targets.scalar.whole import write_network
 
 ONE: Arguments = [("array", "state"), ("number", "x"), ("number", "v"), ("number", "dt"), ("array", "numbers")]
 ALL: Arguments = [("array", "x"), ("array", "v"), ("number", "dt"), ("array", "numbers"), ("array", "out")]
-MANY: Arguments = [("array", "state"), ("array", "x"), ("array", "v"), ("array", "load"), ("number", "dt"),
-                   ("array", "numbers"), ("array", "out")]  # fmt: skip
+MANY: Arguments = [
+    ("array", "state"),
+    ("array", "x"),
+    ("array", "v"),
+    ("array", "load"),
+    ("number", "dt"),
+    ("array", "numbers"),
+    ("array", "out"),
+]
 
 
 CALLED = ("step", "tangent_step", "simulate", "simulate_path", "step_nodes", "status")

@@ -18,13 +18,27 @@ Arguments = Sequence[tuple[Kind, str]]
 MEMORY: Arguments = [("array", "s"), ("number", "dt"), ("array", "p")]  # of a network, the step, its numbers
 
 COMMON = {
-    "add": "({0} + {1})", "subtract": "({0} - {1})", "multiply": "({0} * {1})", "divide": "({0} / {1})",
-    "negative": "(-{0})", "absolute": "fabs({0})", "less": "({0} < {1})", "less_equal": "({0} <= {1})",
-    "greater": "({0} > {1})", "greater_equal": "({0} >= {1})", "equal": "({0} == {1})", "not_equal": "({0} != {1})",
-    "logical_and": "({0} & {1})", "logical_or": "({0} | {1})", "power": "pow({0}, {1})", "minimum": "smaller({0}, {1})",
-    "maximum": "larger({0}, {1})", "sign": "side({0})", "wrightomega": "omega({0})",
+    "add": "({0} + {1})",
+    "subtract": "({0} - {1})",
+    "multiply": "({0} * {1})",
+    "divide": "({0} / {1})",
+    "negative": "(-{0})",
+    "absolute": "fabs({0})",
+    "less": "({0} < {1})",
+    "less_equal": "({0} <= {1})",
+    "greater": "({0} > {1})",
+    "greater_equal": "({0} >= {1})",
+    "equal": "({0} == {1})",
+    "not_equal": "({0} != {1})",
+    "logical_and": "({0} & {1})",
+    "logical_or": "({0} | {1})",
+    "power": "pow({0}, {1})",
+    "minimum": "smaller({0}, {1})",
+    "maximum": "larger({0}, {1})",
+    "sign": "side({0})",
+    "wrightomega": "omega({0})",
     **{name: f"{name}({{0}})" for name in ("sqrt", "exp", "expm1", "log", "log1p", "tanh", "sin", "cos")},
-}  # fmt: skip
+}
 
 
 class Code(ABC):

@@ -89,8 +89,14 @@ def _write_newton(code: Code, system: SystemProgram, name: str, most: int, failu
 
 def _write_path(code: Code) -> None:
     """The quintic and its derivatives at a share u of the step; ``i`` and ``o`` are where the motion stands."""
-    arguments: Arguments = [("array", "s"), ("count", "o"), ("count", "i"), ("number", "u"), ("number", "dt"),
-                            ("count", "order")]  # fmt: skip
+    arguments: Arguments = [
+        ("array", "s"),
+        ("count", "o"),
+        ("count", "i"),
+        ("number", "u"),
+        ("number", "dt"),
+        ("count", "order"),
+    ]
     with code.function("number", "path", arguments, "Place, velocity or acceleration between two samples."):
         code.let("far", "s[i] - s[o] - dt * (s[o + 1] + 0.5 * dt * s[o + 2])")
         code.let("fast", "dt * (s[i + 1] - s[o + 1] - dt * s[o + 2])")
@@ -113,8 +119,13 @@ def _write_move(code: Code, online: Online) -> None:
     with code.function("nothing", "move", arguments, "The motion within a step, between two shares of a sample."):
         for number, joint in enumerate(online.driven):
             places = f"s, {online.before + len(MOTION) * number}, {INPUTS + len(MOTION) * number}"
-            moved = {"old": ("before", 0), "new": ("now", 0), "velocity_old": ("before", 1), "velocity_new": ("now", 1),
-                     "acceleration": ("now", 2)}  # fmt: skip
+            moved = {
+                "old": ("before", 0),
+                "new": ("now", 0),
+                "velocity_old": ("before", 1),
+                "velocity_new": ("now", 1),
+                "acceleration": ("now", 2),
+            }
             for key, (share, order) in moved.items():
                 _give(code, online, f"node:{joint}.{key}", f"path({places}, {share}, dt, {order})")
         for number, joint in enumerate(online.loaded, len(MOTION) * len(online.driven)):

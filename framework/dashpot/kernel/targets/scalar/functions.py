@@ -74,11 +74,13 @@ def _polynomial(coefficients: Sequence[float], x: str) -> str:
 
 def write_tables(code: Code, orders: set[int]) -> None:
     """The value of a table, or its derivatives."""
-    for order, value in enumerate((
-        "s[c] + u * (s[c + 1] + u * (s[c + 2] + u * s[c + 3]))",
-        "s[c + 1] + u * (2.0 * s[c + 2] + 3.0 * u * s[c + 3])",
-        "2.0 * s[c + 2] + 6.0 * u * s[c + 3]",
-    )):  # fmt: skip
+    for order, value in enumerate(
+        (
+            "s[c] + u * (s[c + 1] + u * (s[c + 2] + u * s[c + 3]))",
+            "s[c + 1] + u * (2.0 * s[c + 2] + 3.0 * u * s[c + 3])",
+            "2.0 * s[c + 2] + 6.0 * u * s[c + 3]",
+        )
+    ):
         if order not in orders:
             continue
         with code.function("number", f"table{order}", TABLE, "A table at x, or its first or second derivative."):
@@ -93,8 +95,15 @@ def write_tables(code: Code, orders: set[int]) -> None:
 def write_tabulate(code: Code) -> None:
     """The monotone cubic through the values of a table; see ``kernel.curves``."""
     _write_slope(code)
-    arguments: Arguments = [("array", "s"), ("count", "t"), ("array", "p"), ("count", "q"), ("count", "first"),
-                            ("count", "count"), ("number", "outside")]  # fmt: skip
+    arguments: Arguments = [
+        ("array", "s"),
+        ("count", "t"),
+        ("array", "p"),
+        ("count", "q"),
+        ("count", "first"),
+        ("count", "count"),
+        ("number", "outside"),
+    ]
     with code.function("nothing", "tabulate", arguments, "The cubics of a table whose values begin at p[q]."):
         code.let("c", "t + 4 * first", "count")
         with code.loop("k", 0, "count"):

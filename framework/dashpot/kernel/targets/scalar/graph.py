@@ -23,8 +23,13 @@ class Writer:
     ``leaf`` answers the text of a node that is there already, or None; ``look_up`` that of a table with an argument.
     """
 
-    def __init__(self, code: Code, roots: Iterable[Node], leaf: Callable[[Node], str | None],
-                 look_up: Callable[[Node, str], str] | None = None) -> None:  # fmt: skip
+    def __init__(
+        self,
+        code: Code,
+        roots: Iterable[Node],
+        leaf: Callable[[Node], str | None],
+        look_up: Callable[[Node, str], str] | None = None,
+    ) -> None:
         self.code, self.leaf, self.look_up = code, leaf, look_up
         self.known: dict[int, str] = {}
         self.uses = Counter[int]()

@@ -21,8 +21,10 @@ PATH = {"old": "xo", "new": "x", "velocity_old": "wo", "velocity_new": "w", "acc
 SAMPLE = {
     **{f"still.{key}": name for key, name in STILL.items()},
     **{f"path.{key}": name for key, name in PATH.items()},
-    "monotone.old": "since", "monotone.new": "x", "dt": "dt",
-}  # fmt: skip
+    "monotone.old": "since",
+    "monotone.new": "x",
+    "dt": "dt",
+}
 TURN = {"monotone.old": "since", "monotone.new": "x", "dt": "dt"}
 TURNED: Arguments = [("array", "s"), ("number", "dt"), ("number", "since"), ("number", "x")]
 Leaf = Callable[[Node], str | None]
@@ -142,8 +144,11 @@ def _follow(code: Code, online: Online, motion: Mapping[str, str], layout: Layou
 
 def _following(online: Online, motion: Mapping[str, str]) -> dict[str, str]:
     # the followers whose laws can be told from this motion
-    return {name: f"s[{online.following + k}]" for k, name in enumerate(online.followers)
-            if symbols_of(online.program.followers[name]) <= set(motion)}  # fmt: skip
+    return {
+        name: f"s[{online.following + k}]"
+        for k, name in enumerate(online.followers)
+        if symbols_of(online.program.followers[name]) <= set(motion)
+    }
 
 
 def _write_turn(code: Code, online: Online, passes: Passes, correct: str) -> None:
@@ -155,8 +160,14 @@ def _write_turn(code: Code, online: Online, passes: Passes, correct: str) -> Non
 
 
 def _write_turns(code: Code) -> None:
-    arguments: Arguments = [("array", "s"), ("number", "dt"), ("number", "xo"), ("number", "x"), ("number", "vo"),
-                            ("number", "v")]  # fmt: skip
+    arguments: Arguments = [
+        ("array", "s"),
+        ("number", "dt"),
+        ("number", "xo"),
+        ("number", "x"),
+        ("number", "vo"),
+        ("number", "v"),
+    ]
     about = "Turns wherever the cubic path does since the last sample; answers where it last did."
     with code.function("number", "turns", arguments, about):
         code.let("since", "xo")

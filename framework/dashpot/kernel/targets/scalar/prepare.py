@@ -72,11 +72,16 @@ def _text(code: Code, rows: Mapping[int, Node], paths: Sequence[str], given: Map
     return text
 
 
-def _write_function(code: Code, name: str, rows: Mapping[int, Node], paths: Sequence[str],
-                    given: Mapping[str, str]) -> None:  # fmt: skip
+def _write_function(
+    code: Code, name: str, rows: Mapping[int, Node], paths: Sequence[str], given: Mapping[str, str]
+) -> None:
     names = {path: f"n{number}" for number, path in enumerate(paths)}
-    arguments: Arguments = [("array", "s"), ("count", "w"), ("number", "dt"),
-                            *(("number", each) for each in names.values())]  # fmt: skip
+    arguments: Arguments = [
+        ("array", "s"),
+        ("count", "w"),
+        ("number", "dt"),
+        *(("number", each) for each in names.values()),
+    ]
     code.count = 0
     with code.function("nothing", name, arguments, "Constants of a branch, from w on."):
         _set_rows(code, {row - min(rows): node for row, node in rows.items()}, {**given, **names})

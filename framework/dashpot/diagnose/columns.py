@@ -1,0 +1,174 @@
+"""The columns of a look: what the residual, each number, each term and each candidate are on every run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import ChannelFault
+from dashpot.diagnose.bends import bends_of_tables
+from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.inside import Inside
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.term import Model
+from dashpot.diagnose.view import ModelView
+from dashpot.diagnose.whitening import Noise, reduction
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.workers import spread
+
+Array = NDArray[np.float64]
+
+HELD_BYTES = 250e6  # of rows of a look
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where columns stand: the residual first, then the tangents of the terms' numbers, what each term adds to the
+    force, and the candidates.
+    """
+
+    tangents: int
+    terms: int
+    bank: int
+
+    def term(self, number: int) -> int:
+        """The column of what a term adds to the force."""
+        return 1 + self.tangents + number
+
+    @property
+    def first_candidate(self) -> int:
+        """The first column of the candidates."""
+        return 1 + self.tangents + self.terms
+
+    @property
+    def size(self) -> int:
+        """How many columns there are."""
+        return self.first_candidate + self.bank
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """What is linear about a model on each run, by name of the run, reduced to the band that carries signal.
+
+    ``residual`` (kept,) and ``tangents`` (p, kept) are those of the model, ``own`` (t,) the coordinates of the terms'
+    numbers and ``base`` (p - t,) those of the base, ``bends`` (b, n) the functions by which its tables may bend,
+    ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes. In front of the columns of
+    the ``layout`` stand those of the base, and a column of each run for each of the ``faults``.
+    """
+
+    refitter: Refitter
+    view: ModelView
+    plain: Noise
+    residual: Mapping[str, Array]
+    tangents: Mapping[str, Array]
+    own: NDArray[np.intp]
+    base: NDArray[np.intp]
+    bends: Mapping[str, Array]
+    faults: Sequence[ChannelFault]
+    forces: Sequence[Mapping[str, Array]]
+    candidates: Sequence[Candidate]
+    inner: Mapping[str, tuple[NDArray[np.intp], Array]] | None
+
+    @property
+    def layout(self) -> Layout:
+        """Where the columns behind those in front stand."""
+        return Layout(self.own.size, len(self.forces), self.candidates[-1].columns.stop if self.candidates else 0)
+
+    @property
+    def free(self) -> int:
+        """How many columns in front are of the base."""
+        return self.base.size + len(next(iter(self.bends.values())))
+
+    def of(self, run: ScoredRun) -> Array:
+        """All columns of a run, as rows (c, kept)."""
+        name, layout = run.name, self.layout
+        faults = shapes_of(self.faults, self.view, run, self.plain)
+        runs = [one.name for one in self.refitter.runs]
+        first = self.free + len(faults) * len(runs)
+        rows = np.zeros((first + layout.size, self.plain.kept(name, run.samples)))
+        rows[: self.base.size] = self.tangents[name][self.base]
+        rows[self.base.size : self.free] = self.plain.reduce(name, self.bends[name])
+        at = self.free + len(faults) * runs.index(name)
+        rows[at : at + len(faults)] = faults
+        rows[first] = self.residual[name]
+        rows[first + 1 : first + 1 + self.own.size] = self.tangents[name][self.own]
+        for number, force in enumerate(self.forces):
+            rows[first + layout.term(number)] = self.plain.reduce(name, force[name][run.first :])
+        self._fill(rows[first + layout.first_candidate :], run)
+        return rows
+
+    def _fill(self, bank: Array, run: ScoredRun) -> None:
+        """Write the columns of the candidates."""
+        for candidate in (candidate for candidate in self.candidates if candidate.site is None):
+            bank[candidate.columns] = self.refitter.columns(candidate, self.view, run, self.plain)
+        if self.inner is not None:
+            places, values = self.inner[run.name]
+            bank[places] = self.plain.reduce(run.name, values)
+
+
+def linearised(
+    refitter: Refitter,
+    model: Model,
+    view: ModelView,
+    inside: Inside | None,
+    candidates: Sequence[Candidate],
+    faults: Sequence[ChannelFault],
+    with_forces: bool,
+) -> Columns:
+    """The columns of a model and of candidates beside it; what each term adds only ``with_forces``."""
+    runs = refitter.runs
+    steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
+    plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
+    residual, tangents = refitter.linearise(model, plain)
+    own, base = _own_and_base(model)
+    return Columns(
+        refitter=refitter,
+        view=view,
+        plain=plain,
+        residual=residual,
+        tangents=tangents,
+        own=own,
+        base=base,
+        bends=bends_of_tables(runs, view, model.fitted),
+        faults=faults,
+        forces=refitter.term_forces(model) if with_forces else [],
+        candidates=candidates,
+        inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
+    )
+
+
+class Rows(Mapping[str, Array]):
+    """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time."""
+
+    def __init__(self, columns: Columns, jobs: int) -> None:
+        runs = columns.refitter.runs
+        self._runs, self._make = {run.name: run for run in runs}, columns.of
+        width = columns.free + len(columns.faults) * len(runs) + columns.layout.size
+        ends = np.cumsum([8 * width * columns.plain.kept(run.name, run.samples) for run in runs])
+        held = [run for run, end in zip(runs, ends, strict=True) if end < HELD_BYTES]
+        self._held = dict(zip((run.name for run in held), spread(columns.of, held, jobs=jobs), strict=True))
+
+    def __getitem__(self, name: str) -> Array:
+        return self._held[name] if name in self._held else self._make(self._runs[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._runs)
+
+    def __len__(self) -> int:
+        return len(self._runs)
+
+
+def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The coordinates of the terms' numbers, and those of the base."""
+    mine = {path for owned in model.owned for path in owned}
+    own = np.array([path in mine for path in model.coordinates.paths], dtype=bool)
+    return np.flatnonzero(own), np.flatnonzero(~own)
+
+
+def shapes_of(faults: Sequence[ChannelFault], view: ModelView, run: ScoredRun, noise: Noise) -> Array:
+    """What faults of the channel add to a run (k, kept) at unit strength, reduced."""
+    shapes = [np.atleast_2d(fault.shapes(view, run.name))[:, run.first :] for fault in faults]
+    return noise.reduce_shapes(run.name, np.concatenate([np.zeros((0, run.samples)), *shapes]))
