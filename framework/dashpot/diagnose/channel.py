@@ -160,7 +160,7 @@ def _difference(rows: _Rows, one: str, other: str, kind: int) -> tuple[Array, Ar
     """
     shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
     difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
-    coefficients = learn_filter(_beside(difference, shapes), 0.0, rows.smallest[one])
+    coefficients = learn_filter(_beside(difference, shapes), rows.smallest[one])
     return filtered(difference, coefficients), filtered(shapes, coefficients)
 
 

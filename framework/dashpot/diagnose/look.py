@@ -227,10 +227,13 @@ def _beside(gram: Array, moves: Array) -> Array:
 def learn_noise(
     rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
 ) -> tuple[Noise, Noise, float]:
-    """The noise of each run from what all columns together leave, with the error of the model and without; its RMS, N.
+    """How far the model is from each run, the noise of the records alone, and its RMS in N.
 
-    The residual is row ``first``; ``lines`` (k, kept) that a run may show at rest are neither. What the columns take up
-    of the noise itself is made up for by the degrees of freedom, where more than half of them are left.
+    The first weighs runs and counts independent samples in the search: a model that errs repeats its error with every
+    cycle, and whitening that error would judge it by its fastest part. The second is an autoregressive model of what
+    all columns together leave. The residual is row ``first``; ``lines`` (k, kept) that a run may show at rest are
+    neither. What the columns take up of the noise itself is made up for by the degrees of freedom, where more than
+    half of them are left.
     """
     from scipy.linalg import cho_factor, cho_solve
 
@@ -247,19 +250,17 @@ def learn_noise(
     strengths *= scale[first] / scale
     used = len(steadied) - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(steadied)))))
     left = 1.0 - used / count
-    filters, alone, shares, squares = {}, {}, {}, []
+    deviations, shares, filters, squares = {}, {}, {}, []
     for run in refitter.runs:
         found = rows[run.name]
         rest, shapes = found[first] - strengths @ found, lines[run.name]
         line = np.linalg.lstsq(shapes.T, rest, rcond=1e-9)[0] @ shapes
         residual, rest = found[first] - line, rest - line
-        square = float(np.mean(rest**2))
-        error = np.sqrt(max(float(np.mean(residual**2)) - square, 0.0))
         smallest = RESOLUTION * max(float(np.std(run.force)), 1e-12)
-        filters[run.name] = learn_filter(rest, error, smallest)
-        shares[run.name] = independent_share(replace(plain, filters=filters).filter(run.name, residual))
+        deviations[run.name] = max(float(np.sqrt(np.mean(residual**2))), smallest)
+        shares[run.name] = independent_share(residual)
         freed = rest / np.sqrt(left) if left > LEFT else residual
-        alone[run.name] = learn_filter(freed, 0.0, smallest)
+        filters[run.name] = learn_filter(freed, smallest)
         squares.append(float(np.mean(freed**2)))
-    noise = replace(plain, filters=filters, independent=shares)
-    return noise, replace(plain, filters=alone), float(np.sqrt(np.mean(squares)))
+    noise = replace(plain.with_white(deviations), independent=shares)
+    return noise, replace(plain, filters=filters), float(np.sqrt(np.mean(squares)))

@@ -1,9 +1,9 @@
-"""The noise of each run: signals reduced to the band that was driven, and whitened.
+"""The noise of each run: signals reduced to the band that was driven, in units of their noise.
 
-Columns, tangents and residuals are averaged over as many samples as the driven band and its harmonics allow; an
-autoregressive filter then makes what is left of the noise white. The error that the model itself still makes counts as
-white noise beside it: far above the noise all frequencies weigh alike, near to it the noise decides. Samples of what
-is left that follow from one another count as fewer.
+Columns, tangents and residuals are averaged over as many samples as the driven band and its harmonics allow. In the
+search all frequencies of a run weigh alike, and samples of its residual that follow from one another count as fewer; an
+autoregressive filter that makes the noise white serves the tests of the final residual, the faults of single runs and
+the detection limits.
 """
 
 from __future__ import annotations
@@ -94,17 +94,17 @@ def reduction(dt: float, highest_frequency: float) -> int:
     return max(1, int(1.0 / (2.0 * HARMONICS * highest_frequency * dt)))
 
 
-def learn_filter(rest: Array, error: float, smallest: float) -> Array:
-    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N beside a white ``error`` (N, RMS).
+def learn_filter(rest: Array, smallest: float) -> Array:
+    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N.
 
     ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
-    Source: the Yule-Walker equations with the autocovariance of both.
+    Source: the Yule-Walker equations.
     """
     from scipy.linalg import solve_toeplitz
 
     lags = range(min(ORDER + 1, max(rest.size, 1)))
     covariance = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
-    covariance[0] = max(covariance[0] * (1.0 + 1e-9) + error**2, smallest**2)
+    covariance[0] = max(covariance[0] * (1.0 + 1e-9), smallest**2)
     if rest.size <= 4 * ORDER:
         return np.concatenate([[1.0 / np.sqrt(covariance[0])], np.zeros(ORDER)])
     prediction = np.concatenate([[1.0], -solve_toeplitz(covariance[:-1], covariance[1:])])

@@ -7,7 +7,6 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import beside_base, look_at
-from dashpot.diagnose.whitening import ORDER
 
 
 class Closed(Made):
@@ -33,14 +32,11 @@ def look(made):
     return look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
 
 
-def whitened(look, run, signal):
-    """Averages over blocks, then the filter, value by value."""
-    step, coefficients = look.noise.steps[run.name], look.noise.filters[run.name]
+def weighed(look, run, signal):
+    """Averages over blocks in units of the residual of the run, value by value."""
+    step = look.noise.steps[run.name]
     kept = signal.size // step
-    blocks = signal[: kept * step].reshape(kept, step).sum(axis=1) / np.sqrt(step)
-    white = np.convolve(blocks, coefficients)[:kept]
-    white[:ORDER] = 0.0
-    return white
+    return look.noise.filters[run.name][0] * signal[: kept * step].reshape(kept, step).sum(axis=1) / np.sqrt(step)
 
 
 @pytest.fixture(scope="module")
@@ -57,8 +53,8 @@ def columns(made, look):
         bank = [v**2, *(np.sign(v) * np.maximum(x - at, 0.0) for at in (1e-3, 2e-3))]
         weight = np.sqrt(look.noise.independent[run.name])
         found[run.name] = (
-            weight * np.array([whitened(look, run, each) for each in (x, v)]),
-            weight * np.array([whitened(look, run, each) for each in (residual, *bank)]),
+            weight * np.array([weighed(look, run, each) for each in (x, v)]),
+            weight * np.array([weighed(look, run, each) for each in (residual, *bank)]),
         )
     return found
 

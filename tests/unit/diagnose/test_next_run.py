@@ -16,7 +16,7 @@ def asked(first, second):
     """What is asked for between two networks fitted to the same runs, and the first of these."""
     data = dataset()
     one, other = bench(data, first), bench(data, second)
-    white = learn_filter(NOISE * np.random.default_rng(0).standard_normal(SAMPLES), 0.0, 1e-9)
+    white = learn_filter(NOISE * np.random.default_rng(0).standard_normal(SAMPLES), 1e-9)
     names = [run.name for run in one.refitter.runs]
     noise = Noise(dict.fromkeys(names, 1), dict.fromkeys(names, white))
     return next_run(one.refitter, one.model, other.model, noise), names[0]
