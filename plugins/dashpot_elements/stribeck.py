@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,7 @@ from dashpot.model.picture import Symbol
 from dashpot_elements.dahl import approach
 
 TINY = 1e-12
+SMALLEST = 1e-24  # (m/s)^2, of a discriminant
 
 
 class Stribeck(Element):
@@ -19,7 +22,7 @@ class Stribeck(Element):
 
     A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent.
 
-    The limit is frozen over a step at the mean speed; where the path turns, both pieces have their own. Second order in
+    The limit is frozen over a step at the mean speed; within the step the path may turn once or twice. Second order in
     the step.
     """
 
@@ -38,12 +41,13 @@ class Stribeck(Element):
     force = State("N", "friction force")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
-        """From the beginning of the step to its turning point, and on to its end."""
-        turns = x.velocity_old * x.velocity_new < 0.0
-        middle = np.where(turns, _turning_place(x, dt), x.new)
-        speed = 0.5 * np.abs(np.where(turns, x.velocity_old, x.velocity_old + x.velocity_new))
-        force = _slide(z.force, middle - x.old, speed, p)
-        force = _slide(force, x.new - middle, 0.5 * np.abs(x.velocity_new), p)
+        """Piece by piece between the places where the path turns."""
+        path = _Path.of(x, dt)
+        travels = [path.travel(begin, end) for begin, end in pairwise((0.0, *path.turns(), 1.0))]
+        limit = _limit(sum(np.abs(travel) for travel in travels), p)
+        force = z.force
+        for travel in travels:
+            force = _slide(force, dt * travel, limit, p)
         return Response(force, force=force)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
@@ -51,9 +55,12 @@ class Stribeck(Element):
         return 0.5 * z.force * z.force / p.stiffness
 
 
-def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
+def _limit(speed: Any, p: Any) -> Any:
     ratio = np.maximum(speed / p.stribeck_velocity, TINY)
-    limit = p.limit + (p.breakaway - p.limit) * np.exp(-np.exp(p.decay * np.log(ratio)))
+    return p.limit + (p.breakaway - p.limit) * np.exp(-np.exp(p.decay * np.log(ratio)))
+
+
+def _slide(force: Any, travel: Any, limit: Any, p: Any) -> Any:
     side = np.where(travel < 0.0, -1.0, 1.0)
     way = p.stiffness * np.abs(travel) / limit
     distance = 1.0 - side * force / limit
@@ -61,11 +68,29 @@ def _slide(force: Any, travel: Any, speed: Any, p: Any) -> Any:
     return side * limit * (1.0 - left)
 
 
-def _turning_place(x: Motion, dt: Any) -> Any:
-    """Where the cubic path turns whose velocity v_old + b u + c u^2 changes its sign once over u = 0..1."""
-    rise = x.travel / dt
-    c = 3.0 * (x.velocity_old + x.velocity_new) - 6.0 * rise
-    b = x.velocity_new - x.velocity_old - c
-    root = np.sqrt(np.maximum(b * b - 4.0 * c * x.velocity_old, 0.0))
-    u = 2.0 * x.velocity_old / (np.where(x.velocity_old < 0.0, -root, root) - b)
-    return x.old + dt * u * (x.velocity_old + u * (0.5 * b + u * (c / 3.0)))
+@dataclass(frozen=True)
+class _Path:
+    """The velocity of a cubic path, first + slope u + bend u^2 over u = 0..1."""
+
+    first: Any
+    slope: Any
+    bend: Any
+
+    @classmethod
+    def of(cls, x: Motion, dt: Any) -> _Path:
+        bend = 3.0 * (x.velocity_old + x.velocity_new) - 6.0 * x.travel / dt
+        return cls(x.velocity_old, x.velocity_new - x.velocity_old - bend, bend)
+
+    def turns(self) -> tuple[Any, Any]:
+        """Where the velocity changes its sign, in order; outside of the step it is at its begin or its end."""
+        square = self.slope * self.slope - 4.0 * self.bend * self.first
+        root = np.sqrt(np.maximum(square, SMALLEST))
+        half = -0.5 * (self.slope + np.where(self.slope < 0.0, -root, root))
+        far = half / np.where(self.bend == 0.0, SMALLEST, self.bend)
+        places = [np.where(square > SMALLEST, np.clip(place, 0.0, 1.0), 1.0) for place in (self.first / half, far)]
+        return np.minimum(*places), np.maximum(*places)
+
+    def travel(self, begin: Any, end: Any) -> Any:
+        """Of a piece, over the duration of the step."""
+        squares = begin * begin + begin * end + end * end
+        return (end - begin) * (self.first + 0.5 * self.slope * (begin + end) + self.bend * squares / 3.0)

@@ -1,7 +1,4 @@
-"""Random networks with one to four unknown nodes, of elements that never give back more than was put in.
-
-Not of ``stribeck``: its force jumps where a turning point enters the step, so that no position may balance the others.
-"""
+"""Random networks with one to four unknown nodes, of elements that never give back more than was put in."""
 
 from __future__ import annotations
 
@@ -24,6 +21,8 @@ LAWS = (
     "element: quadratic_damper, damping: {damping} N*s^2/m^2",
     "element: loose_friction, limit: {force} N, stiffness: {stiffness} N/m, gap: 0.3 mm",
     "element: asymmetric_damper, compression: {damping} N*s/m, rebound: {other} N*s/m, compression_digression: 3 s/m",
+    "element: stribeck, stiffness: {stiffness} N/m, limit: {force} N, breakaway: {higher} N, "
+    "stribeck_velocity: {slow} m/s",
 )
 
 
@@ -48,6 +47,8 @@ def _law(rng: np.random.Generator) -> str:
     return LAWS[rng.integers(len(LAWS))].format(
         stiffness=_between(rng, 1e4, 2e6),
         force=force,
+        higher=round(1.5 * force, 3),
+        slow=_between(rng, 1e-3, 1e-1),
         creep=_between(rng, 1e-7, 1e-3),
         damping=_between(rng, 30.0, 1e4),
         other=_between(rng, 30.0, 1e4),

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dashpot.expr.derive import derive
-from dashpot.expr.node import Node, maximum, symbol, symbols_of, where
+from dashpot.expr.node import Node, symbol, symbols_of, where
 from dashpot.expr.rebuild import replaced
 from dashpot.kernel.compiler.elimination import ZERO, Mount
 from dashpot.kernel.compiler.equilibrium import Still
@@ -17,7 +17,7 @@ from dashpot.kernel.compiler.mechanics import DONE, GIVES_WAY, SLOPE, force_row,
 from dashpot.kernel.compiler.trace import TracedBranch
 from dashpot.model.topology import Topology
 
-BOUNDLESS, SMALLEST_GIVE = 1e30, 1e-300  # m/N
+BOUNDLESS = 1e30  # m/N
 
 
 class Launch(Still):
@@ -67,9 +67,13 @@ class Launch(Still):
         }
 
     def missing(self) -> dict[str, Node]:
-        give = maximum(GIVES_WAY, SMALLEST_GIVE)
-        strained = {inner: symbol(row_of(inner, "position")) / give for inner in self.mounted}
-        return {joint: force - strained.get(joint, ZERO) for joint, force in super().missing().items()}
+        # what the velocities add: that the places balance the rest is known, up to what Newton's method has left
+        resting = {"edge.velocity_old": ZERO, "edge.velocity_new": ZERO}
+        added = [
+            force - self.along(edge, replaced(law.force, resting))
+            for edge, law, force in zip(self.topology.edges, self.laws, self.forces, strict=True)
+        ]
+        return {joint: self.push(joint, added) for joint in self.unknown}
 
     def mount(self, inner: str) -> Mount:
         # a fixture keeps its force at first, one that does not give way its place
