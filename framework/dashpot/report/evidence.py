@@ -86,7 +86,7 @@ class Rejected(TypedDict, total=False):
 
 
 class Limit(TypedDict, total=False):
-    """The smallest effect that would have been found: of which `quantity`, `value` in the SI `unit`.
+    """The detection limit at 95 % power: of which `quantity`, `value` in the SI `unit`.
 
     The numbers are None where even the largest one would not have been seen; `quantity` says so.
     """

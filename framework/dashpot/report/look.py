@@ -77,7 +77,7 @@ def look_headline(look: Json) -> str:
     floor, explainable = floor_value(look), explainable_value(look)
     told = [f"Forces up to {quantity(max(forces), 'N')}"]
     told += [f"noise floor {quantity(floor, 'N')}"] if floor else []
-    told += [f"a general model of the past motion leaves {quantity(explainable, 'N')}"] if explainable else []
+    told += [f"explainable error {quantity(explainable, 'N')}"] if explainable else []
     return f"{'; '.join(told)}."
 
 
