@@ -122,7 +122,6 @@ class Evidence(TypedDict, total=False):
     residuals: Residuals
     dynamic_stiffness: Sequence[Curve]
     shapes: Mapping[str, Any]  # curves without a model; see `compare.shapes.shapes_of`
-    over_velocity: Sequence[Mapping[str, Any]]  # curves {run, label, x, y} in SI
     spectra: Sequence[Mapping[str, Any]]  # curves {run, label, of, x, y} in SI
     repeats: Sequence[Mapping[str, Any]]  # see `compare.look.Look.repeats`
     harmonics: Mapping[str, Mapping[str, Sequence[float]]]  # label -> group -> harmonics 1, 2, ... (N)

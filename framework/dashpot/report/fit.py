@@ -72,7 +72,9 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
         Column("remark", "remark"),
     ]
     remarks = dict.fromkeys(fit["at_bound"], "at the end of its range: widen its bounds or drop it")
-    remarks |= dict.fromkeys((fit.get("identifiability") or {}).get("undetermined", ()), "not identifiable from these data")
+    remarks |= dict.fromkeys(
+        (fit.get("identifiability") or {}).get("undetermined", ()), "not identifiable from these data"
+    )
     remarks |= dict.fromkeys(fit["without_influence"], "without influence on these data")
     found = {
         path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
