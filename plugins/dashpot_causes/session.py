@@ -24,7 +24,7 @@ def order_of(view: View) -> Mapping[str, float]:
     if len(settings) < FEWEST or any(ORDER not in each for each in settings.values()):
         return {}
     places = np.array([each[ORDER] for each in settings.values()])
-    if np.unique(places).size < FEWEST or _foretold(_conditions(view, settings), places) > FORETOLD:
+    if np.unique(places).size < FEWEST or _predicted(_conditions(view, settings), places) > FORETOLD:
         return {}
     return dict(zip(settings, (places - places.min()).tolist(), strict=True))
 
@@ -38,7 +38,7 @@ def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDAr
     return np.column_stack([moved, np.array([[each[key] for key in common] for each in settings.values()])])
 
 
-def _foretold(conditions: NDArray[np.float64], places: NDArray[np.float64]) -> float:
+def _predicted(conditions: NDArray[np.float64], places: NDArray[np.float64]) -> float:
     """The share of the variance of the places (runs,) that a straight line over the conditions explains."""
     spread, size = np.std(conditions, axis=0), np.sqrt(np.mean(conditions**2, axis=0))
     known = (conditions - conditions.mean(axis=0))[:, spread > CHANGES * size] / spread[spread > CHANGES * size]

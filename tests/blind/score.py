@@ -65,7 +65,7 @@ class Outcome:
 
     @property
     def strength(self) -> float:
-        """Effect over noise left by a refit of the base, largest of all effects."""
+        """Effect over noise unabsorbed RMS of the base, largest of all effects."""
         return max((effect.strength_left for effect in self.truth.effects), default=0.0)
 
     @property

@@ -135,7 +135,7 @@ def test_the_one_page_shows_the_answer_and_its_figures_alone(reports, browser):
     assert shown == ["Causes", "Dynamic stiffness and loss angle"]
     assert page.locator(".key-figures > div").count() == 3 and page.locator("h1").is_visible()
     page.get_by_role("link", name="Whole report").click()
-    assert page.locator("h3", has_text="Residual over time").is_visible()
+    page.locator("h3", has_text="Residual over time").wait_for()
     page.close()
 
 
@@ -238,6 +238,7 @@ def test_the_data_of_a_figure_are_beside_it_and_can_be_saved(visit):
     opened = visit("diagnosis")
     figure = opened.figure("Force over displacement and velocity")
     figure.locator("summary").click()
+    figure.locator("details tr").first.wait_for()
     assert figure.locator("details tr").count() == 201
     name, text = saved(opened, figure.get_by_role("button", name="CSV").click)
     header, *rows = csv.reader(io.StringIO(text, newline=""))
@@ -264,16 +265,31 @@ def test_a_table_and_the_extended_model_can_be_saved(visit):
 
 
 @pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit"])
-def test_every_table_and_the_data_of_every_figure_can_be_saved(visit, name):
-    opened = visit(name)
+def test_every_table_can_be_saved(visit, name):
+    opened = unfolded(visit(name))
     for link in opened.page.locator("a.save").all():
         file, text = saved(opened, link.click)
         assert file and len(text.splitlines()) > 1
+    assert opened.complaints == []
+
+
+# apart from the tables, since Chromium holds back the eleventh download of a page
+@pytest.mark.parametrize("name", ["diagnosis", "comparison", "fit"])
+def test_the_data_of_every_figure_can_be_saved(visit, name):
+    opened = unfolded(visit(name))
     for figure in opened.page.locator("figure[data-plot]").all():
         figure.locator("summary").click()
+        figure.locator("details tr").first.wait_for()
         file, text = saved(opened, figure.get_by_role("button", name="CSV").click)
         assert file.endswith(".csv") and len(text.splitlines()) > 1
     assert opened.complaints == []
+
+
+def unfolded(opened: Visit) -> Visit:
+    for folded in opened.page.locator("details.folded > summary").all():
+        folded.click()
+    opened.page.wait_for_timeout(500)  # the plots in it are drawn anew
+    return opened
 
 
 def test_names_from_outside_are_shown_and_never_run(visit):

@@ -53,7 +53,7 @@ def named_by_error(model: str, numbers: Numbers, found: Unlike) -> Iterator[Name
 
 
 def named_by_faults(remarks: Mapping[str, Sequence[str]], outcomes: Sequence[tuple[str, Outcome]]) -> Iterator[Named]:
-    """The specimens whose measurement has a fault: runs mended or set aside, errors that a diagnosis found."""
+    """The specimens whose measurement has a fault: runs corrected or set aside, errors that a diagnosis found."""
     causes: dict[str, dict[str, float]] = {}
     for specimen, outcome in outcomes:
         for cause in outcome.get("causes", ()):

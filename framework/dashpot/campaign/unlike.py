@@ -31,7 +31,7 @@ class Unlike:
     """The population of the specimens that belong to it, and how far each does not.
 
     ``ways`` names h ways to be unlike: a number alone by its path, several of them, or a gain; ``probability`` (n, h)
-    is that of each. ``distances`` (n, p) are the deviations from what the others foretell, in standard deviations, and
+    is that of each. ``distances`` (n, p) are the deviations from what the others predict, in standard deviations, and
     ``shifts`` (n, p) the same in coordinates.
     """
 
@@ -50,7 +50,7 @@ class Unlike:
 def unlike(numbers: Numbers) -> Unlike:
     """Fit the population and judge every specimen by the others, until both agree.
 
-    A specimen that belongs to it is foretold by the others with a multivariate t distribution; one that does not
+    A specimen that belongs to it is predicted by the others with a multivariate t distribution; one that does not
     scatters ``FAR`` times as far in one number or in all, or has every number times a power of one factor, as where the
     gain of a sensor is wrong. Specimens count as far as they belong. With fewer than ``FEWEST`` none is doubted.
 
@@ -79,7 +79,7 @@ def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     prior = np.log([1.0 - PRIOR, *[PRIOR / len(ways)] * len(ways)])
     for i, weight in enumerate(weights):
         others = (total - weight * population.moments[i]) / max(weights.sum() - weight, 1.0)
-        shifts[i], told = _foretold(numbers, others, np.where(np.arange(len(weights)) == i, 0.0, weights), i)
+        shifts[i], told = _predicted(numbers, others, np.where(np.arange(len(weights)) == i, 0.0, weights), i)
         expected = others + numbers.errors[i] + told
         odds[i] = prior + [_log_t(shifts[i], expected + spread, freedom) for spread in (0.0, *spreads)]
         distances[i] = shifts[i] / np.sqrt(expected.diagonal())
@@ -88,7 +88,7 @@ def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     return Unlike(population, ways, shares[:, 1:], distances, shifts)
 
 
-def _foretold(numbers: Numbers, between: Array, weights: Array, which: int) -> tuple[Array, Array]:
+def _predicted(numbers: Numbers, between: Array, weights: Array, which: int) -> tuple[Array, Array]:
     """How far a specimen is from its mean as the others tell it, and the covariance of that mean."""
     p, q = numbers.at.shape[1], numbers.design.shape[1]
     inverse = np.linalg.inv(between + numbers.errors) * weights[:, None, None]

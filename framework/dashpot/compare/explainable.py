@@ -112,7 +112,7 @@ def explainable_error(setting: Setting, seed: int = 0, trees: bool = True) -> Ex
             "displacement and one force"
         )
     if any(run.kind == STEADY for run in setting.scored.values()):
-        return Explainable(reason="rows of a table tell the fundamental alone, from which no general model learns")
+        return Explainable(reason="rows of a table hold the fundamental alone, to which no general model can be fitted")
     records = {
         name: Record(run, runs[name].cluster, _conditions(runs[name].settings, runs[name].channels))
         for name, run in setting.scored.items()
@@ -216,13 +216,13 @@ def _folds(groups: Sequence[str], taught: Sequence[_Sampled], rng: np.random.Gen
         folds = np.concatenate([np.minimum((each.place * PIECES).astype(np.intp), PIECES - 1) for each in taught])
         return folds, (
             f"Only {len(names)} independent training run{'s' * (len(names) > 1)}: the general model was "
-            f"chosen on quarters of runs left out in turn, which tells little of other runs."
+            f"chosen on quarters of runs left out in turn, which says little about other runs."
         )
     fold_of = {name: number % min(len(names), MOST_FOLDS) for number, name in enumerate(names)}
     folds = np.concatenate(
         [np.full(each.force.size, fold_of[group]) for group, each in zip(groups, taught, strict=True)]
     )
-    few = f"Only {len(names)} independent training runs taught the general model." if len(names) < HANDFUL else ""
+    few = f"Only {len(names)} independent training runs are behind the general model." if len(names) < HANDFUL else ""
     return folds, few
 
 
@@ -230,7 +230,7 @@ def _thinned(records: Sequence[Record], most: int) -> list[str]:
     longest = max(each.run.samples for each in records)
     if longest <= most:
         return []
-    return [f"Its errors are told from {most} of up to {longest} samples of a run, spread evenly over it."]
+    return [f"Its RMSE is that of {most} of up to {longest} samples of each run, spread evenly."]
 
 
 def _pooled(errors: Iterable[float]) -> float:

@@ -72,10 +72,6 @@ class Look:
         measured = {run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs}
         return {
             "loops": {"measured": measured, "simulated": {}},
-            "over_velocity": [
-                {"run": each.name, "label": "measured", "x": each.velocity, "y": each.forces["measured"]}
-                for each in self.seen
-            ],
             "shapes": shapes_of(runs),
             "spectra": [spectrum for each in self.seen for spectrum in spectra(each)],
             "repeats": self.repeats(),

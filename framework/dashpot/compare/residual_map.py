@@ -35,7 +35,7 @@ def residual_maps(seen: Sequence[Seen]) -> list[dict[str, Any]]:
     """For each simulation the mean residual (measured less simulated, N) over the two variables that explain most.
 
     ``label``; ``x`` and ``y``: each ``name``, ``unit`` and ``edges``; ``mean`` (ny, nx) N, NaN where there are few
-    samples; ``explained``: the share of the mean square of the residual that such a map foretells on stretches of the
+    samples; ``explained``: the share of the mean square of the residual that such a map predicts on stretches of the
     runs that it was not made of; ``singles``: that share for each variable alone.
     """
     labels = list(dict.fromkeys(label for each in seen for label in each.forces if label != "measured"))

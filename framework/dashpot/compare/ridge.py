@@ -22,7 +22,7 @@ BEYOND = 0.1  # of the range of a column in training, as far as it may go on oth
 class Ridge:
     """``weights`` (p,) for columns within ``low`` and ``high`` (p,).
 
-    ``error`` is the root mean square in N on samples whose fold was left out, ``unseen`` (n,) what it foretold there.
+    ``error`` is the root mean square in N on samples whose fold was left out, ``unseen`` (n,) what it predicted there.
     """
 
     weights: Array

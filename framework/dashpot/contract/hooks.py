@@ -63,7 +63,7 @@ def dashpot_formats() -> list[type[Reader]]:  # type: ignore[empty-body]
 
 @hookspec
 def dashpot_causes() -> list[type[Cause]]:  # type: ignore[empty-body]
-    """Suspected causes of a misfit: how each shows in the measurements, and what to add to the network."""
+    """Candidate causes of a misfit: how each shows in the measurements, and what to add to the network."""
 
 
 @hookspec

@@ -109,7 +109,7 @@ def _refuse_standstill(time: np.ndarray, steps: np.ndarray, where: Callable[[int
     still = np.flatnonzero(steps == 0)
     if still.size:
         at = int(still[0])
-        message = f"its time stands still at {where(at + 1)}: {time[at]:.6g} s comes twice"
+        message = f"its time does not advance at {where(at + 1)}: {time[at]:.6g} s comes twice"
         raise Unusable([Trouble(message, "say 'sampling: ... Hz' in place of the time channel if the rate is known")])
 
 

@@ -212,7 +212,7 @@ def _fault_of(fit: FitResult, swing: float) -> str:
         return fit.ending
     if fit.errors.train > swing:
         return (
-            f"it errs by {fit.errors.train:.3g} N where the forces vary by {swing:.3g} N: check units and start values"
+            f"its RMSE is {fit.errors.train:.3g} N where the forces vary by {swing:.3g} N: check units and start values"
         )
     return ""
 

@@ -244,7 +244,7 @@ class Findings:
         errors = self.after.per_run
         worst = max(errors[run] for run in self.setting.split.train)
         alone = [
-            f"The held-out run '{run}' errs by {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
+            f"The held-out run '{run}' has an RMSE of {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
             "it has a fault, or was made under conditions that these do not have. It decided nothing."
             for run in self.setting.split.held_out
             if errors[run] > ALONE * worst

@@ -1,4 +1,4 @@
-"""Which runs a fit may see, and which ones only judge it."""
+"""Which runs a fit uses, and which ones are held out."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class BesideMidLine:
     """The loss of an objective, and beside it the misfit of the mid line of a slow loop, times ``weight``.
 
     The loss is the root of the sum of both squares. The ``weight`` is the loss over the scatter of the mid line: the
-    line counts by how well it is known, however far the model errs elsewhere.
+    line counts by how well it is known, however large the residual is elsewhere.
     """
 
     def __init__(self, objective: Objective, slow: ScoredRun, loss: float) -> None:

@@ -47,7 +47,7 @@ def profile_likelihood(
 
     Worse is where the root of twice the fall of the log likelihood is as large as the half width of the interval of
     `assess_uncertainty` in standard deviations under white noise: 1.96 for white noise, more for coloured noise, and
-    more where the model errs by more than ``noise`` (N).
+    more where the RMSE of the model is more than ``noise`` (N).
 
     Source: Raue et al., Bioinformatics 25 (2009) 1923.
     """

@@ -65,13 +65,13 @@ def assess_uncertainty(
 ) -> Uncertainty:
     """Sandwich covariance with blocks of half a second, so that coloured noise and small model errors count.
 
-    A block holds the same half second of all runs that were moved alike, since a model errs alike in them; a row of a
-    table is in one block. The score of
-    each block is corrected for what the fit has taken out of it, and the quantile is that of Student's t with the
-    degrees of freedom that the blocks amount to, which are few where a number shows in a narrow band of a sweep only.
+    A block holds the same half second of all runs that were moved alike, since the residuals of a model are alike in
+    them; a row of a table is in one block. The score of each block is corrected for what the fit has
+    taken out of it, and the quantile is that of Student's t with the degrees of freedom that the blocks amount to,
+    which are few where a parameter shows in a narrow band of a sweep only.
     ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, shifts
     (samples,) of the residual by one standard error of something that the runs cannot tell, widens them in addition.
-    Where the ``noise`` (N) is known, a model that errs by more has wider intervals: see ``widening``.
+    Where the ``noise`` (N) is known, a model with a larger RMSE has wider intervals: see ``widening``.
 
     Sources: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters; Bell and McCaffrey, Survey
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
@@ -111,9 +111,9 @@ def assess_uncertainty(
 def widening(loss: float, noise: float | None) -> float:
     """The factor on intervals of a model whose loss is above the noise (N); 1 where it is not, or the noise unknown.
 
-    The parameters of a model that errs take most of its error in; what is left to be seen is a share of it that the
-    scatter between blocks cannot know. ``ABSORBED`` is how many times more is thought to be taken in than is left, in
-    squares: a rule of thumb, under which ``tests/unsprung_mass`` shows how often the intervals hold.
+    The parameters of a model of wrong structure absorb most of its error; what remains visible is a share of it that
+    the scatter between blocks cannot know. ``ABSORBED`` is how many times more is thought to be
+    absorbed than remains, in squares: a rule of thumb; ``tests/unsprung_mass`` shows how often the intervals hold.
     """
     if noise is None or loss <= NOISE_KNOWN * noise:
         return 1.0

@@ -27,7 +27,7 @@ class Comparison(PlainComparison):
     Examples:
         >>> comparison = dp.compare(["spring", "mount.yaml"], data)
         >>> print(comparison.headline)
-        mount is closest: ... N of error, ... × the noise floor (... N).
+        mount has the lowest RMSE: ... N, ... × the noise floor (... N).
         >>> sorted(comparison.fits[1].errors.per_run) == sorted(run.name for run in comparison.setting.dataset.runs)
         True
     """

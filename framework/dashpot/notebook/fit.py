@@ -52,7 +52,7 @@ class Fit(FitResult):
         """Every parameter with its 95 % interval, the bounds of the search, and remarks."""
         remarks = {slot.path: "identified" for slot in self.fitted.slots() if slot.value.searched}
         remarks |= dict.fromkeys(self.at_bound, "identified at the end of its range")
-        remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not determined by these data")
+        remarks |= dict.fromkeys(self.known.undetermined if self.known else (), "not identifiable from these data")
         remarks |= dict.fromkeys(self.idle, "without influence on these data")
         return Listing.of(parameters_grid(self.fitted, remarks))
 

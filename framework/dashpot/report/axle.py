@@ -1,4 +1,4 @@
-"""The part of a study's report that is about an axle: masses, contact forces, damper curves, slow motions."""
+"""The part of a study's report that is about an axle: masses, contact forces, damper curves, quasi-static tests."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def axle_sections(study: Json, evidence: Evidence) -> list[Section]:
         Section("Masses", _MASSES if axle.get("wheels") else "", list(_masses(study))),
         Section("Wheel contact forces", parts=list(_contact(study, evidence))),
         Section("Damper curves", parts=list(_velocity(study))),
-        Section("Slow motions", parts=[*slow, *([slow_grid(axle)] if axle.get("slow_curves") else [])]),
+        Section("Quasi-static tests", parts=[*slow, *([slow_grid(axle)] if axle.get("slow_curves") else [])]),
     ]
 
 
@@ -110,9 +110,9 @@ def slow_grid(axle: Json) -> Grid:
         Column("of", "of"),
         Column("left", "spring rate left", "N/mm", 4),
         Column("right", "spring rate right", "N/mm", 4),
-        Column("heave", "half width in phase", "N", 3),
+        Column("heave", "friction force in phase", "N", 3),
         Column("bar", "anti-roll bar", "N/mm", 4),
-        Column("roll", "half width in anti-phase", "N", 3),
+        Column("roll", "friction force in anti-phase", "N", 3),
     ]
     rows = [
         {
@@ -132,8 +132,9 @@ def slow_grid(axle: Json) -> Grid:
         if each
     ]
     caption = (
-        f"Mean speed of the wheels: {' and '.join(speeds)}. Half widths hold friction and the dampers at that speed; "
-        "the anti-roll bar adds its own friction in anti-phase. The rate of the bar is per difference of the wheels."
+        f"Mean speed of the wheels: {' and '.join(speeds)}. The friction force is half the width of the loop, dampers "
+        "at that speed included; the anti-roll bar adds its own friction in anti-phase. The rate of the bar is per "
+        "difference of the wheels."
     )
     return Grid("Springs, friction and anti-roll bar", columns, rows, caption, "slow_curves.csv")
 

@@ -195,15 +195,15 @@ def _result(content: Json) -> Iterator[Part]:
 def _population(content: Json, population: Json) -> Iterator[Section]:
     parts: list[Part] = [Notice("info", f"{remark}.") for remark in population["remarks"]]
     parts += _numbers(content, population)
-    yield Section(f"Numbers of {population['model']}", _groups(population), parts)
+    yield Section(f"Parameters of {population['model']}", _groups(population), parts)
     if population["dependence"]:
         told = "Effects are those of all properties together, each with the others held."
         found: list[Part] = [dependence_grid(population), *_over(content, population)]
-        yield Section(f"What the numbers of {population['model']} depend on", told, found)
+        yield Section(f"Parameters of {population['model']} over properties", told, found)
     charts = [figures.control_chart(chart) for chart in population["charts"][:MOST_NUMBERS]]
     yield Section(f"Batches, by {population['model']}", parts=charts)
     if population["shared"]:
-        yield Section(f"Numbers of {population['model']} in common", parts=list(_shared(population)))
+        yield Section(f"Common parameters of {population['model']}", parts=list(_shared(population)))
 
 
 def _groups(population: Json) -> str:
@@ -242,8 +242,8 @@ def number_figure(content: Json, model: str, path: str, over: str = "") -> Figur
     if not (told and points):
         known = [each["parameter"] for population in content["populations"] for each in population["numbers"]]
         raise ValueError(
-            f"expected a number of {model}{f' and a property {over}' if over else ''}, got '{path}'; "
-            f"numbers are: {', '.join(known)}"
+            f"expected a parameter of {model}{f' and a property {over}' if over else ''}, got '{path}'; "
+            f"parameters are: {', '.join(known)}"
         )
     return figures.number_over(told[0], points, over)
 
@@ -267,17 +267,17 @@ def _shared(population: Json) -> Iterator[Part]:
         {"parameter": path, "value": with_interval(each["value"], each["interval"], units[path])}
         for path, each in shared["numbers"].items()
     ]
-    yield Grid("Numbers in common", columns, rows, csv_name="shared.csv")
+    yield Grid("Common parameters", columns, rows, csv_name="shared.csv")
     ratio = shared["error_ratio"]
-    told = "" if ratio is None else f" With them the fits err {number(ratio, 4)} times as much."
+    told = "" if ratio is None else f" With them the RMSE of the fits is {number(ratio, 4)} times as large."
     if shared["probability"] < CHANCE:
         yield Notice(
             "warning",
-            f"The specimens contradict numbers in common: by chance they would differ as much with "
+            f"The specimens contradict common parameters: by chance they would differ as much with "
             f"probability {number(shared['probability'], 2)}.{told}",
         )
     else:
-        yield Notice("good", f"The specimens agree with numbers in common.{told}")
+        yield Notice("good", f"The specimens agree with common parameters.{told}")
 
 
 def _causes(content: Json) -> Iterator[Part]:

@@ -52,14 +52,14 @@ def comparison_headline(comparison: Json) -> str:
     error = None if best is None else _error(best)
     if best is None or error is None:
         return "No model could be compared."
-    return f"{best['name']} is closest: {closeness(error, floor)}"
+    return f"{best['name']} has the lowest RMSE: {closeness(error, floor)}"
 
 
 def closeness(error: float, floor: float | None) -> str:
     """An error in N against the noise floor."""
     if not floor:
-        return f"{quantity(error, 'N')} of error (noise floor unknown)."
-    return f"{quantity(error, 'N')} of error, {number(error / floor, 2)} × the noise floor ({quantity(floor, 'N')})."
+        return f"{quantity(error, 'N')} (noise floor unknown)."
+    return f"{quantity(error, 'N')}, {number(error / floor, 2)} × the noise floor ({quantity(floor, 'N')})."
 
 
 def best_model(comparison: Json) -> Json | None:
@@ -139,7 +139,7 @@ def _key_figures(comparison: Json) -> KeyFigures:
         shown.append((f"error of {best['name']}", *error, f"least RMSE on {RUNS[_judged_on(best)]}"))
     explainable = explainable_value(comparison)
     if explainable is not None:
-        shown.append(("explainable", *shown_with_unit(explainable, "N"), "a general model of the past motion leaves"))
+        shown.append(("explainable", *shown_with_unit(explainable, "N"), "of a general model of the past motion"))
     if floor is not None:
         shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {comparison['noise_floor']['from']}"))
     return KeyFigures(shown)

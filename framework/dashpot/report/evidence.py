@@ -86,7 +86,7 @@ class Rejected(TypedDict, total=False):
 
 
 class Limit(TypedDict, total=False):
-    """The smallest effect that would have been found: of which `quantity`, `value` in the SI `unit`.
+    """The detection limit at 95 % power: of which `quantity`, `value` in the SI `unit`.
 
     The numbers are None where even the largest one would not have been seen; `quantity` says so.
     """
@@ -122,7 +122,6 @@ class Evidence(TypedDict, total=False):
     residuals: Residuals
     dynamic_stiffness: Sequence[Curve]
     shapes: Mapping[str, Any]  # curves without a model; see `compare.shapes.shapes_of`
-    over_velocity: Sequence[Mapping[str, Any]]  # curves {run, label, x, y} in SI
     spectra: Sequence[Mapping[str, Any]]  # curves {run, label, of, x, y} in SI
     repeats: Sequence[Mapping[str, Any]]  # see `compare.look.Look.repeats`
     harmonics: Mapping[str, Mapping[str, Sequence[float]]]  # label -> group -> harmonics 1, 2, ... (N)

@@ -1,4 +1,4 @@
-"""The report of a single fit: how good it is, the numbers that were found, and where it still errs."""
+"""The report of a single fit: how good it is, the identified parameters, and where the residual is."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
     numbers += [figures.identified_curves(evidence["curves"])] if evidence.get("curves") else []
     sections = [
         Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
-        Section("The numbers", _ending(fit), parts=numbers),
+        Section("Parameters", _ending(fit), parts=numbers),
         Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
         Section("The shape of the force", parts=list(shape_parts(evidence))),
         Section("Over displacement and time", parts=list(signal_parts(evidence))),
@@ -43,18 +43,18 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
         lead=_lead(fit),
         sections=[section for section in sections if section.parts],
         colophon=colophon({**fit, "model": {"name": fit["model"]}}, evidence),
-        summary=("Numbers found", "Dynamic stiffness and loss angle"),
+        summary=("Identified parameters", "Dynamic stiffness and loss angle"),
     )
 
 
 def fit_headline(fit: Json) -> str:
     """The error on unseen runs against what the measurement can resolve."""
-    return f"{fit['model']}: {closeness(fit['rmse'][_judged_on(fit)], floor_value(fit))}"
+    return f"{fit['model']}: RMSE {closeness(fit['rmse'][_judged_on(fit)], floor_value(fit))}"
 
 
 def numbers_grid(fit: Json) -> Grid:
     """Every number that was searched, but knots: its value, 95 % interval, and what is to be said of it."""
-    return _grid(fit, "Numbers found", "numbers.csv", knots=False)
+    return _grid(fit, "Identified parameters", "numbers.csv", knots=False)
 
 
 def knots_grid(fit: Json) -> Grid:
@@ -64,7 +64,7 @@ def knots_grid(fit: Json) -> Grid:
 
 def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
     columns = [
-        Column("number", "number"),
+        Column("number", "parameter"),
         Column("value", "value", "", 4),
         Column("low", "95 % from", "", 4),
         Column("high", "to", "", 4),
@@ -72,7 +72,9 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
         Column("remark", "remark"),
     ]
     remarks = dict.fromkeys(fit["at_bound"], "at the end of its range: widen its bounds or drop it")
-    remarks |= dict.fromkeys((fit.get("identifiability") or {}).get("undetermined", ()), "not determined by these data")
+    remarks |= dict.fromkeys(
+        (fit.get("identifiability") or {}).get("undetermined", ()), "not identifiable from these data"
+    )
     remarks |= dict.fromkeys(fit["without_influence"], "without influence on these data")
     found = {
         path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
@@ -102,7 +104,7 @@ def _result(fit: Json, status: str, evidence: Evidence) -> Iterator[Part]:
         shown.append(("noise floor", *shown_with_unit(floor, "N"), f"from {fit['noise_floor']['from']}"))
     yield KeyFigures(shown)
     if status != "ok":
-        yield Notice("warning", f"The fit did not come to rest: {status}.")
+        yield Notice("warning", f"The fit did not converge: {status}.")
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
     if floor and fit["rmse"][_judged_on(fit)] > GOOD_RATIO * floor:
         yield Notice("info", "The error is above the noise floor: 'dashpot diagnose' says what the model lacks.")
@@ -128,9 +130,9 @@ def _ending(fit: Json) -> str:
 def _lead(fit: Json) -> str:
     held_out = len(fit["held_out"])
     trained = len(fit["per_run"]) - held_out
-    judged = f", judged on {held_out} others" if held_out else ""
+    judged = f", {held_out} others held out" if held_out else ""
     searched = sum(entry["role"] != "fixed" for entry in fit["parameters"].values())
-    found = f"{searched} numbers identified on {trained} runs by {fit['optimizer']}{judged}."
+    found = f"{searched} parameters identified on {trained} runs by {fit['optimizer']}{judged}."
     return f"{found} {floor_origin(fit)}".strip()
 
 

@@ -82,7 +82,7 @@ def _is_knot(path: str) -> bool:
 
 def cause_grid(diagnosis: Json) -> Grid:
     """The suspected causes of a `dashpot-diagnosis/1`, ranked, with evidence, expected and realised gain."""
-    return _causes(diagnosis, "Suspected causes", diagnosis["causes"])
+    return _causes(diagnosis, "Candidate causes", diagnosis["causes"])
 
 
 def named_grid(diagnosis: Json) -> Grid:
@@ -94,7 +94,7 @@ def unnamed_grid(diagnosis: Json) -> Grid:
     """The causes that were suspected and explain less."""
     causes = [cause for cause in diagnosis["causes"] if not is_named(cause)]
     return replace(
-        _causes(diagnosis, "Suspected, and less likely than not", causes), folded=True, csv_name="suspected.csv"
+        _causes(diagnosis, "Candidates with a probability below 50 %", causes), folded=True, csv_name="suspected.csv"
     )
 
 
@@ -113,7 +113,7 @@ def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
         Column("gain", "gain held-out", "%", 2),
         Column("interval", "interval", "%"),
         Column("parameters", "parameters"),
-        Column("confused", "not to be told from"),
+        Column("confused", "indistinguishable from"),
     ]
     rows = [_cause_row(cause, diagnosis) for cause in causes]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
@@ -121,24 +121,24 @@ def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
 
 
 def misfit_grid(diagnosis: Json) -> Grid:
-    """What the simulation gets wrong, in words, with its share of the error and where it is."""
+    """Significant misfits, in words, with its share of the error and where it is."""
     columns = [Column("what", "what"), Column("share", "share of the error", "%", 2), Column("where", "where")]
     rows = [
         {"what": item["what"], "share": _percent(item.get("share")), "where": _where(item.get("where"))}
         for item in diagnosis["misfit"]
     ]
-    return Grid("What the simulation gets wrong", columns, rows, csv_name="misfit.csv")
+    return Grid("Significant misfits", columns, rows, csv_name="misfit.csv")
 
 
 def limits_grid(limits: Sequence[Json]) -> Grid:
-    """The smallest amplitude of each cause that would have been found; see `Evidence.limits`."""
+    """The detection limit of each cause at 95 % power; see `Evidence.limits`."""
     columns = [
         Column("cause", "cause"),
         Column("quantity", "smallest"),
         Column("value", "value", "", 3),
         UNIT,
         Column("force", "force RMS", "N", 3),
-        Column("left", "left by a refit", "N", 3),
+        Column("left", "unabsorbed RMS", "N", 3),
     ]
     rows = [
         {
@@ -150,7 +150,7 @@ def limits_grid(limits: Sequence[Json]) -> Grid:
         }
         for limit in limits
     ]
-    return Grid("What would have been found", columns, rows, csv_name="limits.csv", folded=True)
+    return Grid("Detection limits at 95 % power", columns, rows, csv_name="limits.csv", folded=True)
 
 
 def rejected_grid(rejected: Sequence[Json]) -> Grid:
@@ -170,7 +170,7 @@ def rejected_grid(rejected: Sequence[Json]) -> Grid:
         }
         for item in rejected
     ]
-    return Grid("Tried and rejected", columns, rows, csv_name="rejected.csv", folded=True)
+    return Grid("Rejected candidates", columns, rows, csv_name="rejected.csv", folded=True)
 
 
 def cause_name(cause: Json) -> str:
@@ -224,10 +224,11 @@ def explainable_origin(result: Json) -> str:
         ""
         if told.get("held_out") is not None
         else (
-            f"No run is held out: left out in turn, training runs are foretold to {number(told['cross_validated'])} N."
+            "No run is held out: the RMSE of cross-validation over training runs is "
+            f"{number(told['cross_validated'])} N."
         )
     )
-    remarks = [f"Explainable is what a general model of the past motion leaves ({kind}).", seen]
+    remarks = [f"The explainable error is the RMSE of a general model of the past motion ({kind}).", seen]
     return " ".join(filter(None, [*remarks, *(told.get("remarks") or ())]))
 
 

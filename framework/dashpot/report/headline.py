@@ -1,4 +1,4 @@
-"""The answer in one sentence, in the engineer's words: how large the error is, what it is, what is left."""
+"""The answer in one sentence, in the engineer's words: the size of the error, its causes, the remaining residual."""
 
 from __future__ import annotations
 
@@ -85,15 +85,15 @@ def _without_names(verdict: str, errors: Errors, count: int) -> str:
     if verdict == "bad_data":
         return "The measurement is at fault first."
     if verdict == "nothing_missing":
-        return "Nothing is missing: no suspected cause is supported by the data."
+        return "Nothing is missing: no candidate cause is supported by the data."
     return f"{_short_error(errors)}: {f'{count} causes are named' if count else 'no known cause fits'}."
 
 
 def _short_error(errors: Errors) -> str:
     if errors.before is None:
-        return "The error is unknown"
+        return "The RMSE is unknown"
     floor = f", {number(errors.before / errors.floor, 2)} × the noise floor" if errors.floor else ""
-    return f"{quantity(errors.before, 'N')} of error{floor}"
+    return f"RMSE {quantity(errors.before, 'N')}{floor}"
 
 
 def cause_phrase(cause: Json) -> str:
@@ -118,11 +118,11 @@ def _is_known(parameter: Json) -> bool:
 def error_phrase(errors: Errors) -> str:
     """The size of the error against what the measurement can resolve."""
     if errors.before is None:
-        return "The error is unknown"
+        return "The RMSE is unknown"
     if not errors.floor:
-        return f"{quantity(errors.before, 'N')} of error (noise floor unknown)"
+        return f"RMSE {quantity(errors.before, 'N')} (noise floor unknown)"
     ratio = number(errors.before / errors.floor, 2)
-    return f"{quantity(errors.before, 'N')} of error is {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
+    return f"RMSE {quantity(errors.before, 'N')}, {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
 
 
 def accepted_causes(diagnosis: Json) -> list[Json]:
@@ -139,7 +139,7 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
 
 def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
     if errors.before is None or not errors.floor:
-        return f"Nothing is missing: no suspected cause is supported by the data.{_limit(diagnosis)}"
+        return f"Nothing is missing: no candidate cause is supported by the data.{_limit(diagnosis)}"
     error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
     return f"Nothing is missing: the error of {error} is at the noise floor ({floor}).{_limit(diagnosis)}"
 
@@ -156,19 +156,19 @@ def _limit(diagnosis: Json) -> str:
     hidden = [cause_title(limit) for limit in limits if limit.get("value", 0.0) is None]
     each = "Each other" if hidden else "Each"
     return (
-        f" {each} suspected cause would have been found where other numbers of the model leave {left} RMS of it or "
-        f"more; the hardest to see is {cause_title(hardest)}, from {force} RMS on ({hardest['quantity']} {value})."
-        f"{_hidden(hidden)}"
+        f" {each} candidate cause is detected with 95 % power where a refit of the other parameters leaves {left} RMS "
+        f"of it or more; the least detectable is {cause_title(hardest)}, from {force} RMS on "
+        f"({hardest['quantity']} {value}).{_hidden(hidden)}"
     )
 
 
 def _hidden(titles: Sequence[str]) -> str:
-    """The causes that these runs would not show."""
+    """The causes that these runs cannot detect."""
     if not titles:
         return ""
     more = len(titles) - MOST_HIDDEN
     told = [*titles[:MOST_HIDDEN], f"{more} more"] if more > 0 else [*titles]
-    return f" Beside the numbers of the model these runs would not show {join(told)}."
+    return f" On these runs the parameters of the model absorb {join(told)}, which cannot be detected."
 
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:
@@ -184,7 +184,7 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
 def _stands_in(causes: list[Json]) -> str:
     """Which causes may not be what is hidden, though they explain it."""
     titles = [cause_title(cause) for cause in causes if cause.get("stands_in")]
-    return f"; {join(titles)} had to be added twice, so the law that is hidden may be another one" if titles else ""
+    return f"; {join(titles)} had to be added twice, so the true law may be another one" if titles else ""
 
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
@@ -195,9 +195,11 @@ def _unexplained(diagnosis: Json, errors: Errors) -> str:
 
 
 def _leftover(diagnosis: Json) -> str:
-    """How the structure shows that is left, and how much of it there is."""
+    """What the remaining residual is correlated with, and its size."""
     left = diagnosis.get("leftover") or {}
-    return f"; of what is left, {number(left['size'], 2)} × the noise {left['what']}" if left.get("what") else ""
+    return (
+        f"; of the remaining residual, {number(left['size'], 2)} × the noise {left['what']}" if left.get("what") else ""
+    )
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from dashpot.report import figures
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
@@ -20,7 +18,6 @@ Json = Mapping[str, Any]
 
 POINTS = 1200
 FEW = ("run", "amplitude", "peak_speed", "largest_force", "energy", "stiffness", "loss", "remark")  # for a terminal
-NUMBERS = 120_000
 
 COLUMNS = (
     Column("run", "run"),
@@ -38,13 +35,13 @@ COLUMNS = (
 
 
 def look_page(look: Json, evidence: Evidence) -> Page:
-    """The report of a `dashpot-look/1`: `loops`, `over_velocity`, `shapes`, `spectra`, `repeats`, `dynamic_stiffness`.
+    """The report of a `dashpot-look/1`: `loops`, `shapes`, `spectra`, `repeats`, `dynamic_stiffness`.
 
     See `compare.look.Look.evidence` for shapes and units.
     """
     sections = (
         Section("The runs", parts=list(_result(look, evidence))),
-        Section("Over displacement and velocity", parts=list(_loops(evidence))),
+        Section("Over displacement and velocity", parts=[figures.loops(**evidence["loops"])]),
         Section("The shape of the force", parts=list(shape_figures(evidence["shapes"]))),
         Section("Over frequency", parts=list(_over_frequency(evidence))),
         Section("Repeats", parts=list(_repeats(evidence))),
@@ -60,7 +57,12 @@ def look_page(look: Json, evidence: Evidence) -> Page:
 
 def look_figures(evidence: Evidence) -> list[Figure]:
     """All figures of the report."""
-    return [*_loops(evidence), *shape_figures(evidence["shapes"]), *_over_frequency(evidence), *_repeats(evidence)]
+    return [
+        figures.loops(**evidence["loops"]),
+        *shape_figures(evidence["shapes"]),
+        *_over_frequency(evidence),
+        *_repeats(evidence),
+    ]
 
 
 def look_headline(look: Json) -> str:
@@ -77,7 +79,7 @@ def look_headline(look: Json) -> str:
     floor, explainable = floor_value(look), explainable_value(look)
     told = [f"Forces up to {quantity(max(forces), 'N')}"]
     told += [f"noise floor {quantity(floor, 'N')}"] if floor else []
-    told += [f"a general model of the past motion leaves {quantity(explainable, 'N')}"] if explainable else []
+    told += [f"explainable error {quantity(explainable, 'N')}"] if explainable else []
     return f"{'; '.join(told)}."
 
 
@@ -118,24 +120,6 @@ def _result(look: Json, evidence: Evidence) -> Iterator[Part]:
     if look["metrics"]:
         yield metrics_grid(look)
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
-
-
-def _loops(evidence: Evidence) -> Iterator[Figure]:
-    yield figures.loops(**evidence["loops"])
-    measured = evidence["loops"]["measured"]
-    points = excerpt.affordable(len(measured), 2, POINTS, NUMBERS)
-    curves = [_cut(curve, measured[curve["run"]], points) for curve in evidence["over_velocity"]]
-    yield figures.shape_figure("over_velocity", curves, evidence["shapes"])
-
-
-def _cut(curve: Json, signals: Json, points: int) -> dict[str, Any]:
-    """Cycles spread over the run, with a gap between."""
-    pieces = excerpt.cycle_excerpts(np.asarray(signals["time"]), np.asarray(signals["displacement"]), points)
-    x, y = (
-        np.concatenate([part for piece in pieces for part in (np.asarray(curve[key])[piece], [np.nan])])
-        for key in ("x", "y")
-    )
-    return {**curve, "x": x, "y": y}
 
 
 def _over_frequency(evidence: Evidence) -> Iterator[Figure]:

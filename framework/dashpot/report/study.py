@@ -1,4 +1,4 @@
-"""The report of a study: the comparison of its models, how each was identified, and how well its numbers are known."""
+"""The report of a study: the comparison of its models, their identification, the uncertainty of their parameters."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def stages_grid(study: Json) -> Grid:
         Column("model", "model"),
         Column("stage", "stage"),
         Column("optimizer", "optimizer"),
-        Column("free", "free numbers", "", 3),
+        Column("free", "free parameters", "", 3),
         Column("loss", "best RMSE", "N", 4),
         Column("evaluations", "parameter vectors", "", 6),
         Column("starts", "starts within 1 %"),
@@ -98,12 +98,12 @@ def _conduct(study: Json) -> Section:
 def convergence(model: Json) -> str:
     """Whether the search of a model came to an end that others find too, in words."""
     spread = next((stage["spread"] for stage in reversed(model["stages"]) if len(stage["spread"]) > 1), None)
-    said = [_spread_in_words(spread) if spread else "one start only, so that no other end was looked for"]
+    said = [_spread_in_words(spread) if spread else "one start only, so that other minima were not looked for"]
     said += [
         f"stage {stage['name']}: {stage['ending']}" for stage in model["stages"] if not stage.get("converged", True)
     ]
     idle = model.get("without_influence") or ()
-    said.append(f"without influence: {', '.join(idle)}" if idle else "every number has influence")
+    said.append(f"without influence: {', '.join(idle)}" if idle else "every parameter has influence")
     bound = model["at_bound"]
     said.append(f"at the end of its range: {', '.join(bound)}" if bound else "none is at the end of its range")
     return f"{model['name']}: {'; '.join(said)}."
@@ -112,9 +112,9 @@ def convergence(model: Json) -> str:
 def _spread_in_words(spread: Sequence[float]) -> str:
     best, others = min(spread), [loss for loss in spread if loss > ALIKE_LOSS * min(spread)]
     alike = len(spread) - len(others)
-    again = f"{alike} of {len(spread)} starts came to {number(best)} N within 1 %"
+    again = f"{alike} of {len(spread)} starts converged to {number(best)} N within 1 %"
     if alike == 1:
-        again = f"none of the other {len(others)} starts found {number(best)} N again"
+        again = f"none of the other {len(others)} starts converged to {number(best)} N"
     return f"{again}, the nearest of the others ended at {number(min(others))} N" if others else again
 
 
@@ -129,16 +129,16 @@ def _alike(spread: Sequence[float]) -> int:
 
 
 def _held_out(study: Json) -> str:
-    """Which runs only judge, and what the models that they judge come to there."""
+    """Which runs are held out, and the RMSE of the models on them."""
     families: dict[tuple[str, ...], list[str]] = {}
     for model in study["models"]:
         rmse = model["rmse"] or {}
         errors = f"{model['name']} {number(rmse.get('held_out'))} N ({number(rmse.get('train'))} N)"
         families.setdefault(tuple(model.get("held_out") or ()), []).append(errors)
     return " ".join(
-        f"Seen by no stage, they only judge: {', '.join(names)}. Error there (in training): {', '.join(errors)}."
+        f"Held out from all stages: {', '.join(names)}. RMSE on them (on training runs): {', '.join(errors)}."
         if names
-        else "No run was held out for some models, whose errors stand for the training runs only."
+        else "No run was held out for some models, whose RMSE is that of the training runs only."
         for names, errors in families.items()
     )
 
@@ -146,9 +146,9 @@ def _held_out(study: Json) -> str:
 def _knowledge(study: Json) -> Section:
     text = (
         "Intervals are 95 % and take coloured noise into account. The condition number is that of the Fisher "
-        "information in relative changes of the numbers: the larger, the more some of them can make up for others."
+        "information in relative changes of the parameters: the larger, the stronger they are correlated."
     )
-    return Section("How well the numbers are known", text, [part for m in study["models"] for part in _known(m)])
+    return Section("Uncertainty of the parameters", text, [part for m in study["models"] for part in _known(m)])
 
 
 def _known(model: Json) -> Iterator[Part]:

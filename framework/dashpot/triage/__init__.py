@@ -5,7 +5,7 @@ duplicates  one record under two names
 dropouts    samples that were lost
 work        the work that a specimen takes up over closed cycles
 passivity   runs that give work back, and what they most likely are
-forecast    what the other runs foretell for the force of a run, without a model
+forecast    what the other runs predict for the force of a run, without a model
 agreement   the runs of a dataset that agree, and those that do not
 scale       wrong polarity, wrong unit
 actuator    harmonics of the motion itself

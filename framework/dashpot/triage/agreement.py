@@ -27,10 +27,10 @@ MOSTLY = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Agreement:
-    """``inside``: numbers of the runs that agree; ``coefficients``: what they foretell; ``spread``: root mean square of
+    """``inside``: numbers of the runs that agree; ``coefficients``: what they predict; ``spread``: root mean square of
     the logarithms of their gains against the other ones; ``likeness``: the least that any of them has.
 
-    ``count``: how many runs there are; ``plain``: whether the plain functions foretell them better than all.
+    ``count``: how many runs there are; ``plain``: whether the plain functions predict them better than all.
     """
 
     inside: tuple[int, ...]
@@ -60,7 +60,7 @@ class Agreement:
 
 
 def find_agreement(moments: Sequence[Moments]) -> Agreement | None:
-    """The majority of the runs that agrees best, and what joins it; None where no majority can be foretold at all.
+    """The majority of the runs that agrees best, and what joins it; None where no majority can be predicted at all.
 
     By all functions, or by the plain ones if the runs agree better by these.
     """

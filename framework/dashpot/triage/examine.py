@@ -14,14 +14,14 @@ from dashpot.text.problem import Place, Problem
 from dashpot.triage.actuator import actuator_harmonics
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.duplicates import duplicate_runs
-from dashpot.triage.fault import Fault, mended
+from dashpot.triage.fault import Fault, corrected
 from dashpot.triage.passivity import work_faults
 from dashpot.triage.scale import wrong_scales
 
 
 @dataclass(frozen=True, eq=False)
 class Triage:
-    """``dataset`` without the runs at fault, or with a channel mended; ``faults`` and ``remarks`` say why.
+    """``dataset`` without the runs at fault, or with a channel corrected; ``faults`` and ``remarks`` say why.
 
     Its runs measure one force each. The first ``read`` faults were told by reading.
     """
@@ -72,10 +72,10 @@ def examine(dataset: Dataset) -> Triage:
 
 
 def _without(runs: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:
-    """The runs without those that are left out, the others mended."""
+    """The runs without those that are left out, the others corrected."""
     of = {fault.run: fault for fault in faults}
     return [
-        mended(run, of[run.name]) if run.name in of else run
+        corrected(run, of[run.name]) if run.name in of else run
         for run in runs
         if run.name not in of or of[run.name].factor is not None
     ]

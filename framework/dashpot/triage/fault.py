@@ -34,7 +34,7 @@ class Fault:
         return f"its {self.channel} was multiplied by {self.factor:.6g} here"
 
 
-def mended(run: Run, fault: Fault) -> Run:
+def corrected(run: Run, fault: Fault) -> Run:
     """The run with the channel of a fault, also where it stands at a node, multiplied by its factor."""
     names = {fault.channel, f"{fault.channel}@{run.end}"} if run.end else {fault.channel}
     changed = {name: fault.factor * values for name, values in run.channels.items() if name in names}

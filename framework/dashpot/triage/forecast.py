@@ -1,4 +1,4 @@
-"""What some runs foretell for the force of another one, without a model.
+"""What some runs predict for the force of another one, without a model.
 
 Their forces are fitted by a handful of general functions of deflection and velocity.
 """
@@ -72,10 +72,10 @@ def fitted(moments: Sequence[Moments]) -> Array:
 
 def compared(moments: Moments, coefficients: Array) -> tuple[float, float]:
     """Force over forecast, and the share of the square of the force that this times the forecast explains."""
-    product, foretold = float(coefficients @ moments.right), float(coefficients @ moments.gram @ coefficients)
-    if not foretold > 0.0:
+    product, predicted = float(coefficients @ moments.right), float(coefficients @ moments.gram @ coefficients)
+    if not predicted > 0.0:
         return 0.0, 0.0
-    return product / foretold, product**2 / (foretold * moments.power)
+    return product / predicted, product**2 / (predicted * moments.power)
 
 
 def _rate(run: Run) -> Array:

@@ -56,7 +56,7 @@ def gives_back(work: CycleWork, delay: float, runs: int = 1) -> bool:
 
 
 def work_faults(runs: Sequence[Run]) -> list[Fault]:
-    """The runs that give back work, each with what would mend it."""
+    """The runs that give back work, each with what would correct it."""
     works = {run.name: work for run in runs if (work := work_of_cycles(run)) is not None}
     bad = [run for run in runs if run.name in works and gives_back(works[run.name], delay_of(run), len(works))]
     accused = {run.name for run in bad}

@@ -93,7 +93,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         return Fault(
             run.name,
             "polarity",
-            f"its force is {gain:.3g} times what all others foretell: the channel has the wrong sign",
+            f"its force is {gain:.3g} times that expected from all other runs: the channel has the wrong sign",
             "Write 'sign: -1' under its force channel, or swap the wires",
             -1.0,
         )
@@ -116,9 +116,9 @@ def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least
     return Fault(
         run.name,
         "unit",
-        f"its force is {pretty(gain, '1', 4)} times what all others foretell, like {like}",
+        f"its force is {pretty(gain, '1', 4)} times that expected from all other runs, like {like}",
         "Correct the 'unit' of its force channel",
-        _mending(near),
+        _correction(near),
     )
 
 
@@ -140,7 +140,7 @@ def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, least: float) -> Fau
         "unit_of_displacement",
         f"its force is like that of all others if its displacement is divided by {divisors}",
         "Correct the 'unit' of its displacement channel",
-        _mending(fits),
+        _correction(fits),
         "displacement",
     )
 
@@ -151,7 +151,7 @@ def _near(gain: float, factors: dict[float, str], tolerance: float, least: float
     return sorted((factor for factor in apart if apart[factor] <= tolerance), key=lambda factor: apart[factor])
 
 
-def _mending(near: Sequence[float]) -> float | None:
+def _correction(near: Sequence[float]) -> float | None:
     """What a channel is to be multiplied by; None where the spread of the others does not tell which factor it is.
 
     Of several that are possible the nearest is taken if it is one of the prefixes of the SI, which are mistaken most.
@@ -160,7 +160,7 @@ def _mending(near: Sequence[float]) -> float | None:
 
 
 def _nearer(run: Run, fault: Fault, inside: Sequence[Run], channel: str) -> float:
-    """By how much the size of a channel comes nearer to the range of the other runs when a fault is mended, in logs."""
+    """By how much correcting a fault brings the size of a channel nearer to the range of the other runs, in logs."""
     sizes = [size for other in inside if (size := float(np.std(other.channels[channel]))) > 0.0]
     size, factor = float(np.std(run.channels[channel])), fault.factor
     if not sizes or not size > 0.0 or factor is None:

@@ -21,7 +21,7 @@ def dashpot_optimizers():
 
 @hookimpl
 def dashpot_causes():
-    """Suspected causes of this package."""
+    """Candidate causes of this package."""
     from dashpot_example.missing_slider import MissingSlider
 
     return [MissingSlider]

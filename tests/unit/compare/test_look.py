@@ -86,7 +86,6 @@ def test_every_picture_is_drawn():
     titles = [figure.title for figure in look_figures(look(with_repeat()).evidence())]
     assert titles == [
         "Force over displacement and velocity",
-        "Force over velocity",
         "Force over velocity at mid stroke",
         "Force over deflection at low speed",
         "The same less a straight spring",

@@ -113,11 +113,11 @@ def test_a_time_that_runs_backwards_is_told(tmp_path):
 def test_a_time_that_stands_still_is_told(tmp_path):
     time = np.arange(3000) * 1e-3
     time[1500:1600] = time[1500]
-    assert "its time stands still at row 1502: 1.5 s comes twice. say 'sampling:" in why_set_aside(tmp_path, time)
+    assert "its time does not advance at row 1502: 1.5 s comes twice. say 'sampling:" in why_set_aside(tmp_path, time)
 
 
 def test_a_constant_time_is_told(tmp_path):
-    assert "its time stands still at row 2" in why_set_aside(tmp_path, np.full(100, 3.0))
+    assert "its time does not advance at row 2" in why_set_aside(tmp_path, np.full(100, 3.0))
 
 
 def test_a_jump_too_steep_for_a_number_sets_the_run_aside(tmp_path, rng):

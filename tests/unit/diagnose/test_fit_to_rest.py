@@ -29,7 +29,7 @@ def test_a_sound_fit_counts_at_once_and_nothing_is_said():
 @pytest.mark.parametrize(
     ("first", "reason"),
     [
-        ((1613.0, Outcome.CONVERGED), "errs by 1.61e+03 N where the forces vary by 400 N"),
+        ((1613.0, Outcome.CONVERGED), "its RMSE is 1.61e+03 N where the forces vary by 400 N"),
         ((60.0, Outcome.STEPS_SPENT), "largest number of steps"),
     ],
 )

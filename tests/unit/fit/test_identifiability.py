@@ -134,7 +134,7 @@ def test_a_fit_tells_what_its_data_cannot_tell():
     assert told["undetermined"] == ["slow.relaxation_time"] and told["condition"] > 1e4
     assert told["weak"] == ["relaxation time of slow is not determined"] and told["may_go"] == []
     page = str(fit_page(found.as_dict(), comparison_of(found).as_dict(), comparison_of(found).evidence()))
-    assert "relaxation time of slow is not determined" in page and "not determined by these data" in page
+    assert "relaxation time of slow is not determined" in page and "not identifiable from these data" in page
 
 
 def test_two_branches_that_do_the_same_are_told_and_one_may_go():

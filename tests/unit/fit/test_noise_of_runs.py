@@ -76,14 +76,14 @@ def bench() -> Bench:
 def test_what_is_foretold_is_what_noise_of_that_colour_does(bench):
     spec = parse_network(SPECIMEN, load_registry().elements, "specimen.yaml")
     seed = seed_of("test_noise_of_runs") % 2**24
-    foretold = []
+    predicted = []
     for number in range(MEASUREMENTS):
         measured = virtual_test(spec, bench, seed + number)
         runs = [score_run(run) for run in measured]
         ranged = with_ranges(spec, natural_sizes(runs))
         objective, coordinates = Objective(compile_network(ranged), runs), search_coordinates(ranged)
         noise = noise_of_runs(measured, noise_floor(Dataset("d", tuple(measured))))
-        foretold.append(list(identifiability(objective, coordinates, coordinates.start, noise).deviations.values()))
+        predicted.append(list(identifiability(objective, coordinates, coordinates.start, noise).deviations.values()))
     _, jacobian = linearise(objective, coordinates, coordinates.start)
     scores = sum(
         objective.factor(number) ** 2
@@ -95,9 +95,9 @@ def test_what_is_foretold_is_what_noise_of_that_colour_does(bench):
     bread = np.linalg.inv(jacobian @ jacobian.T)
     exact = np.sqrt(np.diag(bread @ scores @ bread))
     as_if_white = np.sqrt(np.diag(bread)) * NOISE
-    # few slow waves fit into a run: what is foretold scatters from one measurement to the next
-    scatter = np.std(foretold, axis=0, ddof=1) / np.sqrt(MEASUREMENTS)
-    assert (np.abs(np.mean(foretold, axis=0) - exact) < 0.15 * exact + 3.0 * scatter).all()
+    # few slow waves fit into a run: what is predicted scatters from one measurement to the next
+    scatter = np.std(predicted, axis=0, ddof=1) / np.sqrt(MEASUREMENTS)
+    assert (np.abs(np.mean(predicted, axis=0) - exact) < 0.15 * exact + 3.0 * scatter).all()
     assert np.abs(as_if_white / exact - 1.0).max() > 0.4
 
 

@@ -116,13 +116,13 @@ def test_the_page_holds_all_parts_and_its_links():
         "Dependence on properties",
         "k.stiffness over temperature",
         "Control chart of k.stiffness",
-        "Numbers in common",
+        "Common parameters",
         "Causes found from m",
     } <= set(titles)
     html = render(page)
     assert '<a href="jobs/a-fit-m/report.html">a</a>' in html and "Outside: B." in html
     assert "There are 2 groups of specimens alike: a; b." in html
-    assert "The specimens contradict numbers in common" in html
+    assert "The specimens contradict common parameters" in html
 
 
 def test_names_that_mean_something_in_html_are_harmless():
@@ -151,5 +151,5 @@ def test_a_number_is_drawn_in_rig_units_with_the_band_of_the_population():
     band = figure.plot["layout"]["shapes"][0]
     # two standard deviations of 4 % about 200 N/mm, as factors
     assert (band["y0"], band["y1"]) == (pytest.approx(184.62, abs=0.01), pytest.approx(216.66, abs=0.01))
-    with pytest.raises(ValueError, match="numbers are: k.stiffness"):
+    with pytest.raises(ValueError, match="parameters are: k.stiffness"):
         number_figure(content(), "m", "c.damping")

@@ -18,9 +18,9 @@ def parts(page: Page, kind: type) -> list[Any]:
 
 
 def test_the_headline_judges_the_error_on_unseen_runs_against_the_noise():
-    assert fit_headline(fit()) == "gehmann: 36.0 N of error, 4.0 × the noise floor (9.00 N)."
+    assert fit_headline(fit()) == "gehmann: RMSE 36.0 N, 4.0 × the noise floor (9.00 N)."
     unseen = fit(rmse={"train": 37.0, "held_out": None, "all": 37.0}, noise_floor={"value": None, "from": None})
-    assert fit_headline(unseen) == "gehmann: 37.0 N of error (noise floor unknown)."
+    assert fit_headline(unseen) == "gehmann: RMSE 37.0 N (noise floor unknown)."
 
 
 def test_every_number_that_was_searched_is_told_in_rig_units():
@@ -35,8 +35,8 @@ def test_every_number_that_was_searched_is_told_in_rig_units():
 
 
 def test_the_lead_counts_the_runs():
-    assert page_of(fit()).lead.startswith("3 numbers identified on 2 runs by swarm, judged on 1 others.")
-    assert "judged on" not in page_of(fit(held_out=[])).lead
+    assert page_of(fit()).lead.startswith("3 parameters identified on 2 runs by swarm, 1 others held out.")
+    assert "held out" not in page_of(fit(held_out=[])).lead
 
 
 def test_a_model_above_the_noise_floor_is_sent_to_the_diagnosis():
@@ -46,14 +46,14 @@ def test_a_model_above_the_noise_floor_is_sent_to_the_diagnosis():
     assert not [notice for notice in parts(page_of(good), Notice) if "dashpot diagnose" in notice.text]
 
 
-def test_a_fit_that_did_not_come_to_rest_says_so():
+def test_a_fit_that_did_not_converge_says_so():
     alone = {**comparison(), "models": [{**comparison()["models"][0], "status": "40 steps were not enough"}]}
     page = fit_page(fit(), alone, {})
-    assert any("did not come to rest: 40 steps were not enough." in notice.text for notice in parts(page, Notice))
+    assert any("did not converge: 40 steps were not enough." in notice.text for notice in parts(page, Notice))
 
 
 def test_the_answers_of_several_starts_are_counted():
-    [section] = [section for section in page_of(fit()).sections if section.title == "The numbers"]
+    [section] = [section for section in page_of(fit()).sections if section.title == "Parameters"]
     assert section.text == "663 parameter vectors were tried. 2 of 3 starts end within 1 % of the best."
 
 
@@ -67,9 +67,9 @@ def test_the_page_is_complete_and_says_where_it_comes_from():
     page = page_of(fit())
     assert dict(page.colophon)["dataset digest"] == "d" * 64 and dict(page.colophon)["model"] == "gehmann"
     assert len(parts(page, Grid)) == 3 and len(parts(page, KeyFigures)) == 1
-    assert "gehmann: 36.0 N of error" in render(page)
+    assert "gehmann: RMSE 36.0 N" in render(page)
 
 
 def test_a_file_with_nothing_to_be_found_has_no_table_of_numbers():
     content = fit(parameters={"friction.limit": number(20.0, "N", role="fixed")}, spread=[])
-    assert "The numbers" not in [section.title for section in page_of(content).sections]
+    assert "Parameters" not in [section.title for section in page_of(content).sections]

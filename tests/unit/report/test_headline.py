@@ -1,4 +1,4 @@
-"""The first sentence of a diagnosis says how large, what, how sure, and what is left."""
+"""The first sentence of a diagnosis says size, causes, certainty and remaining residual."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from dashpot.report.headline import SENTENCES, headline, short_headline
 
 def test_an_explained_error_is_named_with_its_size():
     assert headline(diagnosis()) == (
-        "61.0 N of error is 4.2 × the noise floor (14.5 N); "
+        "RMSE 61.0 N, 4.2 × the noise floor (14.5 N); "
         "76 % of it is dry friction of 41 N [38, 44], missing in the model."
     )
 
@@ -25,7 +25,7 @@ def test_a_page_begins_with_25_words_at_most(verdict, count):
 
 
 def test_the_short_headline_names_as_many_causes_as_there_is_room_for():
-    assert short_headline(diagnosis()) == "61.0 N of error, 4.2 × the noise floor; 76 % of it is dry friction."
+    assert short_headline(diagnosis()) == "RMSE 61.0 N, 4.2 × the noise floor; 76 % of it is dry friction."
     many = short_headline(diagnosis(causes=[friction(title=f"cause {k}") for k in range(9)]))
     assert "cause 0, cause 1" in many and many.endswith("more.") and "cause 8" not in many
     left = short_headline(diagnosis(verdict="partly_explained"))
@@ -63,7 +63,7 @@ def test_what_is_left_is_described():
     assert "; 95 % of it is dry friction" in partly
     unexplained = headline(diagnosis(verdict="unexplained", causes=[], leftover=left))
     for said in (partly, unexplained):
-        assert said.endswith("; of what is left, 0.21 × the noise is a line at 48.7 Hz.")
+        assert said.endswith("; of the remaining residual, 0.21 × the noise is a line at 48.7 Hz.")
 
 
 def test_unexplained_tells_what_it_resembles_and_does_not_guess():
@@ -92,12 +92,12 @@ def test_bad_data_comes_before_any_judgement_of_the_model():
 
 def test_without_held_out_runs_the_training_error_is_quoted():
     said = headline(diagnosis(rmse={"before": {"train": 50.0, "held_out": None}, "after": {"train": 25.0}}))
-    assert said.startswith("50.0 N of error") and "50 % of it" in said
+    assert said.startswith("RMSE 50.0 N") and "50 % of it" in said
 
 
 def test_without_a_noise_floor_none_is_invented():
     said = headline(diagnosis(noise_floor={"value": None, "from": None}))
-    assert said.startswith("61.0 N of error (noise floor unknown); 76 % of it")
+    assert said.startswith("RMSE 61.0 N (noise floor unknown); 76 % of it")
 
 
 def test_an_unknown_verdict_is_refused():
@@ -112,7 +112,7 @@ def test_a_cause_without_the_extras_is_named_by_its_word():
 
 def test_a_comparison_names_the_closest_model():
     assert comparison_headline(comparison()) == (
-        "tire_model_5 is closest: 14.9 N of error, 1.0 × the noise floor (14.5 N)."
+        "tire_model_5 has the lowest RMSE: 14.9 N, 1.0 × the noise floor (14.5 N)."
     )
     assert comparison_headline({"models": []}) == "No model could be compared."
 
@@ -148,7 +148,7 @@ def test_what_is_sure_comes_before_what_cannot_be_told_apart():
 def test_large_forces_are_given_in_kilonewtons():
     rmse = {"before": {"held_out": 56311.8}, "after": {"held_out": 25617.2}}
     said = headline(diagnosis(rmse=rmse, noise_floor={"value": 3626.0, "from": "repeats"}))
-    assert said.startswith("56.3 kN of error is 16 × the noise floor (3626 N)")
+    assert said.startswith("RMSE 56.3 kN, 16 × the noise floor (3626 N)")
 
 
 def test_silence_says_how_small_an_effect_it_is_about():
@@ -174,7 +174,7 @@ def test_silence_says_how_small_an_effect_it_is_about():
         },
     ]
     said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
-    assert "leave 1.30 N RMS of it or more" in said
+    assert "leaves 1.30 N RMS of it or more" in said
     assert "delay, from 9.00 N RMS on (delay 45.0 us)." in said
 
 
@@ -195,5 +195,5 @@ def test_the_same_cause_at_another_place_is_a_rival():
 
 def test_a_cause_that_was_needed_twice_may_not_be_the_one_that_is_hidden():
     said = headline(diagnosis(verdict="partly_explained", causes=[friction(stands_in=True)]))
-    assert "; dry friction had to be added twice, so the law that is hidden may be another one" in said
+    assert "; dry friction had to be added twice, so the true law may be another one" in said
     assert "twice" not in headline(diagnosis(verdict="partly_explained", causes=[friction(stands_in=False)]))

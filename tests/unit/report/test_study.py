@@ -98,7 +98,7 @@ def test_the_headline_of_a_study_of_masses_is_the_mass_with_its_interval():
     mass = content["masses"][0]
     headline = study_page(content, comparison_evidence()).headline
     assert headline.startswith(f"wheel: {mass['value']:.2f} kg, 95 % interval 39.00 to 41.50 kg; from {mass['model']}")
-    assert "is closest" in headline
+    assert "has the lowest RMSE: 14.9 N" in headline
     assert not study_page({**content, "masses": []}, comparison_evidence()).headline.startswith("wheel")
 
 
@@ -177,11 +177,11 @@ def test_slow_curves_stand_in_numbers():
 def test_the_end_of_a_search_is_told_in_words():
     content = study()["models"][0]
     assert convergence(content).startswith(
-        f"{content['name']}: 2 of 3 starts came to 12.5 N within 1 %, the nearest of the others ended at 14.0 N; every "
-        "number has influence; at the end of its range: a.k"
+        f"{content['name']}: 2 of 3 starts converged to 12.5 N within 1 %, the nearest of the others ended at 14.0 N; "
+        "every parameter has influence; at the end of its range: a.k"
     )
     content["stages"] = [{**STAGE, "spread": [10.0, 14.0], "converged": False}]
-    assert "none of the other 1 starts found 10.0 N again" in convergence(content)
+    assert "none of the other 1 starts converged to 10.0 N" in convergence(content)
     assert "stage dynamics: the budget is spent" in convergence(content)
     content["stages"] = [{**STAGE, "spread": [10.0]}]
     assert "one start only" in convergence(content)
@@ -189,7 +189,7 @@ def test_the_end_of_a_search_is_told_in_words():
 
 def test_held_out_runs_and_their_error_are_named():
     texts = [section.text for section in study_page(study(), comparison_evidence()).sections]
-    told = next(text for text in texts if "Seen by no stage" in text)
+    told = next(text for text in texts if "Held out from all stages" in text)
     rows = study()["models"]
-    assert told.startswith("Seen by no stage, they only judge: b1. Error there (in training): ")
-    assert all(f"{row['name']} " in told for row in rows) and told.count("Seen by no stage") == 1
+    assert told.startswith("Held out from all stages: b1. RMSE on them (on training runs): ")
+    assert all(f"{row['name']} " in told for row in rows) and told.count("Held out from all stages") == 1

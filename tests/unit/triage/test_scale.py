@@ -56,7 +56,7 @@ def test_a_thousandfold_force_is_found_where_stiffness_depends_on_amplitude(numb
 
 
 def test_where_the_spread_allows_two_factors_the_run_is_left_out():
-    """At the smallest amplitude it is 2460 times what the others foretell: 1000 as well as 4448."""
+    """At the smallest amplitude it is 2460 times what the others predict: 1000 as well as 4448."""
     runs = scaled(rubber(), 0, "force", 1e3)
     found = examine(Dataset("made", tuple(runs)))
     (fault,) = found.faults

@@ -81,9 +81,9 @@ class DataSource:
 class StudySpec:
     """A study: models in order, each with its stages.
 
-    hold_out: patterns of the runs that only judge, None where the seed chooses; weights: pattern -> weight of the runs
-    that it names; amplitude: the one at which the report compares dynamic stiffness (m); bootstrap: how many
-    resamplings of the runs, profiles: patterns of the parameters whose profile likelihood is computed.
+    hold_out: patterns of the held-out runs, None where the seed chooses; weights: pattern -> weight of the runs that it
+    names; amplitude: the one at which the report compares dynamic stiffness (m); bootstrap: how many resamplings of the
+    runs, profiles: patterns of the parameters whose profile likelihood is computed.
     """
 
     name: str

@@ -19,7 +19,7 @@ IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
 def residual_map(told: Mapping[str, Any]) -> Figure:
     """Mean residual (N) over two variables: `label`, `x` and `y` (`name`, `unit`, `edges`), `mean` (ny, nx) N.
 
-    `explained` is the share of the mean square of the residual that the map foretells on other stretches of the runs,
+    `explained` is the share of the mean square of the residual that the map predicts on other stretches of the runs,
     `singles` that of each variable alone.
     """
     (x_name, x), (y_name, y) = (_axis_of(told[which]) for which in ("x", "y"))
@@ -42,8 +42,8 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
     caption = (
         "Measured less simulated force, mean of each field: the model presses too little where it is positive. These "
-        f"two variables foretell {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
-        f"stretches that the map was not made of; alone: {alone}. Every row and column has as many samples."
+        f"two variables predict {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
+        f"held-out stretches; alone: {alone}. Every row and column has as many samples."
     )
     axes = {
         which: axis(

@@ -31,7 +31,7 @@ def rmse_bars(
     if explainable is not None:
         traces.append(_line("explainable", explainable, "dot"))
     caption = "Root mean square of the force error." + ("" if floor is None else " No model can get below the noise.")
-    caption += "" if explainable is None else " Explainable: what a general model of the past motion leaves."
+    caption += "" if explainable is None else " Explainable: RMSE of a general model of the past motion."
     return Figure("Error of the models", caption, {"data": traces, "layout": _layout(names)}, table.columns)
 
 

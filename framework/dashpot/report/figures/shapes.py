@@ -79,13 +79,6 @@ WAYS = {
         1.0,
         1e-3,
     ),
-    "over_velocity": Way(
-        "Force over velocity",
-        "A single line is damping, a loop around it stiffness or inertia, a jump at zero velocity dry friction.",
-        "velocity (mm/s)",
-        "force (N)",
-        1e3,
-    ),
     "force_spectrum": Way(
         "Amplitude spectrum of the force",
         "Lines that the displacement does not have are harmonics "

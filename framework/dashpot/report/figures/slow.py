@@ -12,7 +12,7 @@ from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, axis_number, layout, plain, series_color
 
-TRAVEL, FORCE, WIDTH = "wheel travel from its middle (mm)", "force (N)", "half width of the loop (N)"
+TRAVEL, FORCE, WIDTH = "wheel travel from its middle (mm)", "force (N)", "friction force (N)"
 PANELS = {"left": "left wheel, in phase", "right": "right wheel, in phase", "roll": "anti-phase, half the difference"}
 GAP = 0.05
 
@@ -78,7 +78,7 @@ def _layout(parts: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any
     titles = []
     for panel, part in enumerate(parts):
         left = panel * (width + GAP)
-        for level, (title, domain) in enumerate((("force (N)", [0.45, 0.98]), ("half width (N)", [0.0, 0.35]))):
+        for level, (title, domain) in enumerate((("force (N)", [0.45, 0.98]), ("friction force (N)", [0.0, 0.35]))):
             cell = panel + level * len(parts)
             axes[axis_number("x", cell, "axis")] = axis(
                 TRAVEL if level else "",
