@@ -35,7 +35,7 @@ class Rule:
     now: Array
     before: Array
     swing: Array
-    bend: Array  # of the acceleration with the new position, in 1/s^2
+    pull: Array  # of the acceleration with the new velocity
     adams: Array  # 1.0 for the rule of Adams and Moulton
     renewed: Array  # 1.0 where the tangents of the laws are computed anew
 
@@ -55,7 +55,7 @@ def alternate(step: float, pairs: int, begins: bool = True) -> Rule:
         now=-(euler + 2.0 * trapezoidal + 2.0 * backward) / step,
         before=0.5 * backward / step,
         swing=-trapezoidal,
-        bend=slope * slope,
+        pull=slope,
         adams=np.zeros(slope.size),
         renewed=np.ones(slope.size),
     )
@@ -64,7 +64,7 @@ def alternate(step: float, pairs: int, begins: bool = True) -> Rule:
 def multistep(step: float, first: int, count: int) -> Rule:
     """The coefficients of ``count`` steps of ``step`` seconds from the ``first`` of a record on."""
     begin, order = alternate(step, FILLED), np.arange(first, first + count)
-    then: dict[str, float | Array] = {"slope": SPEED[0] / PLACE[0] / step, "bend": 1.0 / PLACE[0] / step**2, "adams": 1.0}
+    then: dict[str, float | Array] = {"slope": SPEED[0] / PLACE[0] / step, "pull": 1.0 / SPEED[0] / step, "adams": 1.0}
     then["renewed"] = np.where((order == FILLED) | (order % RENEWED == 0), 1.0, 0.0)
 
     def column(key: str) -> Array:

@@ -20,6 +20,7 @@ from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
 from dashpot.kernel.ir.layout import LANES
 from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.pieces import Piece, Pieces, SystemRows
 from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
 from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.targets.choice import Code, target
@@ -53,55 +54,6 @@ def status_of(code: float, answer: Array) -> Status:
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """Samples ``first`` up to ``end`` of a record, and what drives the steps that lead to them."""
-
-    first: int
-    end: int
-    coarse: Array
-    fine: Array
-
-
-@dataclass(frozen=True, eq=False)
-class SystemRows:
-    """The part of the work on a run that depends on its excitation alone; pieces may be gone through again.
-
-    ``quick`` ones have steps of high order, for lanes that are slow enough for them; None: the network has none.
-    """
-
-    excitation: Excitation
-    pairs: int
-    still: Array
-    pieces: Iterable[Piece]
-    quick: Iterable[Piece] | None
-
-    def steps(self, quick: bool) -> int:
-        """How many long steps lie in a sample."""
-        return self.pairs if quick else PAIR * self.pairs
-
-
-@dataclass(frozen=True, eq=False)
-class _Pieces:
-    """The pieces of a record, made when they are asked for; those of a short one are ``kept``."""
-
-    samples: int
-    size: int
-    kept: bool
-    make: Callable[[int, int], Piece]
-
-    def __iter__(self) -> Iterator[Piece]:
-        return iter(self._all) if self.kept else self._made()
-
-    @cached_property
-    def _all(self) -> tuple[Piece, ...]:
-        return tuple(self._made())
-
-    def _made(self) -> Iterator[Piece]:
-        for first in range(0, self.samples, self.size):
-            yield self.make(first, min(first + self.size, self.samples))
-
-
-@dataclass(frozen=True, eq=False)
 class _Marched:
     """What came of a block of lanes: answers (lanes, ...), squared ``miss`` (lanes, driven nodes), codes (lanes,).
 
@@ -125,7 +77,7 @@ class Solution:
     """Forces (lanes, driven nodes, samples) in N and motions (lanes, unknown nodes, samples) in m, of the nodes named.
 
     ``error`` (lanes, driven nodes) in N is the estimated root mean square error of the forces, from halving the steps;
-    it is that of the short steps, before their leading error, where that is taken away. ``status`` is one for each lane.
+    it is that of the short steps, also where their leading error is taken away. ``status`` is one for each lane.
     """
 
     driven: tuple[str, ...]
@@ -140,8 +92,8 @@ class Solution:
 class CompiledSystem(Compiled[SystemRows]):
     """A compiled network with unknown nodes; see ``Compiled``.
 
-    ``native`` is its code for one lane (True) and for several. ``signals`` are forces over time that laws refer to. With
-    ``quick`` lanes that are slow for the step take steps of high order.
+    ``native`` is its code for one lane (True) and for several. ``signals`` are forces over time that laws refer to.
+    With ``quick`` lanes that are slow for the step take steps of high order.
     """
 
     topology: Topology
@@ -175,7 +127,7 @@ class CompiledSystem(Compiled[SystemRows]):
                 )
                 return Piece(first, end, coarse, fine)
 
-            return _Pieces(excitation.samples, max(PIECE // pairs, 1), pairs * excitation.samples <= KEPT, make)
+            return Pieces(excitation.samples, max(PIECE // pairs, 1), pairs * excitation.samples <= KEPT, make)
 
         quick = pieces(pairs, True) if self.quick and self.system.pace else None
         return SystemRows(excitation, pairs, still, pieces(PAIR * pairs, False), quick)
@@ -309,7 +261,9 @@ class CompiledSystem(Compiled[SystemRows]):
                     out[block.place, :, own] = answer[:, :, : block.count].transpose(2, 1, 0)
         count = lanes.shape[0]
         scores = _of_lanes(totals, count).T
-        return _Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
+        return _Marched(
+            out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks
+        )
 
     def _blocks(self, run: SystemRows, lanes: Array, quick: bool) -> Iterator[Block]:
         step = run.excitation.dt / run.steps(quick)

@@ -13,7 +13,6 @@ of the first guess, in the pass ``turn``, and from there to the end.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import reduce
 
 import numpy as np
@@ -27,8 +26,8 @@ from dashpot.kernel.compiler.trace import TracedBranch, rate_independent
 from dashpot.kernel.scheme import FASTEST, FIRMEST, PLACE, PLACE_AHEAD, SPEED
 from dashpot.model.topology import Edge, Topology
 
-ADAMS, BEND, RENEWED = (symbol(f"rule.{key}") for key in ("adams", "bend", "renewed"))
-QUICK_RULE = ("rule.adams", "rule.bend", "rule.renewed")
+ADAMS, PULL, RENEWED = (symbol(f"rule.{key}") for key in ("adams", "pull", "renewed"))
+QUICK_RULE = ("rule.adams", "rule.pull", "rule.renewed")
 PACE, TURNS, KEPT_TANGENTS = "adams|pace", "adams|turns", "adams|kept"
 EARLIER = ("acceleration", "acceleration_before", "acceleration_earlier")  # of a node, the latest first
 
@@ -42,7 +41,7 @@ def multistep_fits(topology: Topology) -> bool:
 class Multistep(Moving):
     """One step by either rule."""
 
-    bend = BEND
+    bend = PULL * SLOPE
 
     def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
         self.turning = {law.name for law in laws if law.states and rate_independent(law)}
@@ -53,7 +52,7 @@ class Multistep(Moving):
         return replaced(law, {**self.motion(edge), **since})
 
     def _own_acceleration(self, joint: str) -> Node:
-        return BEND * self._next(joint) + symbol(row_of(joint, "swing"))
+        return PULL * self._own_velocity(joint) + symbol(row_of(joint, "swing"))
 
     def predict(self) -> dict[str, Node]:
         rows = super().predict()
@@ -61,7 +60,7 @@ class Multistep(Moving):
             drift, swing = (rows[row_of(joint, key)] for key in ("drift", "swing"))
             far, fast = self._reached(joint, PLACE[1:]), self._fast(joint)
             rows[row_of(joint, "drift")] = where(ADAMS > 0.5, fast - SLOPE * far, drift)
-            rows[row_of(joint, "swing")] = where(ADAMS > 0.5, -(BEND * far), SLOPE * drift + swing)
+            rows[row_of(joint, "swing")] = where(ADAMS > 0.5, -(PULL * fast), swing)
         rows[KEPT_TANGENTS] = where(RENEWED > 0.5, 0.0, 1.0)
         turns = [where(self._turned(edge), 1.0, 0.0) for edge in self._ends().values()]
         rows |= {_since(edge): self._old(edge) for edge in self._ends().values()}
@@ -82,23 +81,16 @@ class Multistep(Moving):
         return rows
 
     def improve(self) -> dict[str, Node]:
-        """The tangents are kept."""
-        pace = where(ADAMS > 0.5, maximum(symbol(PACE), self._pace()), symbol(PACE))
-        kept = dict.fromkeys(map(_kept, self.topology.edges), ZERO)
-        for edge, tangent in zip(self.topology.edges, self.tangents, strict=True):
-            kept[_kept(edge)] = kept[_kept(edge)] + tangent
-        return super().improve() | kept | {PACE: pace}
+        """The tangents are kept; a lane that is done stays as it is."""
+        kept = {**self._summed(), PACE: where(ADAMS > 0.5, maximum(symbol(PACE), self._pace()), symbol(PACE))}
+        done = symbol(DONE) > 0.5
+        return super().improve() | {name: where(done, symbol(name), node) for name, node in kept.items()}
 
     def correct(self) -> dict[str, Node]:
         """Newton's step with the tangents that are kept, and what is measured where it leads to."""
-        firsts = {_kept(edge): number for number, edge in reversed([*enumerate(self.topology.edges)])}
-        kept = [
-            symbol(_kept(edge)) if firsts[_kept(edge)] == number else ZERO
-            for number, edge in enumerate(self.topology.edges)
-        ]
+        kept = self._kept_tangents()
         ways = self.newton(self.missing(), kept)
         distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
-        done = symbol(DONE) > 0.5
         forces = [
             force + tangent * self.way(edge, ways)
             for edge, force, tangent in zip(self.topology.edges, self.forces, kept, strict=True)
@@ -109,6 +101,7 @@ class Multistep(Moving):
         rows = {row_of(joint, "next"): self._next(joint) + way for joint, way in ways.items()}
         rows |= {reached_row(name): node for name, node in found.items()}
         rows |= {DISTANCE: distance, DONE: where(distance <= TOLERANCE, 1.0, 0.0)}
+        done = symbol(DONE) > 0.5
         return {name: where(done, symbol(name), node) for name, node in rows.items()}
 
     def rest(self) -> dict[str, Node]:
@@ -122,6 +115,18 @@ class Multistep(Moving):
             for new, old in zip(EARLIER, EARLIER[1:], strict=False):
                 rows[row_of(joint, old)] = symbol(row_of(joint, new))
         return rows
+
+    def _summed(self) -> dict[str, Node]:
+        """The tangents of all edges between the same two nodes, summed up."""
+        rows: dict[str, Node] = {}
+        for edge, tangent in zip(self.topology.edges, self.tangents, strict=True):
+            rows[_kept(edge)] = rows.get(_kept(edge), ZERO) + tangent
+        return rows
+
+    def _kept_tangents(self) -> list[Node]:
+        """One for every edge: the kept sum for the first one between its nodes, nothing for the others."""
+        names = [_kept(edge) for edge in self.topology.edges]
+        return [ZERO if name in names[:number] else symbol(name) for number, name in enumerate(names)]
 
     def _reached(self, joint: str, weights: tuple[float, ...]) -> Node:
         """Where a node gets to with the accelerations that it had."""

@@ -7,8 +7,9 @@ term away (Richardson). A step is ``predict``, then ``improve`` until every lane
 leaves, then ``commit``.
 
 Where there is a pass ``turn``, records may also be run ``quick``: the steps are such that an edge may turn within one,
-and then ``turn`` follows ``predict``; and where the tangents of before do, ``correct`` comes before ``improve``. Their order is high, and the forces are those of the short steps; the long ones
-only tell the error, and are left out where nobody asks for it.
+and then ``turn`` follows ``predict``; and where the tangents of before do, ``correct`` comes before ``improve``. Their
+order is high, and the forces are those of the short steps; the long ones only tell the error, and are left out where
+nobody asks for it.
 """
 
 from __future__ import annotations

@@ -164,7 +164,7 @@ def _write_rule(code: Code, online: Online) -> None:
                 _give(code, online, f"rule.{key}", f"{value} / h")
             _give(code, online, "rule.swing", swing)
             if online.system and online.system.turns:
-                _give(code, online, "rule.bend", f"{slope} * {slope} / (h * h)")
+                _give(code, online, "rule.pull", f"{slope} / h")
 
 
 def _begin(code: Code, online: Online) -> None:
