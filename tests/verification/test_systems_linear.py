@@ -13,6 +13,7 @@ from dashpot.kernel.system import Status
 
 SEED = seed_of("test_systems_linear")
 LANES, PAIRS = 48, (1, 2, 4)
+HEAVY = ("quarter car", "two masses and an inerter")  # every unknown node has a mass
 
 
 @pytest.fixture
@@ -27,7 +28,7 @@ def draws(linear, rng, spread=0.7):
 
 
 @pytest.mark.parametrize("name", LINEAR)
-def test_the_force_is_that_of_the_state_space_of_third_order_in_the_step(name, rng, state):
+def test_the_force_is_that_of_the_state_space_of_high_order_in_the_step(name, rng, state):
     linear, at, motion = LINEAR[name], times(0.6), smooth_motion(rng, 0.0, 3e-3)
     network, values = linear.network, draws(linear, rng)
     exact = np.array([linear.exact(lane).force(motion, at) for lane in values])
@@ -47,9 +48,13 @@ def test_the_force_is_that_of_the_state_space_of_third_order_in_the_step(name, r
         f"the error (from {1.0 / shares.max():.0f} to {1.0 / shares.min():.0f})"
     )
     assert np.max(errors[0] / sizes) < 1e-4
-    assert np.median(order[0]) > 2.8 and np.median(order[1]) > 2.8
-    # the estimate is that of the short steps, whose leading error has been taken away from the answer
-    assert promised == pytest.approx(np.full_like(promised, 2.0), abs=0.1)
+    if name in HEAVY:  # of fourth order; after one more halving rounding shows
+        assert np.median(order[0]) > 3.9
+        assert promised[0] == pytest.approx(np.full(LANES, 4.0), abs=0.1)
+    else:
+        # the estimate is that of the short steps, whose leading error has been taken away from the answer
+        assert np.median(order[0]) > 2.8 and np.median(order[1]) > 2.8
+        assert promised == pytest.approx(np.full_like(promised, 2.0), abs=0.1)
     assert np.all(shares < 1.0)
 
 

@@ -15,7 +15,8 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import Parts, take_apart
-from dashpot.kernel.system import CompiledSystem, SystemRows
+from dashpot.kernel.pieces import SystemRows
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.workers import spread, threads
 from dashpot.model.network import NetworkSpec
 

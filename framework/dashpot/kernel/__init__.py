@@ -11,6 +11,7 @@ block     - groups of lanes that run together, and their memory
 compiled  - what every compiled network is
 network   - CompiledNetwork: simulate and score blocks of lanes
 scheme    - the time scheme of networks with unknown nodes: how velocities follow from positions
+pieces    - what drives the steps of such a network, piece by piece
 system    - CompiledSystem: the same as CompiledNetwork, for several forces and with an estimate of the error
 parts     - a parallel network branch by branch
 eager     - the same in plain numpy: the reference

@@ -27,6 +27,9 @@ def compile_ahead(spec: NetworkSpec) -> None:
         for each in (network, *members):
             for group in each.groups:
                 each.native(*group)
+    else:
+        for alone in (True, False):
+            network.native(alone)
 
 
 def with_curves(spec: NetworkSpec) -> NetworkSpec:

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from dashpot.data.excitation import Excitation
 from dashpot.expr.node import symbol
 from dashpot.kernel.compiler.mechanics import driven_symbol
-from dashpot.kernel.system import WIDTH, CompiledSystem, SystemRows, compile_system
+from dashpot.kernel.pieces import SystemRows
+from dashpot.kernel.system import WIDTH, CompiledSystem, compile_system
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Ends, NetworkSpec, Value
 from dashpot.model.topology import topology_of

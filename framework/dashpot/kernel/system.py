@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from enum import Enum
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,8 @@ from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
 from dashpot.kernel.ir.layout import LANES
 from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
-from dashpot.kernel.scheme import PAIR, alternate
+from dashpot.kernel.pieces import Piece, Pieces, SystemRows
+from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
 from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.targets.choice import Code, target
 from dashpot.kernel.workers import spread
@@ -53,36 +54,22 @@ def status_of(code: float, answer: Array) -> Status:
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """Samples ``first`` up to ``end`` of a record, and what drives the steps that lead to them."""
+class _Marched:
+    """What came of a block of lanes: answers (lanes, ...), squared ``miss`` (lanes, driven nodes), codes (lanes,).
 
-    first: int
-    end: int
-    coarse: Array
-    fine: Array
+    ``blocks`` are as they were after the last sample.
+    """
 
+    out: Array
+    miss: Array
+    status: Array
+    blocks: tuple[Block, ...]
 
-@dataclass(frozen=True, eq=False)
-class SystemRows:
-    """The part of the work on a run that depends on its excitation alone; ``pieces`` may be gone through again."""
-
-    excitation: Excitation
-    pairs: int
-    still: Array
-    pieces: Iterable[Piece]
-
-
-@dataclass(frozen=True, eq=False)
-class _Pieces:
-    """The pieces of a record, made when they are asked for."""
-
-    samples: int
-    size: int
-    make: Callable[[int, int], Piece]
-
-    def __iter__(self) -> Iterator[Piece]:
-        for first in range(0, self.samples, self.size):
-            yield self.make(first, min(first + self.size, self.samples))
+    def replaced(self, lanes: Array, other: _Marched) -> _Marched:
+        """The same with those of another march for some ``lanes``."""
+        for own, new in ((self.out, other.out), (self.miss, other.miss), (self.status, other.status)):
+            own[lanes] = new
+        return self
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +77,7 @@ class Solution:
     """Forces (lanes, driven nodes, samples) in N and motions (lanes, unknown nodes, samples) in m, of the nodes named.
 
     ``error`` (lanes, driven nodes) in N is the estimated root mean square error of the forces, from halving the steps;
-    it is that of the short steps, before their leading error was taken away. ``status`` is one for each lane.
+    it is that of the short steps, also where their leading error is taken away. ``status`` is one for each lane.
     """
 
     driven: tuple[str, ...]
@@ -103,12 +90,17 @@ class Solution:
 
 @dataclass(frozen=True)
 class CompiledSystem(Compiled[SystemRows]):
-    """A compiled network with unknown nodes; see ``Compiled``. ``signals`` are forces over time that laws refer to."""
+    """A compiled network with unknown nodes; see ``Compiled``.
+
+    ``native`` is its code for one lane (True) and for several. ``signals`` are forces over time that laws refer to.
+    With ``quick`` lanes that are slow for the step take steps of high order.
+    """
 
     topology: Topology
     system: SystemProgram
-    native: Code
+    native: Callable[[bool], Code]
     signals: tuple[str, ...] = ()
+    quick: bool = True
 
     @cached_property
     def outputs(self) -> tuple[str, ...]:
@@ -128,14 +120,17 @@ class CompiledSystem(Compiled[SystemRows]):
         still = self._columns({"dt": excitation.dt, **self._still(excitation)}, 1)
         newton, loads = self._newton(excitation), {node: _spline(load) for node, load in excitation.loads.items()}
 
-        def make(first: int, end: int) -> Piece:
-            coarse, fine = (
-                self._moved(excitation, loads, newton, parts, first, end) for parts in (PAIR * pairs, 2 * PAIR * pairs)
-            )
-            return Piece(first, end, coarse, fine)
+        def pieces(long: int, quick: bool) -> Iterable[Piece]:
+            def make(first: int, end: int) -> Piece:
+                coarse, fine = (
+                    self._moved(excitation, loads, newton, parts, first, end, quick) for parts in (long, 2 * long)
+                )
+                return Piece(first, end, coarse, fine)
 
-        pieces = _Pieces(excitation.samples, max(PIECE // pairs, 1), make)
-        return SystemRows(excitation, pairs, still, tuple(pieces) if pairs * excitation.samples <= KEPT else pieces)
+            return Pieces(excitation.samples, max(PIECE // pairs, 1), pairs * excitation.samples <= KEPT, make)
+
+        quick = pieces(pairs, True) if self.quick and self.system.pace else None
+        return SystemRows(excitation, pairs, still, pieces(PAIR * pairs, False), quick)
 
     def with_signals(self, run: SystemRows, signals: Mapping[str, Array]) -> SystemRows:
         """A prepared run with forces (n,) in N for some of the ``signals``, straight from sample to sample."""
@@ -154,23 +149,14 @@ class CompiledSystem(Compiled[SystemRows]):
                     rows[:, column] = (own[:-1, None] + np.outer(np.diff(own), np.arange(1, parts + 1) / parts)).ravel()
             return Piece(piece.first, piece.end, coarse, fine)
 
-        return replace(run, still=still, pieces=[signalled(piece) for piece in run.pieces])
+        quick = None if run.quick is None else [signalled(piece) for piece in run.quick]
+        return replace(run, still=still, pieces=[signalled(piece) for piece in run.pieces], quick=quick)
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
-        lanes = self._lanes(run, values)
-        samples, driven, unknown = run.excitation.samples, self.outputs, self.topology.unknown
-        out = np.empty((lanes.shape[0], len(driven) + len(unknown), samples))
-        blocks = list(self._blocks(run, lanes))
-        misses, states = np.zeros((len(blocks), len(driven), WIDTH)), np.zeros((len(blocks), WIDTH))
-        for piece in run.pieces:
-            answer = np.empty((piece.end - piece.first, out.shape[1], WIDTH))
-            for block, miss, state in zip(blocks, misses, states, strict=True):
-                self._run(run, piece, block, answer, miss, state)
-                out[block.place, :, piece.first : piece.end] = answer[:, :, : block.count].transpose(2, 1, 0)
-        error = np.sqrt(_of_lanes(misses, lanes.shape[0]) / samples).T / 3.0
-        status = _of_lanes(states, lanes.shape[0])
-        force, motion = out[:, : len(driven)], out[:, len(driven) :]
+        driven, unknown = self.outputs, self.topology.unknown
+        found = self._answered(run, self._lanes(run, values), None)
+        force, motion = found.out[:, : len(driven)], found.out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
             motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
         return Solution(
@@ -178,8 +164,8 @@ class CompiledSystem(Compiled[SystemRows]):
             unknown,
             force,
             motion,
-            error,
-            tuple(status_of(code, own) for code, own in zip(status, force, strict=True)),
+            np.sqrt(found.miss / run.excitation.samples) / 3.0,
+            tuple(status_of(code, own) for code, own in zip(found.status, force, strict=True)),
         )
 
     def forces(self, run: SystemRows, values: Array | None = None) -> Array:
@@ -203,9 +189,9 @@ class CompiledSystem(Compiled[SystemRows]):
         """
         lanes = self._lanes(run, values)
         zeros = np.zeros((run.excitation.samples, len(self.outputs)))
-        blocks, _, codes = self._scored(run, zeros, zeros, lanes)
-        rows = np.concatenate([block.workspace[..., : block.count] for block in blocks], axis=2)
-        return {name: rows[:, self.system.row(name)] for name in self.program.states}, codes
+        found = self._march(run, lanes, (zeros, zeros), False)
+        rows = np.concatenate([block.workspace[..., : block.count] for block in found.blocks], axis=2)
+        return {name: rows[:, self.system.row(name)] for name in self.program.states}, found.status
 
     def number_of(self, end: str) -> int:
         """The place of a driven node among all; a network with a single one has it under any name."""
@@ -230,52 +216,57 @@ class CompiledSystem(Compiled[SystemRows]):
         return np.array(spread(work, runs, measured, weights, jobs=jobs))
 
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
-        _, totals, codes = self._scored(run, measured, weight, self._lanes(run, values))
-        return np.where(codes, np.nan, totals)
+        found = self._answered(run, self._lanes(run, values), (measured, weight))
+        return np.where(found.status, np.nan, found.out.T)
 
-    def _scored(
-        self, run: SystemRows, measured: Array, weight: Array, lanes: Array
-    ) -> tuple[list[Block], Array, Array]:
-        """The blocks as they are after the last sample, the scores (nodes, lanes), and how each lane ended."""
-        blocks = list(self._blocks(run, lanes))
-        totals, misses = np.zeros((2, len(blocks), len(self.outputs), WIDTH))
-        states = np.zeros((len(blocks), WIDTH))
-        for piece in run.pieces:
-            scoring = measured[piece.first : piece.end], weight[piece.first : piece.end]
+    def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> _Marched:
+        """The answers of all lanes: by quick steps where these are sound, by the others where not."""
+        if run.quick is None or self.system.pace is None:
+            return self._march(run, lanes, scoring, False)
+        found = self._march(run, lanes, scoring, True)
+        pace = np.concatenate([block.workspace[1, self.system.row(self.system.pace)] for block in found.blocks])
+        sound = (found.status == 0.0) & (pace[: lanes.shape[0]] <= 1.0)
+        sound &= np.isfinite(found.out if scoring else found.miss).all(axis=1)
+        return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, False))
+
+    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, quick: bool) -> _Marched:
+        """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores."""
+        blocks, driven = tuple(self._blocks(run, lanes, quick)), len(self.outputs)
+        totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
+        states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
+        out = np.empty((lanes.shape[0], rows, 0 if scoring else run.excitation.samples))
+        for piece in (run.quick if quick else None) or run.pieces:
+            own = slice(piece.first, piece.end)
+            answer = np.empty((0 if scoring else piece.end - piece.first, rows, WIDTH))
             for block, total, miss, state in zip(blocks, totals, misses, states, strict=True):
-                self._run(run, piece, block, total, miss, state, scoring)
-        return blocks, _of_lanes(totals, lanes.shape[0]), _of_lanes(states, lanes.shape[0])
-
-    def _run(
-        self,
-        run: SystemRows,
-        piece: Piece,
-        block: Block,
-        out: Array,
-        miss: Array,
-        status: Array,
-        scoring: tuple[Array, Array] | tuple[None, None] = (None, None),
-    ) -> None:
-        self.native(
-            run.still,
-            piece.coarse,
-            piece.fine,
-            PAIR * run.pairs,
-            piece.end - piece.first,
-            block.workspace,
-            status,
-            block.tables,
-            self._knots,
-            *scoring,
-            out,
-            miss,
-            int(scoring[0] is not None),
-            int(piece.first == 0),
-            block.count,
+                self.native(lanes.shape[0] == 1)(
+                    run.still,
+                    piece.coarse,
+                    piece.fine,
+                    run.steps(quick),
+                    piece.end - piece.first,
+                    block.workspace,
+                    state,
+                    block.tables,
+                    self._knots,
+                    *([None, None] if scoring is None else [each[own] for each in scoring]),
+                    answer if scoring is None else total,
+                    miss,
+                    int(scoring is not None),
+                    int(piece.first == 0),
+                    int(quick),
+                    block.count,
+                )
+                if scoring is None:
+                    out[block.place, :, own] = answer[:, :, : block.count].transpose(2, 1, 0)
+        count = lanes.shape[0]
+        scores = _of_lanes(totals, count).T
+        return _Marched(
+            out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks
         )
 
-    def _blocks(self, run: SystemRows, lanes: Array) -> Iterator[Block]:
-        step = run.excitation.dt / (PAIR * run.pairs)
+    def _blocks(self, run: SystemRows, lanes: Array, quick: bool) -> Iterator[Block]:
+        step = run.excitation.dt / run.steps(quick)
         workspace = np.stack([self._fill(self.system.rows, dt, lanes) for dt in (step, 0.5 * step)])
         return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 
@@ -292,6 +283,7 @@ class CompiledSystem(Compiled[SystemRows]):
         parts: int,
         first: int,
         end: int,
+        quick: bool,
     ) -> Array:
         # the steps to the samples from `first` up to `end`, from the sample before
         seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
@@ -305,12 +297,13 @@ class CompiledSystem(Compiled[SystemRows]):
             at = np.arange(before * parts + 1, before * parts + count + 1) / parts
             seen[driven_symbol(joint, "load")] = loads[joint](at)
         seen |= dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
-        rule = alternate(excitation.dt / parts, count // PAIR, begins=before == 0)
-        seen |= {f"rule.{key}": getattr(rule, key) for key in ("slope", "now", "before", "swing")}
+        step = excitation.dt / parts
+        rule = multistep(step, before * parts, count) if quick else alternate(step, count // PAIR, before == 0)
+        seen |= {f"rule.{each.name}": getattr(rule, each.name) for each in fields(rule)}
         return self._columns({**seen, **newton}, count)
 
     def _still(self, excitation: Excitation) -> dict[str, float]:
-        seen = {f"rule.{key}": 0.0 for key in ("now", "before", "swing")} | self._newton(excitation)
+        seen = {f"rule.{each.name}": 0.0 for each in fields(Rule)} | self._newton(excitation)
         seen["rule.slope"] = 1.0 / excitation.dt
         for joint in self.outputs:
             motion = excitation.motions[joint]
@@ -343,7 +336,7 @@ def compile_system(
     refuse_missing_numbers(spec)
     topology = topology or topology_of(spec)
     system = system_of(spec, topology, meter, signals)
-    return CompiledSystem(spec, system.program, topology, system, target().system(system), tuple(signals))
+    return CompiledSystem(spec, system.program, topology, system, partial(target().system, system), tuple(signals))
 
 
 def _tabulated(spec: NetworkSpec) -> dict[str, Characteristic]:

@@ -31,6 +31,9 @@ NUMBERS = {
     "rule.now": -20.0,
     "rule.before": 0.0,
     "rule.swing": -1.0,
+    "rule.pull": 20.0,
+    "rule.adams": 0.0,
+    "rule.renewed": 1.0,
     "newton.tolerance": 1e-9,
     "newton.farthest": 10.0,
     "newton|done": 0.0,
@@ -69,6 +72,8 @@ MOVING = {
     "block|next": 0.004,
     "block|drift": 0.05,
     "block|swing": 0.6,
+    "block|acceleration_before": 0.3,
+    "block|acceleration_earlier": 0.1,
 }
 
 

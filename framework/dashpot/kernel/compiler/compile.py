@@ -15,6 +15,7 @@ from dashpot.expr.interpret import Recipe
 from dashpot.expr.node import Node, constant
 from dashpot.kernel.compiler.equations import Equations, write_equations
 from dashpot.kernel.compiler.mechanics import DONE, Meter, driven_symbol, force_row, row_of
+from dashpot.kernel.compiler.multistep import KEPT_TANGENTS, PACE, TURNS
 from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
 from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_network
 from dashpot.kernel.ir.layout import Layout, shelves_of
@@ -99,6 +100,7 @@ def _balanced(build: _Build, meter: Meter | None) -> SystemProgram:
         [row_of(joint, "position") for joint in topology.unknown],
         DONE,
         known,
+        *((TURNS, KEPT_TANGENTS, PACE) if "turn" in passes else ()),
     )
 
 

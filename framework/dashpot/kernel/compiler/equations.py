@@ -6,6 +6,8 @@ rest     the places and the memory with which the record begins
 launch   Newton's step towards the velocities with which it begins, along a line
 set_off  these velocities, and the forces of the first sample
 predict  the part of a step that does not depend on the unknowns, and a first guess of them
+turn     where all unknown nodes have masses: laws without rates at the point where their edge turns
+correct  there as well: Newton's step with the tangents of before
 improve  Newton's step, and the new memory and what is measured where it leads to
 search   the same along a line, where Newton's steps alone do not end
 commit   the end of the step becomes the begin of the next one
@@ -20,6 +22,7 @@ from dashpot.kernel.compiler.equilibrium import Still
 from dashpot.kernel.compiler.launch import Launch
 from dashpot.kernel.compiler.line_search import search
 from dashpot.kernel.compiler.mechanics import MOVED, NOTHING, RULE, Meter, Moving, Rows, driven_symbol
+from dashpot.kernel.compiler.multistep import QUICK_RULE, Multistep, multistep_fits
 from dashpot.kernel.compiler.own_tables import with_own_tables
 from dashpot.kernel.compiler.trace import trace_along
 from dashpot.model.topology import Topology
@@ -43,7 +46,10 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     laws = [trace_along(edge.branch, "edge") for edge in topology.edges]
     known = {driven_symbol(joint, key) for joint in topology.held("driven") for key in MOVED}
     known |= {driven_symbol(joint, "load") for joint in topology.held("loaded")} | set(RULE)
-    still, launch, moving = Still(topology, laws), Launch(topology, laws), Moving(topology, laws)
+    still, launch = Still(topology, laws), Launch(topology, laws)
+    # a meter adds up the work of steps whose ends tell all of it
+    quick = multistep_fits(topology) and meter is None
+    moving = Multistep(topology, laws) if quick else Moving(topology, laws)
     passes = {
         "start": still.start(),
         "settle": still.improve(),
@@ -55,6 +61,10 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
         "search": search(moving),
         "commit": moving.commit(),
     }
+    if isinstance(moving, Multistep):
+        known |= set(QUICK_RULE)
+        passes["rest"] |= moving.rest()
+        passes |= {"turn": moving.turn(), "correct": moving.correct()}
     if meter:
         passes["rest"] |= meter.rest(still)
         passes["commit"] |= meter.commit(moving)

@@ -249,6 +249,8 @@ class Balance(ABC):
 class Moving(Balance):
     """One step."""
 
+    bend = SLOPE * SLOPE  # the change of an acceleration with the new position
+
     def velocity(self, joint: str) -> Node:
         known = self.known(joint, "velocity_new")
         return self.carrier(joint, "velocity_new") + self._own_velocity(joint) if known is None else known
@@ -281,11 +283,11 @@ class Moving(Balance):
         }
 
     def tangent(self, force: Node) -> Node:
-        rates = derive(force, "edge.velocity_new") + SLOPE * derive(force, "edge.acceleration")
-        return derive(force, "edge.new") + SLOPE * rates
+        rates = SLOPE * derive(force, "edge.velocity_new") + self.bend * derive(force, "edge.acceleration")
+        return derive(force, "edge.new") + rates
 
     def inertia(self, joint: str) -> tuple[Node, Node]:
-        return self.acceleration(joint), SLOPE * SLOPE
+        return self.acceleration(joint), self.bend
 
     def predict(self) -> dict[str, Node]:
         """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""

@@ -87,9 +87,13 @@ def _see(branch: Branch) -> TracedBranch:
     traced = trace_along(branch, "path")
     if not traced.states:
         return trace_along(branch, "still")
+    return trace_along(branch, "monotone") if rate_independent(traced) else traced
+
+
+def rate_independent(traced: TracedBranch) -> bool:
+    """Whether a law depends neither on rates nor on how long a step takes."""
     used = {name for root in traced.roots for name in symbols_of(root)}
-    needs_rates = "dt" in used or any(f"path.{rate}" in used for rate in RATES)
-    return traced if needs_rates else trace_along(branch, "monotone")
+    return "dt" not in used and not any(f"{traced.sight}.{rate}" in used for rate in RATES)
 
 
 def trace_along(branch: Branch, sight: Sight) -> TracedBranch:

@@ -34,8 +34,8 @@ class Target(Protocol):
     def network(self, program: Program, vectors: int, alone: bool) -> Code:
         """A network with two ends, for groups of ``vectors`` times ``LANES`` lanes; with ``alone`` all are the same."""
 
-    def system(self, program: SystemProgram) -> Code:
-        """A network with unknown nodes, for groups of ``LANES``."""
+    def system(self, program: SystemProgram, alone: bool) -> Code:
+        """A network with unknown nodes, for groups of ``LANES``; with ``alone`` all are the same."""
 
 
 def backend() -> str:

@@ -28,9 +28,9 @@ def network(program: Program, vectors: int, alone: bool) -> Native:
     return load_native(_text(program, vectors, alone), len(source.ARGUMENTS))
 
 
-def system(program: SystemProgram) -> Native:
+def system(program: SystemProgram, alone: bool) -> Native:
     """The code of a network with unknown nodes; see ``system_source``."""
-    return load_native(_system_text(program), len(system_source.ARGUMENTS))
+    return load_native(_system_text(program, alone), len(system_source.ARGUMENTS))
 
 
 @lru_cache(KEPT)
@@ -39,5 +39,5 @@ def _text(program: Program, vectors: int, alone: bool) -> str:
 
 
 @lru_cache(KEPT)
-def _system_text(program: SystemProgram) -> str:
-    return system_source.print_system(program, VECTORS)
+def _system_text(program: SystemProgram, alone: bool) -> str:
+    return system_source.print_system(program, VECTORS, alone)

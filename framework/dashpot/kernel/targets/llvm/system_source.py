@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from dashpot.kernel.ir.layout import LANES, Layout
 from dashpot.kernel.ir.system import (
+    MOST_CORRECTIONS,
     MOST_PLACES,
     MOST_STATIC_STEPS,
     MOST_STEPS,
@@ -17,7 +18,7 @@ from dashpot.kernel.ir.system import (
     UNSOLVED,
     SystemProgram,
 )
-from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle
+from dashpot.kernel.targets.llvm.assembly import Assembly, Bundle, number
 from dashpot.kernel.targets.llvm.passes import Arrays, Pass
 from dashpot.kernel.targets.llvm.source import whole
 
@@ -37,13 +38,16 @@ ARGUMENTS = (
     "ptr %miss",
     "i64 %scoring",
     "i64 %begins",
+    "i64 %quick",
     "i64 %asked",
 )
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
 
 
-def print_system(system: SystemProgram, vectors: int) -> str:
+def print_system(system: SystemProgram, vectors: int, alone: bool = False) -> str:
     """The text for groups of so many ``vectors`` of lanes: the function ``run``.
+
+    With ``alone`` all lanes of a group are the same one.
 
     ``still`` (1, columns), ``coarse`` and ``fine`` (steps, columns) are what drives the steps, ``per`` is the number of
     coarse steps in a sample, ``space`` (2, rows, lanes) is a workspace for each of the two, ``status`` (lanes,) stays 0
@@ -51,9 +55,10 @@ def print_system(system: SystemProgram, vectors: int) -> str:
     piece of it (0) goes on from the workspace as the piece before has left it. Without ``scoring`` it fills ``out``
     (samples, driven nodes then unknown nodes, lanes); with it, it adds weight * (force - measured)^2 to the first of
     ``out``, the other two being (samples, driven nodes).
-    ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses.
+    ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses. Where the steps are
+    ``quick`` (1), the answer is that of the short ones, and with ``scoring`` there are no long ones.
     """
-    passes = (_pass(layout, name, vectors) for name, layout in system.passes.items())
+    passes = (_pass(layout, name, vectors, alone) for name, layout in system.passes.items())
     return whole("run", ARGUMENTS, _run(system, vectors)) + "".join(passes)
 
 
@@ -62,6 +67,8 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
     a.do("%left = alloca i64")
     halves = ["%space", a.address("%space", system.rows * width)]
     finer = a.new("mul i64 %per, 2")
+    skipped = a.new("and i64 %quick, %scoring")
+    long = a.new(f"select i1 {a.new(f'icmp ne i64 {skipped}, 0')}, i64 0, i64 %per")
     with a.when(a.new("icmp ne i64 %begins, 0")):
         for space in halves:
             _call(a, "start", "%still", space)
@@ -72,11 +79,16 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
     with a.loop(0, "%samples") as k:
         before = a.new(f"sub i64 {k}, %begins")
         with a.when(a.new(f"icmp sge i64 {before}, 0")):
-            for space, columns, count in zip(halves, ("%coarse", "%fine"), ("%per", finer), strict=True):
+            for space, columns, count in zip(halves, ("%coarse", "%fine"), (long, finer), strict=True):
                 first = a.product(before, count)
                 with a.loop(first, a.new(f"add i64 {first}, {count}")) as j:
                     row = a.address(columns, a.product(j, len(system.program.columns)))
                     _call(a, "predict", row, space)
+                    if system.turns and system.kept:
+                        with a.when(_some(a, space, system.row(system.turns), vectors)):
+                            _call(a, "turn", row, space)
+                        with a.when(_some(a, space, system.row(system.kept), vectors)):
+                            _newton(a, "correct", row, space, MOST_CORRECTIONS, None, done, vectors)
                     _newton(a, "improve", row, space, MOST_STEPS, None, done, vectors)
                     _newton(a, "search", row, space, MOST_PLACES, UNSOLVED, done, vectors)
                     _call(a, "commit", row, space)
@@ -96,51 +108,58 @@ class _Writer:
 
     def __init__(self, a: Assembly, halves: Sequence[str], vectors: int, k: str) -> None:
         self.a, self.halves, self.vectors, self.width, self.k = a, halves, vectors, LANES * vectors, k
+        quick = a.new("icmp ne i64 %quick, 0")
+        self.ahead = a.spread(a.new(f"select i1 {quick}, double 0.0, double {number(THIRD)}"), vectors)
 
     def store(self, rows: Sequence[int], driven: int) -> None:
         """Fill the next row of ``out``."""
         first = self.a.product(self.k, len(rows))
-        for number, row in enumerate(rows):
+        for order, row in enumerate(rows):
             best, gap = self._best(row)
-            place = self.a.product(self.a.new(f"add i64 {first}, {number}"), self.width)
+            place = self.a.product(self.a.new(f"add i64 {first}, {order}"), self.width)
             self.a.store(best, self._places(self.a.address("%out", place)))
-            if number < driven:
-                self._add("%miss", number, gap, gap)
+            if order < driven:
+                self._add("%miss", order, gap, gap)
 
     def score(self, rows: Sequence[int]) -> None:
         """Add to the scores."""
         first = self.a.product(self.k, len(rows))
-        for number, row in enumerate(rows):
+        for order, row in enumerate(rows):
             best, gap = self._best(row)
-            place = self.a.new(f"add i64 {first}, {number}")
+            place = self.a.new(f"add i64 {first}, {order}")
             away = best - self.a.spread(self.a.scalar("%measured", place), self.vectors)
-            self._add("%out", number, away * self.a.spread(self.a.scalar("%weight", place), self.vectors), away)
-            self._add("%miss", number, gap, gap)
+            self._add("%out", order, away * self.a.spread(self.a.scalar("%weight", place), self.vectors), away)
+            self._add("%miss", order, gap, gap)
 
     def _best(self, row: int) -> tuple[Bundle, Bundle]:
         long, short = (self.a.load(self._places(half), row * self.width) for half in self.halves)
         gap = short - long
-        return gap.times_plus(THIRD, short), gap
+        return gap.times_plus(self.ahead, short), gap
 
-    def _add(self, array: str, number: int, first: Bundle, second: Bundle) -> None:
+    def _add(self, array: str, order: int, first: Bundle, second: Bundle) -> None:
         places = self._places(array)
-        before = self.a.load(places, number * self.width)
-        self.a.store(first.times_plus(second, before), places, number * self.width)
+        before = self.a.load(places, order * self.width)
+        self.a.store(first.times_plus(second, before), places, order * self.width)
 
     def _places(self, base: str) -> list[str]:
         return _places(self.a, base, self.vectors)
 
 
 def _places(a: Assembly, base: str, vectors: int) -> list[str]:
-    return [a.address(base, LANES * number) for number in range(vectors)]
+    return [a.address(base, LANES * order) for order in range(vectors)]
 
 
-def _pass(layout: Layout, name: str, vectors: int) -> str:
+def _pass(layout: Layout, name: str, vectors: int, alone: bool) -> str:
     # a function of its own: the compiler's work grows faster than the length of a function
     a = Assembly()
-    Pass(a, layout, Arrays("%columns", _places(a, "%w", vectors))).write()
+    Pass(a, layout, Arrays("%columns", _places(a, "%w", vectors)), alone).write()
     a.do("ret void")
     return a.function(f"internal void @{name}({', '.join(PASSED)})")
+
+
+def _some(a: Assembly, space: str, row: int, vectors: int) -> str:
+    """Whether a row is not zero in some lane."""
+    return a.any(a.load(_places(a, space, vectors), row * LANES * vectors).compare("une", 0.0))
 
 
 def _call(a: Assembly, name: str, columns: str, space: str) -> None:

@@ -44,7 +44,7 @@ def network(program: Program, vectors: int, alone: bool) -> Lanes:
     return _lanes(_text(program), vectors * LANES)
 
 
-def system(program: SystemProgram) -> Lanes:
+def system(program: SystemProgram, alone: bool) -> Lanes:
     """The code of a network with unknown nodes."""
     return _lanes(_system_text(program), LANES)
 

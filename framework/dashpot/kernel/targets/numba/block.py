@@ -12,6 +12,7 @@ from dashpot.expr.node import Node, walk
 from dashpot.kernel.ir.layout import Layout, Passes, score_row
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import (
+    MOST_CORRECTIONS,
     MOST_PLACES,
     MOST_STATIC_STEPS,
     MOST_STEPS,
@@ -47,6 +48,7 @@ SYSTEM: Arguments = [
     *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight", "out", "miss")),
     ("count", "scoring"),
     ("count", "begins"),
+    ("count", "quick"),
     ("count", "asked"),
     ("count", "n"),
 ]
@@ -162,6 +164,8 @@ def print_system(system: SystemProgram) -> str:
             _write_system_pass(code, layout)
     _write_newton(code, system, "settle", MOST_STATIC_STEPS, UNBALANCED)
     _write_newton(code, system, "launch", MOST_PLACES)
+    if system.kept:
+        _write_newton(code, system, "correct", MOST_CORRECTIONS)
     _write_newton(code, system, "improve", MOST_STEPS)
     _write_newton(code, system, "search", MOST_PLACES, UNSOLVED)
     with _run(code, SYSTEM):
@@ -215,10 +219,16 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
             code.do(f"set_off_(still, {place})")
     with code.loop("k", 0, "samples"):
         with code.when("k >= begins"):
-            for o, columns, count in ((0, "coarse", "per"), (system.rows, "fine", "2 * per")):
+            long = "per * (1 - quick * scoring)"
+            for o, columns, count in ((0, "coarse", long), (system.rows, "fine", "2 * per")):
                 with code.loop("j", f"(k - begins) * {count}", f"(k - begins + 1) * {count}"):
                     place = f"{columns}, w, tables, knots, j * {across}, {code.index(o)}"
                     code.do(f"predict_({place})")
+                    if system.turns and system.kept:
+                        with code.when(f"w[{o + system.row(system.turns)}] != 0.0"):
+                            code.do(f"turn_({place})")
+                        with code.when(f"w[{o + system.row(system.kept)}] != 0.0"):
+                            code.do(f"correct({place}, status, l)")
                     code.do(f"improve({place}, status, l)")
                     code.do(f"search({place}, status, l)")
                     code.do(f"commit_({place})")
@@ -235,7 +245,7 @@ def _each(
         row = system.row(name)
         code.let("short", f"w[{system.rows + row}]")
         code.let("gap", f"short - w[{row}]")
-        code.let("best", f"short + {THIRD!r} * gap")
+        code.let("best", f"short + (1 - quick) * {THIRD!r} * gap")
         write(code, number, len(names))
         if number < len(system.forces):
             code.set(f"miss[{number} * n + l]", f"miss[{number} * n + l] + gap * gap")

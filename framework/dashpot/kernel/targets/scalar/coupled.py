@@ -163,6 +163,8 @@ def _write_rule(code: Code, online: Online) -> None:
             for key, value in (("slope", slope), ("now", now), ("before", before)):
                 _give(code, online, f"rule.{key}", f"{value} / h")
             _give(code, online, "rule.swing", swing)
+            if online.system and online.system.turns:
+                _give(code, online, "rule.pull", f"{slope} / h")
 
 
 def _begin(code: Code, online: Online) -> None:

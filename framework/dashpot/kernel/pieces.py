@@ -1,0 +1,64 @@
+"""What drives a network with unknown nodes: the steps of a record, piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.excitation import Excitation
+from dashpot.kernel.scheme import PAIR
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Samples ``first`` up to ``end`` of a record, and what drives the steps that lead to them."""
+
+    first: int
+    end: int
+    coarse: Array
+    fine: Array
+
+
+@dataclass(frozen=True, eq=False)
+class SystemRows:
+    """The part of the work on a run that depends on its excitation alone; pieces may be gone through again.
+
+    ``quick`` ones have steps of high order, for lanes that are slow enough for them; None: the network has none.
+    """
+
+    excitation: Excitation
+    pairs: int
+    still: Array
+    pieces: Iterable[Piece]
+    quick: Iterable[Piece] | None
+
+    def steps(self, quick: bool) -> int:
+        """How many long steps lie in a sample."""
+        return self.pairs if quick else PAIR * self.pairs
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """The pieces of a record, made when they are asked for; those of a short one are ``kept``."""
+
+    samples: int
+    size: int
+    kept: bool
+    make: Callable[[int, int], Piece]
+
+    def __iter__(self) -> Iterator[Piece]:
+        return iter(self._all) if self.kept else self._made()
+
+    @cached_property
+    def _all(self) -> tuple[Piece, ...]:
+        return tuple(self._made())
+
+    def _made(self) -> Iterator[Piece]:
+        for first in range(0, self.samples, self.size):
+            yield self.make(first, min(first + self.size, self.samples))
