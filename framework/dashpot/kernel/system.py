@@ -71,6 +71,12 @@ class SystemRows:
     still: Array
     pieces: Iterable[Piece]
 
+    @property
+    def nbytes(self) -> int:
+        """The bytes of the pieces that stay prepared."""
+        kept = self.pieces if isinstance(self.pieces, tuple) else ()
+        return sum(piece.coarse.nbytes + piece.fine.nbytes for piece in kept)
+
 
 @dataclass(frozen=True, eq=False)
 class _Pieces:
@@ -227,7 +233,7 @@ class CompiledSystem(Compiled[SystemRows]):
         def work(run: SystemRows, target: Array, weight: Array) -> Array:
             return self._score(run, _by_sample(target), _by_sample(weight), values)
 
-        return np.array(spread(work, runs, measured, weights, jobs=jobs))
+        return np.array(spread(lambda each: work(*each), zip(runs, measured, weights, strict=True), jobs))
 
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
         _, totals, codes = self._scored(run, measured, weight, self._lanes(run, values))
