@@ -51,7 +51,7 @@ class Excitation:
     def of_run(cls, run: Run) -> Excitation:
         """The measured motions of a run, and the forces at nodes whose motion is not measured."""
         motions = {
-            _node(name): drive_from_samples(run.sample_time, np.array(samples))
+            _node(name): drive_from_samples(run.sample_time, samples)
             for name, samples in run.channels.items()
             if name.partition("@")[0] == "displacement"
         }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -138,12 +139,18 @@ def _warnings(clock: Clock) -> list[Trouble]:
     return [Trouble(clock.remark, hint, severity="warning")] if clock.remark else []
 
 
+@lru_cache(maxsize=4)
+def _even_time(step: float, count: int) -> np.ndarray:
+    # runs that were sampled alike share it
+    return step * np.arange(count)
+
+
 def _make_run(declaration: RunDeclaration, step: float, uneven: bool, channels: dict[str, np.ndarray]) -> Run:
     count = next(iter(channels.values())).size
     run = Run(
         name=declaration.name,
         kind=declaration.kind,
-        time=step * np.arange(count),
+        time=_even_time(step, count),
         channels={name: np.ascontiguousarray(values) for name, values in channels.items()},
         settings=declaration.settings,
         repeats=declaration.repeats,

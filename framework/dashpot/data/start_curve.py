@@ -10,7 +10,7 @@ import numpy as np
 from .monotone import RisingBasis, solve_rising
 
 _SPANS = 6
-_MOST_SAMPLES = 5000
+_MOST_SAMPLES, _MOST_IN_ALL = 5000, 100_000
 _SMOOTHNESS = 0.05
 _SLOW = 0.05
 
@@ -67,7 +67,8 @@ def curve_from_stiffness(preloads: np.ndarray, stiffness: np.ndarray, places: np
 
 def _gather(runs: Sequence[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> tuple[np.ndarray, ...]:
     """Samples of all runs one after the other, thinned, and the distance from the mean where means differ."""
-    thinned = [tuple(channel[:: max(1, len(channel) // _MOST_SAMPLES)] for channel in run) for run in runs]
+    most = min(_MOST_SAMPLES, max(_MOST_IN_ALL // max(len(runs), 1), 1))
+    thinned = [tuple(channel[:: max(1, len(channel) // most)] for channel in run) for run in runs]
     if not thinned:
         return (np.zeros(0),) * 4
     displacement, velocity, force = (np.concatenate(channel) for channel in zip(*thinned, strict=True))

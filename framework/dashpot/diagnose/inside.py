@@ -127,7 +127,7 @@ class Inside:
         for run in runs:
             end = self._system.number_of(run.end)
             base = self._solved[record][1][end]
-            seen[run.name] = observation.linear(base, changes[:, end], run.drive.dt)[1][:, run.first :]
+            seen[run.name] = observation.linear(np.vstack([base, changes[:, end]]), run.drive.dt)[1:, run.first :]
         return seen
 
     def _at(self, site: Site, pair: Pair, record: str) -> ScoredRun:

@@ -20,8 +20,8 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import view_of
 from dashpot.diagnose.whitening import Noise
+from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import used_settings
@@ -132,7 +132,8 @@ def _force(model: Model, run: ScoredRun) -> Array:
 
 def _tangents(model: Model, run: ScoredRun) -> Array:
     objective = Objective(compile_network(model.fitted), [run])
-    return linearise(objective, model.coordinates, model.point)[1]
+    [rows] = linearise(objective, model.coordinates, model.point).each(lambda _, rows: rows[1:].copy())
+    return rows
 
 
 def _distance(difference: Array, tangents: Array, directions: Array, deviation: float) -> float:

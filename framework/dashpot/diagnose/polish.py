@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from dashpot.diagnose.term import Model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates, with_point
+from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
-from dashpot.fit.refine import linearise, refine
+from dashpot.fit.refine import refine
 from dashpot.fit.result import with_intervals
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import assess_uncertainty
@@ -99,15 +100,13 @@ def _between_groups(objective: Objective, model: Model, point: Array, groups: Ma
     """Half widths (p,) in natural steps from the scores of whole groups of runs (sandwich; Liang and Zeger 1986)."""
     from scipy.special import stdtrit
 
-    residual, jacobian = linearise(objective, model.coordinates, point)
-    jacobian = np.where(np.isfinite(jacobian), jacobian, 0.0)
     names = list(dict.fromkeys(groups[run.name] for run in objective.runs))
     if len(names) < 3:
         return np.zeros(point.size)
-    scores = np.zeros((len(names), point.size))
-    for run, piece in zip(objective.runs, objective.pieces, strict=True):
-        scores[names.index(groups[run.name])] += jacobian[:, piece] @ residual[piece]
-    normal = jacobian @ jacobian.T
+    linear = linearise(objective, model.coordinates, point)
+    normal, scores = linear.normal, np.zeros((len(names), point.size))
+    for number, score in linear.each(lambda number, rows: (number, rows[1:] @ rows[0])):
+        scores[names.index(groups[objective.runs[number].name])] += score
     scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
     inverse = np.linalg.pinv(normal / np.outer(scale, scale), rcond=1e-9, hermitian=True)
     moved = (scores / scale) @ inverse / scale

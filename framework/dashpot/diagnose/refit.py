@@ -15,9 +15,10 @@ from dashpot.diagnose.term import Model, Term, extended, inherited
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import Sizes, natural_sizes, with_ranges
-from dashpot.fit.refine import linearise, refine
+from dashpot.fit.refine import refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
@@ -103,14 +104,14 @@ class Refitter:
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
-        objective = self._objective(model.fitted, noise)
-        misfit, jacobian = linearise(objective, model.coordinates, model.point)
-        jacobian = np.where(model.at_bound[:, None] | ~np.isfinite(jacobian), 0.0, jacobian)
-        pieces = dict(zip((run.name for run in self.runs), objective.pieces, strict=True))
-        return (
-            {name: -misfit[piece] for name, piece in pieces.items()},
-            {name: jacobian[:, piece] for name, piece in pieces.items()},
-        )
+        linear = linearise(self._objective(model.fitted, noise), model.coordinates, model.point)
+
+        def kept(number: int, rows: Array) -> tuple[str, Array]:
+            rows[1:][model.at_bound] = 0.0
+            return self.runs[number].name, rows.copy()
+
+        found = dict(linear.each(kept))
+        return {name: -rows[0] for name, rows in found.items()}, {name: rows[1:] for name, rows in found.items()}
 
     def forces(self, network: NetworkSpec) -> dict[str, Array]:
         """The force (n,) in N that a network with its numbers shows, by run."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.drive import Drive
 from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
@@ -19,24 +20,24 @@ def moved_alike(runs: Sequence[ScoredRun]) -> list[list[int]]:
 
     What a model gets wrong about one of them it tends to get wrong about all, at the same moments.
     """
+    swings = [_swing(run.drive.displacement) for run in runs]
     groups: list[list[int]] = []
-    shapes: list[Array] = []
     for number, run in enumerate(runs):
-        shape = _shape(run)
-        fits = (k for k, group in enumerate(groups) if _alike(run, shape, runs[group[0]], shapes[k]))
+        fits = (group for group in groups if _alike(run.drive, runs[group[0]].drive, swings[number] * swings[group[0]]))
         found = next(fits, None)
         if found is None:
             groups.append([number])
-            shapes.append(shape)
         else:
-            groups[found].append(number)
+            found.append(number)
     return groups
 
 
-def _alike(run: ScoredRun, shape: Array, other: ScoredRun, known: Array) -> bool:
-    return run.drive.dt == other.drive.dt and shape.size == known.size and bool(abs(shape @ known) > CORRELATION)
+def _alike(one: Drive, other: Drive, both: float) -> bool:
+    if one.dt != other.dt or one.samples != other.samples:
+        return False
+    x, y = one.displacement, other.displacement
+    return bool(abs(x @ y - x.size * x.mean() * y.mean()) > CORRELATION * both > 0.0)
 
 
-def _shape(run: ScoredRun) -> Array:
-    path = run.drive.displacement - run.drive.displacement.mean()
-    return path / (np.linalg.norm(path) or 1.0)
+def _swing(path: Array) -> float:
+    return float(np.linalg.norm(path - path.mean()))

@@ -34,7 +34,7 @@ from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
 from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.fit.refine import refine
+from dashpot.fit.refine import Refined, refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
@@ -168,17 +168,12 @@ def fit_prepared(
     curves = set(grounded.data_curves())
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
     staged, best = _search(grounded, fast, lambda slot: _curve_of(slot) not in curves, method, seed, jobs, watch)
-    corrected = correct_ends(staged, setting.train)
-    watch.stage("polish", 0.0)
-    objective = Objective(compile_network(corrected), setting.train, jobs)
-    whole = refinement(corrected, objective, lambda slot: True)
-    steps = watch.steps("polish", POLISH_STEPS)
-    polished = refine(whole.loss, whole.coordinates, whole.coordinates.start, POLISH_STEPS, watch=steps)
-    fitted = ordered(spec, whole.at(polished.point))
+    refined, polished = _polish(correct_ends(staged, setting.train), setting.train, jobs, watch)
+    fitted = ordered(spec, refined)
     objective, coordinates = Objective(compile_network(fitted), setting.train, jobs), search_coordinates(fitted)
     noise = noise_of_runs(setting.train_runs, setting.floor)
-    shifts = [each.shift for each in known_numbers(objective)]
-    known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, setting.floor.value)
+    steps = [each.step for each in known_numbers(fitted)]
+    known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     return FitResult(
         declared=spec,
@@ -201,6 +196,14 @@ def fit_prepared(
         samples=sum(run.samples for run in setting.train),
         known=identifiability(objective, coordinates, coordinates.start, noise),
     )
+
+
+def _polish(spec: NetworkSpec, runs: Sequence[ScoredRun], jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:
+    watch.stage("polish", 0.0)
+    whole = refinement(spec, Objective(compile_network(spec), runs, jobs), lambda slot: True)
+    steps = watch.steps("polish", POLISH_STEPS)
+    found = refine(whole.loss, whole.coordinates, whole.coordinates.start, POLISH_STEPS, watch=steps)
+    return whole.at(found.point), found
 
 
 def measure_errors(spec: NetworkSpec, setting: Setting, jobs: Jobs = 1) -> Errors:

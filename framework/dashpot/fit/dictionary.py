@@ -52,7 +52,7 @@ def dictionary_start(objective: Objective, coordinates: Coordinates) -> Start | 
     sizes = natural_sizes(objective.runs)
     kinds = [
         kind
-        for number, part in enumerate(objective.parts[0].members)
+        for number, part in enumerate(objective.parts.members)
         for kind in _kinds(number, part, network.start, searched, sizes)
     ]
     strengths = _strengths(objective, kinds)
@@ -171,12 +171,13 @@ def _strengths(objective: Objective, kinds: Sequence[_Kind]) -> list[Array] | No
     from scipy.linalg import cholesky, solve_triangular
     from scipy.optimize import nnls
 
-    parts, rows = objective.parts
     loose = np.concatenate([np.full(len(kind.lanes), bool(kind.forces)) for kind in kinds])
     normal, right = np.zeros((loose.size, loose.size)), np.zeros(loose.size)
+    members = objective.parts.members
     for number, run in enumerate(objective.runs):
+        rows = objective.part_rows(number).each
         forces = np.concatenate(
-            [parts.members[kind.member].network.simulate(rows[number][kind.member], kind.lanes) for kind in kinds]
+            [members[kind.member].network.simulate(rows[kind.member], kind.lanes) for kind in kinds]
         )[:, run.first :] * objective.factor(number)
         target = run.force[run.first :] * objective.factor(number) - forces[~loose].sum(axis=0)
         normal += forces @ forces.T

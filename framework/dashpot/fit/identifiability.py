@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.linear import linearise
 from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise_marked
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 WEAK, LOST = 0.1, 1.0  # standard deviation in natural steps: of 10 %, of a factor of e
 NOTHING = 3.0  # standard deviation from which nothing is known but what other numbers leave over
 FELT = 1e-9
-SMALLEST = 1e-7  # of the longest axis of the Jacobian: what is shorter is not told from nothing
+SMALLEST = 1e-13  # of the largest eigenvalue of J J': what is smaller is not told from nothing
 SHARE = 0.35  # of the largest part of a direction, from which a part is named
 WEAKER = 0.05  # the same for two branches that do the same: in logarithms the stronger one changes less
 NAMED, SHOWN = 4, 6
@@ -112,20 +112,26 @@ def identifiability(
     inverse of J J' and N the covariance of the noise, whose colour counts; for white noise that is Fisher's.
     ``objective`` may weigh runs but not whiten them.
     """
-    _, jacobian, unsolved = linearise_marked(objective, coordinates, point)
-    size = np.sqrt(np.sum(jacobian**2, axis=1))
+    linear = linearise(objective, coordinates, point)
+    unsolved, size = linear.unsolved, np.sqrt(np.diag(linear.normal))
     idle = ~unsolved & (size < FELT * max(size.max(initial=0.0), 1e-300))
     felt = np.flatnonzero(~idle & ~unsolved)
     paths = [coordinates.paths[k] for k in felt]
     idle_paths, unsolved_paths = (tuple(np.array(coordinates.paths)[which].tolist()) for which in (idle, unsolved))
     if not felt.size:
         return Identifiability(1.0, {}, (), idle_paths, unsolved_paths)
-    axes, lengths, rows = np.linalg.svd(jacobian[felt] / size[felt, None], full_matrices=False)
-    scores = sum(
-        objective.factor(number) ** 2 * variance_of(rows[:, piece], noise[run.name])
-        for number, (run, piece) in enumerate(zip(objective.runs, objective.pieces, strict=True))
-    )
-    root = axes / np.maximum(lengths, SMALLEST * lengths[0]) / size[felt, None]
+    lengths, axes = np.linalg.eigh(linear.normal[np.ix_(felt, felt)] / np.outer(size[felt], size[felt]))
+    short = lengths < SMALLEST * lengths[-1]
+    root = axes / np.sqrt(np.maximum(lengths, SMALLEST * lengths[-1])) / size[felt, None]
+
+    def score(number: int, rows: Array) -> Array:
+        own = noise[objective.runs[number].name]
+        return objective.factor(number) ** 2 * variance_of(root.T @ rows[1:][felt], own)
+
+    scores = sum(linear.each(score), np.zeros(axes.shape))
+    # what is not told from nothing is known no better than the worst of what is
+    scores[short], scores[:, short] = 0.0, 0.0
+    scores[short, short] = np.diag(scores).max()
     covariance = root @ scores @ root.T
     values, vectors = np.linalg.eigh(0.5 * (covariance + covariance.T))
     values, vectors = np.maximum(values[::-1], 1e-15 * values[-1]), vectors[:, ::-1]

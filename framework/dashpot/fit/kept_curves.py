@@ -7,8 +7,9 @@ loop is held at that of the measured one, as closely as the loop tells it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +17,13 @@ from numpy.typing import NDArray
 from dashpot.data.loop import middle_of_loop
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.grounding import free_curves, moved_curve, widest
+from dashpot.fit.linear import Loss
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Loss
 from dashpot.fit.scored import ScoredRun
 from dashpot.model.network import Characteristic, NetworkSpec, Slot
 
 Array = NDArray[np.float64]
+Result = TypeVar("Result")
 
 FINEST = 1e-2  # of the loss: a mid line is not taken as better known
 
@@ -45,15 +47,15 @@ class BesideMidLine:
         beside = np.mean(self._misfit(values) ** 2, axis=1)
         return np.hypot(self.objective.losses(values), self.weight * np.sqrt(np.where(beside >= 0.0, beside, np.inf)))
 
-    def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
-        """Residual (samples + m,) and its changes (len(which), samples + m) when slots move."""
-        residual, changes = self.objective.linearise(values, which, shifts)
-        slow, moves = self.slow.linearise(values, which, shifts)
+    def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
+        """As that of an objective; the mid line (1 + k, m) comes behind all runs."""
         factor = self.weight * np.sqrt(self.objective.total / self.middle.shape[0])
-        return (
-            np.append(residual, factor * (self.middle @ slow)),
-            np.hstack([changes, factor * (self.middle @ moves.T).T]),
-        )
+
+        def of_middle(_: int, rows: Array) -> Result:
+            return reduce(len(self.objective.runs), factor * (self.middle @ rows.T).T)
+
+        yield from self.objective.linearise(values, moves, reduce)
+        yield from self.slow.linearise(values, moves, of_middle)
 
     def _misfit(self, values: Array) -> Array:
         """The mid line (lanes, m) of simulated minus measured force, N."""

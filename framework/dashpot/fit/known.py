@@ -1,4 +1,4 @@
-"""Numbers that are known from elsewhere, such as a mass that was weighed, and what their errors do to a residual."""
+"""Numbers that are known from elsewhere, such as a mass that was weighed, and how far they may be off."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.fit.objective import Objective
-from dashpot.model.network import Value
+from dashpot.model.network import NetworkSpec, Value
 
 Array = NDArray[np.float64]
 
@@ -17,42 +16,23 @@ STANDARD = 2.0 * 1.959964  # standard errors in a 95 % interval
 
 @dataclass(frozen=True, eq=False)
 class KnownNumber:
-    """A number with an interval of its own; ``shift`` (samples,) is what one standard error does to the residual."""
+    """A number with an interval of its own; ``step`` (slots,) moves it by one standard error."""
 
     path: str
     value: Value
-    shift: Array
+    step: Array
 
 
-def known_numbers(objective: Objective) -> list[KnownNumber]:
-    """The known numbers of the objective's network, at the parameters of its file."""
-    known = {number: slot for number, slot in enumerate(objective.network.spec.slots()) if slot.value.known}
-    shifts = _shifts_of(objective, list(known), [_standard_error(slot.value) for slot in known.values()])
-    return [KnownNumber(slot.path, slot.value, shift) for slot, shift in zip(known.values(), shifts, strict=True)]
-
-
-def residual_shift(objective: Objective, step: Array) -> Array:
-    """What a ``step`` (p,) of all numbers (SI) does to the residual (samples,) at the parameters of the file.
-
-    Where the network cannot be solved after the step it is taken the other way.
-    """
-    start = np.atleast_2d(objective.network.start)[:1]
-    base, there, back = objective.residuals(np.concatenate([start, start + step, start - step]))
-    return there - base if np.isfinite(there).all() else base - back
+def known_numbers(spec: NetworkSpec) -> list[KnownNumber]:
+    """The known numbers of a network."""
+    slots = spec.slots()
+    return [
+        KnownNumber(slot.path, slot.value, _standard_error(slot.value) * unit)
+        for slot, unit in zip(slots, np.eye(len(slots)), strict=True)
+        if slot.value.known
+    ]
 
 
 def _standard_error(value: Value) -> float:
     assert value.interval is not None
     return (value.interval[1] - value.interval[0]) / STANDARD
-
-
-def _shifts_of(objective: Objective, which: list[int], steps: list[float]) -> Array:
-    """What each of some numbers does to the residual when it moves by its step, or, where that fails, back by it."""
-    if not which:
-        return np.empty((0, objective.total))
-    start, forth = np.atleast_2d(objective.network.start)[0], np.array(steps)
-    shifts = objective.linearise(start, which, forth)[1]
-    failed = ~np.isfinite(shifts).all(axis=1)
-    if failed.any():
-        shifts[failed] = -objective.linearise(start, which, -forth)[1][failed]
-    return shifts

@@ -4,26 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.steady import STEADY
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.shelf import Shelf
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.kernel.parts import Parts, take_apart
+from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
 from dashpot.kernel.pieces import SystemRows
+from dashpot.kernel.scratch import Scratch
 from dashpot.kernel.system import CompiledSystem
-from dashpot.kernel.workers import spread, threads
+from dashpot.kernel.workers import spread, streamed, threads
 from dashpot.model.network import NetworkSpec
 
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
+Result = TypeVar("Result")
 
 
 class Whitening(Protocol):
@@ -60,12 +63,10 @@ class Objective:
         shares = np.array([run.weight for run in self.runs]) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
-        prepared = {team: network.prepare(self.runs[team[0]].excitation) for team in self.teams}
-        self.rows = [prepared[team] for number in range(len(self.runs)) for team in self.teams if number in team]
-        self.pieces = _pieces([run.samples for run in self.runs])
-        if whitening is not None:
-            self.pieces = _pieces([whitening.kept(run.name, run.samples) for run in self.runs])
-        self.total = self.pieces[-1].stop if self.pieces else 0
+        self.rows: Shelf[Rows | SystemRows] = Shelf(lambda team: network.prepare(self.runs[team[0]].excitation))
+        self.total = sum(
+            whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         # where it arrives it is compiled for the processor there, and works on one thread
@@ -78,43 +79,52 @@ class Objective:
         return other
 
     @cached_property
-    def parts(self) -> tuple[Parts, list[list[Rows]]]:
-        """The branches of the network alone, and the runs as they see them."""
-        parts = take_apart(self.network.spec)
-        return parts, [parts.prepare(run.excitation) for run in self.runs]
+    def parts(self) -> Parts:
+        """The branches of the network alone."""
+        return take_apart(self.network.spec)
 
-    def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
-        """The residual (samples,) at ``values`` (slots,) and its changes (len(which), samples) when slots move."""
-        if isinstance(self.network, CompiledSystem):
-            return self._linearise_as_a_whole(values, which, shifts)
-        block = np.empty((1 + len(which), self.total))
-        parts, rows = self.parts
+    @cached_property
+    def part_rows(self) -> Shelf[PartRows]:
+        """The runs, by number, as the branches see them."""
+        return Shelf(lambda number: self.parts.prepare(self.runs[number].excitation))
 
-        def fill(number: int) -> None:
+    def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
+        """What ``reduce`` makes of one run after the other, from its number and its rows (1 + k, values).
+
+        The rows are the residual at ``values`` (slots,) and its changes with each of the ``moves`` (k, slots). Those of
+        as many runs as there are threads are in memory at once, and those of the next ones overwrite them.
+        """
+        rows_of = partial(self._moved_as_a_whole, values, moves)
+        if isinstance(self.network, CompiledNetwork):
+            rows_of = partial(self._moved_by_branches, values, moves, self.parts.lanes(values, moves), Scratch())
+
+        def reduced(team: Team) -> list[Result]:
+            return [reduce(number, self._weighed(number, rows)) for number, rows in rows_of(team)]
+
+        for found in streamed(reduced, self.teams, self.jobs):
+            yield from found
+
+    def _moved_by_branches(
+        self, values: Array, moves: Array, lanes: Sequence[MovedLanes], scratch: Scratch, team: Team
+    ) -> Iterator[tuple[int, Array]]:
+        for number in team:
             run = self.runs[number]
-            settings = run.excitation.settings
-            seen = self.network.observation(values, settings).linear(
-                *parts.sensitivities(rows[number], values, which, shifts), run.drive.dt
-            )
-            shown = run.seen(seen[0])
-            found = np.empty((1 + len(which), run.samples))
-            found[0] = shown[run.first :] - run.force[run.first :]
-            found[1:] = run.seen(seen[1])[:, run.first :]
-            for k in (k for k, slot in enumerate(which) if parts.owner[slot] is None):
-                moved = values.copy()
-                moved[which[k]] += shifts[k]
-                other = self.network.observation(moved, settings).see(seen[2][None], run.drive.dt)[0]
-                found[1 + k] = (run.seen(other) - shown)[run.first :]
-            block[:, self.pieces[number]] = self._weighed(number, found)
+            settings, dt = run.excitation.settings, run.drive.dt
+            forces = self.parts.sensitivities(self.part_rows(number), lanes, len(moves), scratch)
+            found = run.seen(self.network.observation(values, settings).linear(forces, dt))[:, run.first :]
+            for k in np.flatnonzero(moves[:, self.parts.outside].any(axis=1)):
+                other = self.network.observation(values + moves[k], settings).see(forces[:1] + forces[1 + k], dt)[0]
+                found[1 + k] = run.seen(other)[run.first :] - found[0]
+            found[0] -= run.force[run.first :]
+            yield number, found
 
-        spread(fill, range(len(self.runs)), jobs=self.jobs)
-        return block[0], block[1:]
-
-    def _linearise_as_a_whole(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
-        lanes = np.repeat(values[None], 1 + len(which), axis=0)
-        lanes[np.arange(1, 1 + len(which)), which] += shifts
-        block = self.residuals(lanes)
-        return block[0], block[1:] - block[0]
+    def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+        for number, force in self._forces(team, np.concatenate([values[None], values + moves])):
+            run = self.runs[number]
+            found = np.array(force[:, run.first :])
+            found[1:] -= found[0]
+            found[0] -= run.force[run.first :]
+            yield number, found
 
     def forces(self, values: Array) -> list[Array]:
         """What the load cell would show: for every run (lanes, samples), the warm-up included."""
@@ -138,16 +148,18 @@ class Objective:
         values = np.atleast_2d(values)
         return np.concatenate(self._misfits(values, self._weighed), axis=1)
 
-    def _misfits(self, values: Array, seen: Callable[[int, Array], Array]) -> list[Array]:
-        found: list[Array] = [np.empty(0)] * len(self.runs)
+    def _misfits(self, values: Array, seen: Callable[[int, Array], Result]) -> list[Result]:
+        """What is ``seen`` of each run, from its number and its misfits (lanes, samples)."""
 
-        def fill(team: Team) -> None:
-            for number, force in self._forces(team, values):
-                run = self.runs[number]
-                found[number] = seen(number, force[:, run.first :] - run.force[run.first :])
+        def fill(team: Team) -> list[tuple[int, Result]]:
+            return [
+                (number, seen(number, force[:, run.first :] - run.force[run.first :]))
+                for number, force in self._forces(team, values)
+                for run in (self.runs[number],)
+            ]
 
-        spread(fill, self.teams, jobs=self.jobs)
-        return found
+        found = dict(pair for some in spread(fill, self.teams, jobs=self.jobs) for pair in some)
+        return [found[number] for number in range(len(self.runs))]
 
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,); a lane that fails costs infinity."""
@@ -155,54 +167,56 @@ class Objective:
             squares = np.square(self.rmse(values))
             counted = self.shares > 0.0
             return np.sqrt(np.mean(self.shares[counted, None] * squares[counted], axis=0) * counted.mean())
-        residuals = self.residuals(values)
-        losses = np.sqrt(np.einsum("ij,ij->i", residuals, residuals) / self.total)
-        return np.where(np.isfinite(losses), losses, np.inf)
+        squares = np.sum(self._misfits(np.atleast_2d(values), lambda *run: _squares(self._weighed(*run))), axis=0)
+        return np.sqrt(np.where(np.isfinite(squares), squares, np.inf) / self.total)
 
     def rmse(self, values: Array) -> Array:
         """The root mean square error of every run (runs, lanes) in N; a lane that fails has infinity."""
         values = np.atleast_2d(values)
         plain = all(self.network.observation(values, run.excitation.settings).plain for run in self.runs)
         if not plain or any(run.kind == STEADY for run in self.runs):
-            squares = np.array([np.mean(np.square(misfit), axis=1) for misfit in self._misfits(values, lambda _, m: m)])
+            squares = np.array(self._misfits(values, lambda _, misfits: _squares(misfits) / misfits.shape[1]))
         else:
             squares = self._scores(values)
         return np.sqrt(np.where(np.isfinite(squares), squares, np.inf))
 
     def _scores(self, values: Array) -> Array:
-        weights = [np.where(np.arange(run.force.size) < run.first, 0.0, 1.0 / run.samples) for run in self.runs]
-        if isinstance(self.network, CompiledNetwork):
-            rows = cast("list[Rows]", self.rows)
-            return self.network.score(rows, [run.force for run in self.runs], weights, values, self.jobs)
-        ends, targets, weighs = len(self.network.outputs), [], []
-        for team in self.teams:
-            shape = (ends, self.runs[team[0]].force.size)
-            target, weigh = np.zeros(shape), np.zeros(shape)
-            for number in team:
-                place = self.network.number_of(self.runs[number].end)
-                target[place], weigh[place] = self.runs[number].force, weights[number]
-            targets.append(target)
-            weighs.append(weigh)
-        records = [cast(SystemRows, self.rows[team[0]]) for team in self.teams]
-        scores = self.network.score(records, targets, weighs, values, self.jobs)
         found = np.empty((len(self.runs), values.shape[0]))
-        for team, score in zip(self.teams, scores, strict=True):
-            found[list(team)] = score[[self.network.number_of(self.runs[number].end) for number in team]]
+
+        def fill(team: Team) -> None:
+            found[list(team)] = self._scored(team, values)
+
+        spread(fill, self.teams, jobs=self.jobs)
         return found
+
+    def _scored(self, team: Team, values: Array) -> Array:
+        # the mean squared errors (runs, lanes) of runs that were measured together
+        rows, runs = self.rows(team), [self.runs[number] for number in team]
+        if isinstance(self.network, CompiledNetwork):
+            assert isinstance(rows, Rows)
+            targets, weights = [run.force for run in runs], [_weights(run) for run in runs]
+            return self.network.score([rows] * len(runs), targets, weights, values)
+        assert isinstance(rows, SystemRows)
+        places = [self.network.number_of(run.end) for run in runs]
+        target, weight = np.zeros((2, len(self.network.outputs), runs[0].force.size))
+        for place, run in zip(places, runs, strict=True):
+            target[place], weight[place] = run.force, _weights(run)
+        return self.network.score([rows], [target], [weight], values)[0][places]
 
     def factor(self, number: int) -> float:
         """By what the misfits of a run are multiplied, where they are not whitened."""
         return float(np.sqrt(self.shares[number] * self.total / (len(self.runs) * self.runs[number].samples)))
 
     def _weighed(self, number: int, misfits: Array) -> Array:
-        """The misfits (lanes, samples) of a run as they count."""
+        """The misfits (lanes, samples) of a run as they count; they may be altered themselves."""
         if self.whitening is None:
-            return misfits * self.factor(number)
+            misfits *= self.factor(number)
+            return misfits
         return self.whitening.whiten(self.runs[number].name, misfits)
 
     def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
         # what the load cells show in runs that were measured together
-        rows = self.rows[team[0]]
+        rows = self.rows(team)
         see = self.network.observation(values, self.runs[team[0]].excitation.settings).see
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)
@@ -221,9 +235,14 @@ def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitenin
     return Objective(compile_network(spec), runs, 1, whitening, shares.tolist())
 
 
-def _pieces(sizes: Sequence[int]) -> list[slice]:
-    ends = np.cumsum([0, *sizes]).tolist()
-    return [slice(first, last) for first, last in zip(ends, ends[1:], strict=False)]
+def _squares(signals: Array) -> Array:
+    return np.asarray(np.einsum("ij,ij->i", signals, signals))
+
+
+def _weights(run: ScoredRun) -> Array:
+    weights = np.full(run.force.size, 1.0 / run.samples)
+    weights[: run.first] = 0.0
+    return weights
 
 
 def _teams(runs: Sequence[ScoredRun]) -> list[Team]:

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise, refine
+from dashpot.fit.refine import refine
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.workers import pieces
 
@@ -95,8 +96,8 @@ class _Climb:
     ) -> None:
         self.objective, self.coordinates, self.point, self.number = objective, coordinates, point, number
         self.loss = float(objective.losses(coordinates.to_values(point))[0])
-        _, jacobian = linearise(objective, coordinates, point)
-        naive = self.loss**2 * np.linalg.pinv(jacobian @ jacobian.T, hermitian=True)[number, number]
+        normal = linearise(objective, coordinates, point).normal
+        naive = self.loss**2 * np.linalg.pinv(normal, hermitian=True)[number, number]
         if not naive > 0.0:
             # nothing is known of the number: half its range is to be walked at once
             naive = ((coordinates.high - coordinates.low) / coordinates.unit)[number] ** 2 / WIDEST**2

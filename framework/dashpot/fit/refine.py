@@ -1,33 +1,22 @@
-"""Damped Gauss-Newton with bounds, the whole Jacobian as one block of lanes: the framework's own polish."""
+"""Damped Gauss-Newton with bounds, from products of the Jacobian: the framework's own polish."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.linear import Linear, Loss, linearise
 
 Array = NDArray[np.float64]
 
-STEP = 1e-5
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 NOT_FELT = 1e-12  # of the largest eigenvalue
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
-
-
-class Loss(Protocol):
-    """What is refined: the root mean square of a residual, and how the residual changes with the parameters."""
-
-    def losses(self, values: Array) -> Array:
-        """The loss of every lane (lanes,) of slots (lanes, slots) in SI; a lane that fails costs infinity."""
-
-    def linearise(self, values: Array, which: Sequence[int], shifts: Array) -> tuple[Array, Array]:
-        """The residual (n,) at ``values`` (slots,) and its changes (len(which), n) when slots move."""
 
 
 class Outcome(Enum):
@@ -75,8 +64,7 @@ def refine(
     for _ in range(steps):
         if budget is not None and spent + 1 + point.size + len(DAMPINGS) > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
-        residual, jacobian = linearise(objective, coordinates, point)
-        tries = _candidates(residual, jacobian, coordinates, point, slack)
+        tries = _candidates(linearise(objective, coordinates, point), coordinates, point, slack)
         losses = objective.losses(coordinates.to_values(tries))
         spent += 1 + point.size + len(tries)
         best = int(np.argmin(losses))
@@ -98,43 +86,8 @@ def refine(
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
-def linearise(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
-    """The residual (samples,) and its Jacobian (p, samples) after natural steps; see ``linearise_marked``."""
-    residual, jacobian, _ = linearise_marked(objective, coordinates, point)
-    return residual, jacobian
-
-
-def linearise_marked(objective: Loss, coordinates: Coordinates, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """The residual (samples,), its Jacobian (p, samples) after natural steps, and which coordinates could not be moved.
-
-    A coordinate that cannot be moved one way is moved the other way. Around one that neither way can be moved the
-    network is not solved: its row is zero, and it is marked (p,).
-    """
-    shifts = STEP * coordinates.unit
-    shifts = np.where(point + shifts > coordinates.high, -shifts, shifts)
-    residual, changes = _changes(objective, coordinates, point, shifts)
-    again = ~_solved(changes) & (point - shifts >= coordinates.low) & (point - shifts <= coordinates.high)
-    if again.any():
-        shifts = np.where(again, -shifts, shifts)
-        changes[again] = _changes(objective, coordinates, point, shifts)[1][again]
-    unsolved = ~_solved(changes)
-    changes[unsolved] = 0.0
-    changes *= (coordinates.unit / shifts)[:, None]
-    return residual, changes, unsolved
-
-
-def _solved(changes: Array) -> NDArray[np.bool_]:
-    return np.asarray(np.isfinite(changes).all(axis=1))
-
-
-def _changes(objective: Loss, coordinates: Coordinates, point: Array, shifts: Array) -> tuple[Array, Array]:
-    values = coordinates.to_values(np.concatenate([point[None], point + np.diag(shifts)]))
-    moves = values[np.arange(1, len(values)), coordinates.which] - values[0, coordinates.which]
-    return objective.linearise(values[0], coordinates.which.tolist(), moves)
-
-
-def _candidates(residual: Array, jacobian: Array, coordinates: Coordinates, point: Array, slack: float) -> Array:
-    normal, downhill = jacobian @ jacobian.T, -jacobian @ residual
+def _candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: float) -> Array:
+    normal, downhill = linear.normal, -linear.gradient
     free = np.diag(normal) > 0.0
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)

@@ -60,9 +60,7 @@ class ScoredRun:
 def score_run(run: Run) -> ScoredRun:
     """The run with its path; the first whole cycle warms up, but never more than 15 % of the record."""
     whole = Excitation.of_run(run)
-    return ScoredRun(
-        run.name, run.kind, whole.motions[run.end], np.array(run.force), warm_up(run), run.end, run.record, whole
-    )
+    return ScoredRun(run.name, run.kind, whole.motions[run.end], run.force, warm_up(run), run.end, run.record, whole)
 
 
 def weighted(runs: Sequence[Run]) -> list[ScoredRun]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.linear import Linear, linearise
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import linearise_marked
+from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -69,24 +70,22 @@ def assess_uncertainty(
     them; a row of a table is in one block. The score of each block is corrected for what the fit has
     taken out of it, and the quantile is that of Student's t with the degrees of freedom that the blocks amount to,
     which are few where a parameter shows in a narrow band of a sweep only.
-    ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, shifts
-    (samples,) of the residual by one standard error of something that the runs cannot tell, widens them in addition.
+    ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, steps
+    (slots,) in SI by one standard error of something that the runs cannot tell, widens them in addition.
     Where the ``noise`` (N) is known, a model with a larger RMSE has wider intervals: see ``widening``.
 
     Sources: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters; Bell and McCaffrey, Survey
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
     """
-    residual, jacobian, unsolved = linearise_marked(objective, coordinates, point)
-    normal = jacobian @ jacobian.T
-    scale = np.sqrt(np.diag(normal))
-    loss = np.sqrt(np.mean(residual**2))
-    idle = ~unsolved & (scale / np.sqrt(residual.size) < WEAK * max(loss, 1e-300))
+    linear = linearise(objective, coordinates, point, systematic)
+    unsolved, scale = linear.unsolved[: point.size], np.sqrt(np.diag(linear.normal))
+    loss = np.sqrt(linear.square / objective.total)
+    idle = ~unsolved & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
     safe = np.where(idle | unsolved, 1.0, scale)
-    root, lost = _inverse_root(normal / np.outer(safe, safe))
-    covariance, freedom = _sandwich(residual, jacobian / safe[:, None], _blocks(objective), root)
-    covariance /= np.outer(safe, safe)
-    moved = np.array([-(root @ (root.T @ (jacobian @ shift / safe))) / safe for shift in systematic])
-    moved = moved.reshape(len(systematic), point.size)
+    root, lost = _inverse_root(linear.normal / np.outer(safe, safe))
+    root /= safe[:, None]
+    covariance, freedom = _sandwich(_blocks(objective, linear), root)
+    moved = -linear.beside @ root @ root.T
     wider = widening(float(loss), noise)
     unknown = idle | lost | unsolved
 
@@ -120,14 +119,17 @@ def widening(loss: float, noise: float | None) -> float:
     return float(np.sqrt(1.0 + ABSORBED * (1.0 - (NOISE_KNOWN * noise / loss) ** 2)))
 
 
-def _sandwich(residual: Array, jacobian: Array, blocks: list[NDArray[np.int64]], root: Array) -> tuple[Array, Array]:
-    """Covariance (p, p) and degrees of freedom (p,) from the scores of the blocks."""
-    size = len(jacobian)
-    middle, freedom, squares = np.zeros((root.shape[1], root.shape[1])), np.zeros(size), np.zeros(size)
+def _sandwich(blocks: Iterable[Array], root: Array) -> tuple[Array, Array]:
+    """Covariance (p, p) and degrees of freedom (p,) from the products (1 + p, 1 + p) of the rows r and J of each block.
+
+    ``root`` (p, k) is W with W W' the inverse of J J' over all blocks.
+    """
+    size, kept = root.shape
+    middle, freedom, squares = np.zeros((kept, kept)), np.zeros(size), np.zeros(size)
     for block in blocks:
-        white = root.T @ jacobian[:, block]
-        leverage, axes = np.linalg.eigh(white @ white.T)
-        score = axes @ ((axes.T @ (white @ residual[block])) / np.sqrt(1.0 - np.clip(leverage, 0.0, MOST_LEVERAGE)))
+        leverage, axes = np.linalg.eigh(root.T @ block[1:, 1:] @ root)
+        gradient = axes.T @ (root.T @ block[1:, 0])
+        score = axes @ (gradient / np.sqrt(1.0 - np.clip(leverage, 0.0, MOST_LEVERAGE)))
         middle += np.outer(score, score)
         share = np.sum((root @ axes) ** 2 * np.maximum(leverage, 0.0), axis=1)
         freedom, squares = freedom + share, squares + share**2
@@ -147,18 +149,39 @@ def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
-def _blocks(objective: Objective) -> list[NDArray[np.int64]]:
-    found = []
-    for group in moved_alike(objective.runs):
-        run = objective.runs[group[0]]
-        length = max(1, min(round(BLOCK_SECONDS / run.drive.dt), run.samples // FEWEST_BLOCKS))
-        pieces = [np.arange(objective.pieces[number].start, objective.pieces[number].stop) for number in group]
-        longest = max(piece.size for piece in pieces)
-        length = longest if run.kind == STEADY else length
-        found += [
-            np.concatenate([piece[first : first + length] for piece in pieces]) for first in range(0, longest, length)
-        ]
-    return found
+def _blocks(objective: Objective, linear: Linear) -> Iterator[Array]:
+    """The products (1 + p, 1 + p) of the rows of each block, group by group as soon as its last run was seen."""
+    groups = moved_alike(objective.runs)
+    group_of = {number: group for group in groups for number in group}
+    lengths = {group[0]: _length([objective.runs[number] for number in group]) for group in groups}
+
+    def products(number: int, rows: Array) -> tuple[int, Array]:
+        length = lengths[group_of[number][0]]
+        pieces = (rows[:, first : first + length] for first in range(0, rows.shape[1], length))
+        return number, np.array([piece @ piece.T for piece in pieces])
+
+    begun: dict[int, Array] = {}
+    missing = {group[0]: len(group) for group in groups}
+    for number, found in linear.each(products):
+        first = group_of[number][0]
+        begun[first] = _added(begun[first], found) if first in begun else found
+        missing[first] -= 1
+        if not missing[first]:
+            yield from begun.pop(first)
+
+
+def _length(runs: Sequence[ScoredRun]) -> int:
+    """The samples of a block in runs that were moved alike."""
+    run = runs[0]
+    if run.kind == STEADY:
+        return max(each.samples for each in runs)
+    return max(1, min(round(BLOCK_SECONDS / run.drive.dt), run.samples // FEWEST_BLOCKS))
+
+
+def _added(some: Array, more: Array) -> Array:
+    shorter, longer = sorted((some, more), key=len)
+    longer[: len(shorter)] += shorter
+    return longer
 
 
 def _interval(coordinates: Coordinates, number: int, middle: float, width: float) -> tuple[float, float]:

@@ -33,6 +33,11 @@ class Rows:
     turn_columns: Array
     settings: Mapping[str, float] = field(default_factory=dict)
 
+    @property
+    def nbytes(self) -> int:
+        """The bytes of all columns, those of the drive not among them."""
+        return self.columns.nbytes + self.index.nbytes + self.local.nbytes + self.turn_columns.nbytes
+
 
 def prepare_rows(
     program: Program, curves: Mapping[str, Characteristic], drive: Drive, settings: Mapping[str, float]

@@ -64,10 +64,11 @@ class CompiledNetwork(Compiled[Rows]):
         settings = used_settings(self.spec, motion.settings, motion.name)
         return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], settings)
 
-    def simulate(self, run: Rows, values: Array | None = None) -> Array:
-        """The force of the specimen (lanes, samples) in N; one lane is answered as (samples,)."""
+    def simulate(self, run: Rows, values: Array | None = None, out: Array | None = None) -> Array:
+        """The force of the specimen (lanes, samples) in N, in ``out`` if given; one lane is answered as (samples,)."""
         lanes = with_settings(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
-        out = np.empty((lanes.shape[0], run.drive.samples))
+        if out is None:
+            out = np.empty((lanes.shape[0], run.drive.samples))
         code, width = self._group(lanes.shape[0])
         for block in self._blocks(run.drive.dt, lanes, width):
             buffer = np.empty((run.drive.samples, width))
@@ -98,7 +99,7 @@ class CompiledNetwork(Compiled[Rows]):
                 out[block.place] = workspace[-1, : block.count]
             return out
 
-        return np.array(spread(work, runs, measured, weights, jobs=jobs))
+        return np.array(spread(lambda each: work(*each), zip(runs, measured, weights, strict=True), jobs))
 
     def _group(self, count: int) -> tuple[Code, int]:
         vectors, alone = self.groups[(count > 1) + (count > LANES)]

@@ -68,19 +68,20 @@ class Observation:
             shown = shown + self.cosine[:, None] * np.cos(phase) + self.sine[:, None] * np.sin(phase)
         return shown
 
-    def linear(self, force: Array, changes: Array, dt: float) -> tuple[Array, Array, Array]:
-        """What one lane's channel shows of ``force`` (n,) and of small ``changes`` (k, n) of it, and the force itself.
+    def linear(self, rows: Array, dt: float) -> Array:
+        """What one lane's channel shows of a force and of small changes of it, ``rows`` (1 + k, n).
 
         The changes are shifted along straight lines between samples, which is near enough for a search direction.
         """
         if self.plain:
-            return force, changes, force
+            return rows
+        force, changes = rows[0], rows[1:]
         at = np.arange(force.size) - self.delay[0] / dt
         held = smoothed(np.where(force > self.least[0], changes, 0.0), self.lag, dt)
         late = np.array([np.interp(at, np.arange(force.size), row) for row in held]).reshape(changes.shape)
         shown = self._unlimited(force[None], dt)[0]
         inside = shown < self.largest[0]
-        return np.where(inside, shown, self.largest[0]), np.where(inside, self.gain[0] * late, 0.0), force
+        return np.vstack([np.where(inside, shown, self.largest[0]), np.where(inside, self.gain[0] * late, 0.0)])
 
 
 def read_observation(paths: tuple[str, ...], values: Array) -> Observation:

@@ -7,6 +7,7 @@ block.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
@@ -17,6 +18,7 @@ from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
+from dashpot.kernel.scratch import Scratch
 from dashpot.model.network import Branch, Group, NetworkSpec, Value, branch_slots
 
 Array = NDArray[np.float64]
@@ -31,36 +33,62 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False)
+class MovedLanes:
+    """Lanes of one structure: its branches as they are, then each row (move, branch) of ``touched`` after its move."""
+
+    lanes: Array
+    touched: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
 class Parts:
-    """All branches of a network, and which one every slot belongs to; None for a slot outside the branches."""
+    """All branches of a network, and which slots (slots,) lie outside the branches."""
 
     members: tuple[Part, ...]
-    owner: tuple[tuple[int, int] | None, ...]
+    outside: NDArray[np.bool_]
 
-    def prepare(self, motion: Drive | Excitation) -> list[Rows]:
+    def prepare(self, motion: Drive | Excitation) -> PartRows:
         """The part of the work that depends on the motion alone."""
-        return [part.network.prepare(motion) for part in self.members]
+        return PartRows([part.network.prepare(motion) for part in self.members])
 
-    def sensitivities(
-        self, rows: Sequence[Rows], values: Array, which: Sequence[int], shifts: Array
-    ) -> tuple[Array, Array]:
-        """The force (n,) at ``values`` (slots,) and its changes (k, n) when slots ``which`` move by ``shifts``."""
-        total = np.zeros(rows[0].drive.samples)
-        changes = np.zeros((len(which), total.size))
-        for number, (part, run) in enumerate(zip(self.members, rows, strict=True)):
-            lanes = [values[list(slots)] for slots in part.slots]
-            homes = ((k, self.owner[slot]) for k, slot in enumerate(which))
-            moved = [(k, home[1]) for k, home in homes if home and home[0] == number]
-            for k, branch in moved:
-                lane = lanes[branch].copy()
-                lane[part.slots[branch].index(which[k])] += shifts[k]
-                lanes.append(lane)
-            forces = np.atleast_2d(part.network.simulate(run, np.array(lanes)))
-            count = len(part.slots)
-            total += forces[:count].sum(axis=0)
-            for (k, branch), force in zip(moved, forces[count:], strict=True):
-                changes[k] = force - forces[branch]
-        return total, changes
+    def lanes(self, values: Array, moves: Array) -> list[MovedLanes]:
+        """What has to be simulated of each structure for moves (k, slots) of ``values`` (slots,)."""
+        found = []
+        for part in self.members:
+            slots = np.array(part.slots, dtype=np.int64)
+            stand, moved = values[slots], moves[:, slots]
+            touched = np.argwhere(moved.any(axis=2))
+            move, branch = touched.T
+            found.append(MovedLanes(np.concatenate([stand, stand[branch] + moved[move, branch]]), touched))
+        return found
+
+    def sensitivities(self, rows: PartRows, lanes: Sequence[MovedLanes], count: int, scratch: Scratch) -> Array:
+        """The force of the whole and its changes (1 + count, n) with the moves from which the ``lanes`` came."""
+        samples = rows.each[0].drive.samples
+        found = scratch.take("changes", 1 + count, samples)
+        empty = set(range(1 + count))
+        for part, run, moved in zip(self.members, rows.each, lanes, strict=True):
+            forces = part.network.simulate(run, moved.lanes, scratch.take("forces", len(moved.lanes), samples))
+            branches = len(part.slots)
+            own = [(0, force) for force in forces[:branches]]
+            changed = zip(moved.touched.tolist(), forces[branches:], strict=True)
+            for place, force in itertools.chain(own, ((1 + k, force - forces[at]) for (k, at), force in changed)):
+                found[place] = force if place in empty else found[place] + force
+                empty.discard(place)
+        found[list(empty)] = 0.0
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class PartRows:
+    """A run as each structure sees it."""
+
+    each: Sequence[Rows]
+
+    @property
+    def nbytes(self) -> int:
+        """The bytes of all columns."""
+        return sum(rows.nbytes for rows in self.each)
 
 
 def take_apart(spec: NetworkSpec) -> Parts:
@@ -75,12 +103,10 @@ def take_apart(spec: NetworkSpec) -> Parts:
         known = makes.get(make)
         makes[make] = Part(known.network, (*known.slots, slots)) if known else Part(network, (slots,))
     members = tuple(makes.values())
-    owner: list[tuple[int, int] | None] = [None] * len(paths)
-    for number, part in enumerate(members):
-        for branch_number, slots in enumerate(part.slots):
-            for slot in slots:
-                owner[slot] = (number, branch_number)
-    return Parts(members, tuple(owner))
+    outside = np.ones(len(paths), dtype=bool)
+    for part in members:
+        outside[[slot for slots in part.slots for slot in slots]] = False
+    return Parts(members, outside)
 
 
 def _make(branch: Branch) -> tuple[Hashable, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -35,8 +35,13 @@ class SystemRows:
     excitation: Excitation
     pairs: int
     still: Array
-    pieces: Iterable[Piece]
-    quick: Iterable[Piece] | None
+    pieces: Pieces
+    quick: Pieces | None
+
+    @property
+    def nbytes(self) -> int:
+        """The bytes that stay prepared for the steps which are taken first."""
+        return (self.quick or self.pieces).nbytes
 
     def steps(self, quick: bool) -> int:
         """How many long steps lie in a sample."""
@@ -51,6 +56,11 @@ class Pieces:
     size: int
     kept: bool
     make: Callable[[int, int], Piece]
+
+    @property
+    def nbytes(self) -> int:
+        """The bytes of what stays prepared."""
+        return sum(piece.coarse.nbytes + piece.fine.nbytes for piece in self._all) if self.kept else 0
 
     def __iter__(self) -> Iterator[Piece]:
         return iter(self._all) if self.kept else self._made()

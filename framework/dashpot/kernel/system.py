@@ -213,7 +213,7 @@ class CompiledSystem(Compiled[SystemRows]):
         def work(run: SystemRows, target: Array, weight: Array) -> Array:
             return self._score(run, _by_sample(target), _by_sample(weight), values)
 
-        return np.array(spread(work, runs, measured, weights, jobs=jobs))
+        return np.array(spread(lambda each: work(*each), zip(runs, measured, weights, strict=True), jobs))
 
     def _score(self, run: SystemRows, measured: Array, weight: Array, values: Array) -> Array:
         found = self._answered(run, self._lanes(run, values), (measured, weight))

@@ -7,8 +7,10 @@ pieces, each of them on one thread, so that no processor is asked for twice.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from dashpot.text.problem import InputError, Place
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 
     Jobs = int | Executor | Client
 
+Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 MEMORY = "memory"  # the resource by which workers say how many bytes they have
@@ -32,12 +35,23 @@ def threads(jobs: Jobs) -> int:
     raise InputError.at(Place("jobs"), f"expected a number of threads, an Executor or a Dask client, got {jobs!r}")
 
 
-def spread(work: Callable[..., Result], *items: Iterable[Any], jobs: int) -> list[Result]:
-    """What ``work`` makes of each set of items, in their order, no more than ``jobs`` threads at once."""
+def spread(work: Callable[[Item], Result], items: Iterable[Item], jobs: int) -> list[Result]:
+    """What ``work`` makes of each item, in their order, no more than ``jobs`` threads at once."""
+    return list(streamed(work, items, jobs))
+
+
+def streamed(work: Callable[[Item], Result], items: Iterable[Item], jobs: int) -> Iterator[Result]:
+    """The same one after the other; no more than ``jobs`` of them are ahead of the one that is asked for."""
     if jobs == 1:
-        return list(map(work, *items))
+        yield from map(work, items)
+        return
+    left = iter(items)
     with ThreadPoolExecutor(jobs) as pool:
-        return list(pool.map(work, *items))
+        ahead = deque(pool.submit(work, item) for item in islice(left, jobs))
+        while ahead:
+            found = ahead.popleft().result()
+            ahead.extend(pool.submit(work, item) for item in islice(left, 1))
+            yield found
 
 
 def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: Jobs) -> list[Result]:

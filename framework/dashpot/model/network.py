@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal
 
 from dashpot.model.element import Curve, Element, Scale
@@ -235,6 +236,10 @@ class NetworkSpec:
 
     def slots(self) -> tuple[Slot, ...]:
         """Every number of the network: branch by branch, node by node, then the measurement."""
+        return self._slots
+
+    @cached_property
+    def _slots(self) -> tuple[Slot, ...]:
         found = [slot for branch in self.leaves() if not branch.shares for slot in branch_slots(branch)]
         found += [
             Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items() if ends.offset and not ends.shares

@@ -9,6 +9,7 @@ import numpy as np
 from dashpot import load_registry
 from dashpot.data.drive import drive_from_path
 from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.scored import ScoredRun
@@ -59,3 +60,17 @@ def ready(branches: str, scored: list[ScoredRun], more: str = "", **options):
     """Network, objective and coordinates, with ranges from the runs."""
     spec = with_ranges(network(branches, more), natural_sizes(scored))
     return spec, Objective(compile_network(spec), scored, **options), search_coordinates(spec)
+
+
+def rows_of(objective, values, which, shifts):
+    """The residual (samples,) at values (slots,), and its changes (len(which), samples) when slots move."""
+    moves = np.zeros((len(which), len(values)))
+    moves[np.arange(len(which)), which] = shifts
+    rows = np.hstack(list(objective.linearise(values, moves, lambda _, rows: rows.copy())))
+    return rows[0], rows[1:]
+
+
+def jacobian_of(objective, coordinates, point):
+    """The residual (samples,) and its Jacobian (p, samples) after natural steps."""
+    rows = np.hstack(list(linearise(objective, coordinates, point).each(lambda _, rows: rows.copy())))
+    return rows[0], rows[1:]

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from seeds import seed_of
-from unit.fit.bench import network
+from unit.fit.bench import jacobian_of, network
 
 from dashpot.data.drive import drive_from_samples
 from dashpot.fit.grounding import ground_curves
 from dashpot.fit.kept_curves import kept_curves, refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.fit.refine import linearise, refine
+from dashpot.fit.refine import refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 
@@ -96,7 +96,7 @@ def test_the_loss_beside_a_mid_line_is_the_root_mean_square_of_its_residual():
     spec = with_ranges(ground_curves(network(f"{CURVE}\n{MAXWELL}"), runs), natural_sizes(runs))
     whole = refinement(spec, Objective(compile_network(spec), runs), lambda slot: True)
     coordinates, point = whole.coordinates, whole.coordinates.start
-    residual, jacobian = linearise(whole.loss, coordinates, point)
+    residual, jacobian = jacobian_of(whole.loss, coordinates, point)
     (loss,) = whole.loss.losses(coordinates.to_values(point))
     assert loss == pytest.approx(
         np.sqrt(
@@ -109,7 +109,7 @@ def test_the_loss_beside_a_mid_line_is_the_root_mean_square_of_its_residual():
     for number in (0, 5, point.size - 1):
         there = point.copy()
         there[number] += step[number]
-        moved, _ = linearise(whole.loss, coordinates, there)
+        moved, _ = jacobian_of(whole.loss, coordinates, there)
         assert (moved - residual) / 1e-4 == pytest.approx(jacobian[number], abs=2e-3 * np.abs(jacobian[number]).max())
 
 

@@ -24,8 +24,8 @@ def half_width(part: str) -> float:
     for each in scored:
         each.force[:] += rng.standard_normal(each.force.size)
     _, objective, coordinates = ready(SPRINGS.format(part=part), scored)
-    shifts = [each.shift for each in known_numbers(objective)]
-    known = assess_uncertainty(objective, coordinates, coordinates.start, shifts)
+    steps = [each.step for each in known_numbers(objective.network.spec)]
+    known = assess_uncertainty(objective, coordinates, coordinates.start, steps)
     return (STIFFNESS - PART) * np.diff(np.log(known.intervals[0]))[0] / 2.0
 
 

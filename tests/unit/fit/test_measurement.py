@@ -6,13 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from unit.fit.bench import DAMPING, DT, STIFFNESS, TIME, network, ready
+from unit.fit.bench import DAMPING, DT, STIFFNESS, TIME, jacobian_of, network, ready
 
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.fit.api import fit_network, measure_errors, prepare
-from dashpot.fit.refine import linearise
 from dashpot.fit.scored import score_run
 from dashpot.model.patch import add_measurement, fill_numbers
 from dashpot.model.reading import parse_network
@@ -89,7 +88,7 @@ def test_the_jacobian_is_that_of_central_differences(key):
     scored = [score_run(run) for run in measured(key).runs[:2]]
     document = parse_network(text(key), load_registry().elements).document
     _, objective, coordinates = ready(NETWORK, scored, document.text.partition("  oil:")[2].partition("\n")[2])
-    residual, jacobian = linearise(objective, coordinates, coordinates.start)
+    residual, jacobian = jacobian_of(objective, coordinates, coordinates.start)
     assert residual == pytest.approx(objective.residuals(coordinates.to_values(coordinates.start))[0], abs=1e-9)
     # a number at the end of its range is not to be moved out of it
     for number, row in enumerate(jacobian):
@@ -136,8 +135,9 @@ def test_a_run_may_give_a_number_of_the_channel_by_its_settings():
     shown, felt = objective.forces(objective.network.start), plain.forces(plain.network.start)
     assert [float(np.ptp(one - other)) for one, other in zip(shown, felt, strict=True)] == pytest.approx([0.0] * 3)
     assert [float(np.mean(one - other)) for one, other in zip(shown, felt, strict=True)] == pytest.approx([0, 3, -7])
+    ends = np.cumsum([run.samples for run in scored])[:-1]
     errors = [
-        float(np.sqrt(np.mean(np.square(objective.misfits(objective.network.start)[0, piece]))))
-        for piece in objective.pieces
+        float(np.sqrt(np.mean(np.square(misfits))))
+        for misfits in np.split(objective.misfits(objective.network.start)[0], ends)
     ]
     assert objective.rmse(objective.network.start)[:, 0] == pytest.approx(errors)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 from seeds import seed_of
+from unit.fit.bench import jacobian_of
 
 from dashpot import load_registry
 from dashpot.contract.bench import Bench
@@ -19,7 +20,6 @@ from dashpot.fit.identifiability import identifiability
 from dashpot.fit.noise_of_runs import noise_of_runs, variance_of, white
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.fit.refine import linearise
 from dashpot.fit.scored import score_run
 from dashpot.fit.virtual_test import virtual_test
 from dashpot.kernel.network import compile_network
@@ -84,13 +84,11 @@ def test_what_is_foretold_is_what_noise_of_that_colour_does(bench):
         objective, coordinates = Objective(compile_network(ranged), runs), search_coordinates(ranged)
         noise = noise_of_runs(measured, noise_floor(Dataset("d", tuple(measured))))
         predicted.append(list(identifiability(objective, coordinates, coordinates.start, noise).deviations.values()))
-    _, jacobian = linearise(objective, coordinates, coordinates.start)
+    _, jacobian = jacobian_of(objective, coordinates, coordinates.start)
+    ends = np.cumsum([run.samples for run in runs])
     scores = sum(
-        objective.factor(number) ** 2
-        * jacobian[:, piece]
-        @ covariance(run.samples, run.drive.dt)
-        @ jacobian[:, piece].T
-        for number, (run, piece) in enumerate(zip(runs, objective.pieces, strict=True))
+        objective.factor(number) ** 2 * columns @ covariance(run.samples, run.drive.dt) @ columns.T
+        for number, (run, columns) in enumerate(zip(runs, np.hsplit(jacobian, ends[:-1]), strict=True))
     )
     bread = np.linalg.inv(jacobian @ jacobian.T)
     exact = np.sqrt(np.diag(bread @ scores @ bread))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, TIME, ready, runs
+from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, TIME, ready, rows_of, runs
 
 SCORED = runs()
 VALUES = np.array([[STIFFNESS, DAMPING], [STIFFNESS, 2.0 * DAMPING], [1.1 * STIFFNESS, DAMPING]])
@@ -99,7 +99,7 @@ def test_the_linearisation_is_the_change_of_the_residual(more):
     values = coordinates.to_values(coordinates.start)[0]
     which = coordinates.which.tolist()
     shifts = 1e-6 * np.where(values[which] == 0.0, 1.0, values[which])
-    residual, changes = objective.linearise(values, which, shifts)
+    residual, changes = rows_of(objective, values, which, shifts)
     moved = np.repeat(values[None], len(which), axis=0)
     moved[np.arange(len(which)), which] += shifts
     residuals = objective.residuals(np.concatenate([values[None], moved]))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from unit.fit.bench import TIME, ready
+from unit.fit.bench import TIME, ready, rows_of
 
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
@@ -91,7 +91,7 @@ def test_a_run_that_gives_its_own_zero_has_it_in_the_jacobian():
     zero = "measurement: {force: {offset: {setting: zero, value: 0 N}}}\n"
     made = [run(f"z{value:g}", 2.0, 2e-3, 3.0, HEAD + spring + zero, zero=value) for value in (0.0, 40.0, -25.0)]
     _, objective, _ = ready(spring, [score_run(each) for each in made], zero)
-    residual, _ = objective.linearise(objective.network.start, [0], np.array([1.0]))
+    residual, _ = rows_of(objective, objective.network.start, [0], [1.0])
     assert np.sqrt(np.mean(residual**2)) < 0.2  # the noise
 
 
@@ -160,13 +160,20 @@ def test_runs_without_the_setting_are_named_before_anything_is_simulated():
         compile_network(spec).prepare(bare)
 
 
+def as_a_whole(objective, values, which, shifts):
+    lanes = np.repeat(values[None], 1 + len(which), axis=0)
+    lanes[np.arange(1, 1 + len(which)), which] += shifts
+    rows = objective.residuals(lanes)
+    return rows[0], rows[1:] - rows[0]
+
+
 def test_the_jacobian_knows_the_slopes():
     scored = [score_run(each) for each in dataset().runs]
     _, objective, coordinates = ready(MODEL.partition("branches:\n")[2], scored)
     values = coordinates.to_values(coordinates.start)[0]
     shifts = 1e-3 * np.maximum(np.abs(values[coordinates.which]), 1e-4)
-    residual, changes = objective.linearise(values, coordinates.which, shifts)
-    whole, moved = objective._linearise_as_a_whole(values, coordinates.which, shifts)
+    residual, changes = rows_of(objective, values, coordinates.which, shifts)
+    whole, moved = as_a_whole(objective, values, coordinates.which, shifts)
     assert residual == pytest.approx(whole, abs=1e-9)
     assert changes == pytest.approx(moved, abs=1e-8)
     assert np.all(np.max(np.abs(changes), axis=1) > 0.0)
@@ -180,8 +187,8 @@ air: {element: damper, damping: {start: 50 N*s/m, over: {setting: pressure, at: 
     _, objective, coordinates = ready(text, [score_run(each) for each in dataset().runs])
     values = objective.network.start
     shifts = 1e-2 * np.abs(values[coordinates.which])
-    residual, changes = objective.linearise(values, coordinates.which, shifts)
-    whole, moved = objective._linearise_as_a_whole(values, coordinates.which, shifts)
+    residual, changes = rows_of(objective, values, coordinates.which, shifts)
+    whole, moved = as_a_whole(objective, values, coordinates.which, shifts)
     assert residual == pytest.approx(whole, abs=1e-9)
     assert changes == pytest.approx(moved, abs=1e-8)
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 from seeds import seed_of
-from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, kelvin_voigt, network, ready, run, runs
+from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, kelvin_voigt, network, ready, run, runs
 
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Outcome, least_within, linearise, refine
+from dashpot.fit.refine import Outcome, least_within, refine
 from dashpot.fit.starts import KEPT, refine_from_starts
 from dashpot.kernel.network import compile_network
 
@@ -101,7 +101,7 @@ def test_what_a_bound_takes_from_a_number_the_others_make_up_for_at_once(limit):
     scored = [run(name, 1e-3, frequency, kelvin_voigt) for name, frequency in (("slow", 3.0), ("fast", 9.0))]
     scored = [replace(each, force=truth.simulate(truth.prepare(each.drive))) for each in scored]
     _, objective, coordinates = ready(branches, scored)
-    residual, jacobian = linearise(objective, coordinates, coordinates.start)
+    residual, jacobian = jacobian_of(objective, coordinates, coordinates.start)
     sides = [(side - coordinates.start) / coordinates.unit for side in (coordinates.low, coordinates.high)]
     exact = coordinates.start + lsq_linear(jacobian.T, -residual, sides, "bvls").x * coordinates.unit
     found = refine(objective, coordinates, coordinates.start, steps=1)
@@ -174,7 +174,7 @@ def test_the_jacobian_is_per_natural_step_on_both_sides_of_a_bound():
         ]
     )
     for at in (point, np.array([coordinates.high[0], np.log(DAMPING)])):
-        _, jacobian = linearise(objective, coordinates, at)
+        _, jacobian = jacobian_of(objective, coordinates, at)
         stiffness = np.exp(at[0]) / STIFFNESS
         assert jacobian[0] == pytest.approx(
             stiffness * expected, rel=1e-4, abs=1e-6 * np.max(np.abs(expected)) * stiffness

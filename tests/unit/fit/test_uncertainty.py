@@ -5,15 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from seeds import seed_of
-from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, network, ready, runs
+from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, network, ready, runs
 
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.identifiability import identifiability
+from dashpot.fit.linear import linearise
 from dashpot.fit.noise_of_runs import white
 from dashpot.fit.objective import Objective
 from dashpot.fit.profile import profile_likelihood
-from dashpot.fit.refine import linearise_marked, refine
+from dashpot.fit.refine import refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import _quantiles, _sandwich, assess_uncertainty, widening
 from dashpot.kernel.network import compile_network
@@ -106,6 +107,11 @@ def test_two_parameters_that_make_up_for_each_other_are_not_known():
     assert high - low < 0.03 * STIFFNESS
 
 
+def products(residual, jacobian, blocks):
+    rows = np.vstack([residual, jacobian])
+    return [rows[:, block] @ rows[:, block].T for block in blocks]
+
+
 def test_the_variance_of_a_mean_is_that_of_the_block_means():
     rng = np.random.default_rng(seed_of("test_uncertainty7"))
     blocks = [slice(k, k + 30) for k in range(0, 240, 30)]
@@ -113,7 +119,7 @@ def test_the_variance_of_a_mean_is_that_of_the_block_means():
     residual -= residual.mean()
     column = np.ones((1, 240))
     root = np.array([[240.0**-0.5]])
-    covariance, freedom = _sandwich(residual, column, blocks, root)
+    covariance, freedom = _sandwich(products(residual, column, blocks), root)
     means = [residual[block].mean() for block in blocks]
     assert covariance[0, 0] == pytest.approx(np.var(means, ddof=1) / 8)
     assert freedom[0] == pytest.approx(8.0)
@@ -123,7 +129,7 @@ def test_a_number_that_shows_in_few_blocks_has_few_degrees_of_freedom():
     column = np.zeros((1, 240))
     column[0, 30:90] = 1.0
     blocks = [slice(k, k + 30) for k in range(0, 240, 30)]
-    _, freedom = _sandwich(np.zeros(240), column, blocks, np.array([[60.0**-0.5]]))
+    _, freedom = _sandwich(products(np.zeros(240), column, blocks), np.array([[60.0**-0.5]]))
     assert freedom[0] == pytest.approx(2.0)
     # Student's t: 4.303 for two degrees of freedom, 1.960 for very many
     assert _quantiles(np.array([2.0, 1e9])) == pytest.approx([4.302653, 1.959964], rel=1e-5)
@@ -135,12 +141,14 @@ class Unsolved(Objective):
     walls: tuple[int, ...] = ()
     both = False
 
-    def linearise(self, values, which, shifts):
-        residual, changes = super().linearise(values, which, shifts)
-        for row, (slot, shift) in enumerate(zip(which, shifts, strict=True)):
-            if slot in self.walls and (self.both or shift > 0.0):
-                changes[row] = np.nan
-        return residual, changes
+    def linearise(self, values, moves, reduce):
+        def lost(number, rows):
+            for row, move in zip(rows[1:], moves[:, self.walls], strict=True):
+                if np.any(move if self.both else move > 0.0):
+                    row[:] = np.nan
+            return reduce(number, rows)
+
+        return super().linearise(values, moves, lost)
 
 
 def at_a_wall(both: bool):
@@ -171,7 +179,8 @@ def test_no_user_of_a_jacobian_sees_what_could_not_be_moved(both):
     spec, plain, coordinates = ready(KELVIN_VOIGT, scored)
     walled = Unsolved(compile_network(spec), scored)
     walled.walls, walled.both = (int(coordinates.which[0]),), both
-    residual, jacobian, unsolved = linearise_marked(walled, coordinates, coordinates.start)
+    unsolved = linearise(walled, coordinates, coordinates.start).unsolved
+    residual, jacobian = jacobian_of(walled, coordinates, coordinates.start)
     assert unsolved.tolist() == [both, False] and np.isfinite(jacobian).all() and np.any(jacobian[1])
     assert not both or not np.any(jacobian[0])
     refined = refine(walled, coordinates, coordinates.start)

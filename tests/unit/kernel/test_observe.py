@@ -81,7 +81,7 @@ def test_a_specimen_that_is_not_held_shows_no_pull():
 
 def test_small_changes_of_a_force_that_is_not_shown_are_not_shown():
     held = read_observation(("measurement.force.least",), np.array([[0.0]]))
-    _, changes, _ = held.linear(wave(TIME), np.ones((2, TIME.size)), DT)
+    _, *changes = held.linear(np.vstack([wave(TIME), np.ones((2, TIME.size))]), DT)
     assert changes == pytest.approx(np.broadcast_to(wave(TIME) > 0.0, (2, TIME.size)).astype(float))
 
 
@@ -130,8 +130,8 @@ def test_small_changes_go_through_the_whole_channel():
     change = np.cos(9.0 * TIME)[None]
     step = 1e-4
     forward, back = (found.see(wave(TIME)[None] + side * step * change, DT) for side in (0.5, -0.5))
-    linear = found.linear(wave(TIME), change, DT)
+    linear = found.linear(np.vstack([wave(TIME), change]), DT)
     assert linear[0] == pytest.approx(found.see(wave(TIME)[None], DT)[0])
     # at the two ends of its range a channel is not smooth
-    near = np.abs(linear[1] - (forward - back) / step)[0] < 1e-5
+    near = np.abs(linear[1] - (forward - back)[0] / step) < 1e-5
     assert near.mean() > 0.97

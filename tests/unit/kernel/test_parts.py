@@ -10,6 +10,7 @@ from verification.shipped import NAMES, Dice, filled
 
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import take_apart
+from dashpot.kernel.scratch import Scratch
 from dashpot.testing import random_drive
 
 DRIVE = random_drive(np.random.default_rng(3), "multisine", 6e-3, 0.01, 400, 1e-3)
@@ -36,7 +37,9 @@ def assert_adds_up(network: CompiledNetwork) -> None:
     values = network.start * np.exp(rng.uniform(-0.1, 0.1, network.start.size))
     which = [k for k, path in enumerate(network.paths) if not path.startswith("measurement")]
     shifts = 1e-3 * np.where(values[which] == 0.0, 1.0, values[which])
-    force, changes = parts.sensitivities(parts.prepare(DRIVE), values, which, shifts)
+    moves = np.zeros((len(which), values.size))
+    moves[np.arange(len(which)), which] = shifts
+    force, *changes = parts.sensitivities(parts.prepare(DRIVE), parts.lanes(values, moves), len(which), Scratch())
     run = network.prepare(DRIVE)
     moved = np.repeat(values[None], len(which), axis=0)
     moved[np.arange(len(which)), which] += shifts
@@ -66,4 +69,4 @@ def test_branches_of_one_make_share_a_block():
 
 def test_what_the_force_channel_does_belongs_to_no_branch():
     network = compiled("it: {element: spring, stiffness: 5}", "measurement: {force: {delay: 1 ms}}\n")
-    assert take_apart(network.spec).owner == ((0, 0), None)
+    assert take_apart(network.spec).outside.tolist() == [False, True]

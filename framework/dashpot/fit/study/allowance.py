@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.api import Setting
 from dashpot.fit.coordinates import Coordinates
-from dashpot.fit.known import KnownNumber, residual_shift
-from dashpot.fit.objective import Objective
+from dashpot.fit.known import KnownNumber
 from dashpot.fit.result import Errors
 from dashpot.model.network import NetworkSpec
 from dashpot.text.quantity import force_dimension
@@ -25,13 +24,13 @@ LEAST_SHARE = 1e-3
 class Allowance:
     """The relative standard error ``share`` of the force of a ``branch``, identified as a ``model``.
 
-    ``shift`` (samples,) is what one standard error does to the residual of the whole.
+    ``step`` (slots,) moves the parameters of the whole by one standard error of that force.
     """
 
     branch: str
     model: str
     share: float
-    shift: Array
+    step: Array
 
 
 @dataclass(frozen=True)
@@ -60,13 +59,12 @@ class OwedToKnown:
         return cls(known.path, known.value.unit, known.value.interval, numbers)
 
 
-def allowance(objective: Objective, branch: str, model: str, share: float) -> Allowance:
-    """The allowance for the force of a branch of the objective's network, at the parameters of its file."""
-    network, slots = objective.network, force_slots(objective.network.spec, branch)
-    start = np.atleast_2d(network.start)[0]
+def allowance(spec: NetworkSpec, branch: str, model: str, share: float) -> Allowance:
+    """The allowance for the force of a branch of a network, at the parameters of its file."""
+    start, slots = np.array([slot.value.number for slot in spec.slots()]), force_slots(spec, branch)
     step = np.zeros_like(start)
     step[slots] = share * start[slots]
-    return Allowance(branch, model, share, residual_shift(objective, step))
+    return Allowance(branch, model, share, step)
 
 
 def force_slots(spec: NetworkSpec, branch: str) -> list[int]:

@@ -181,12 +181,10 @@ class _Conduct:
             branch: force_error((part.fit.errors, part.setting), (errors, self.setting))
             for branch, part in parts.items()
         }
-        allowed = [
-            allowance(objective, branch, part.fit.declared.name, shares[branch]) for branch, part in parts.items()
-        ]
-        known_before = known_numbers(objective)
-        shifts = [*(each.shift for each in allowed), *(each.shift for each in known_before)]
-        known = assess_uncertainty(objective, coordinates, coordinates.start, shifts, self.setting.floor.value)
+        allowed = [allowance(spec, branch, part.fit.declared.name, shares[branch]) for branch, part in parts.items()]
+        known_before = known_numbers(spec)
+        steps = [*(each.step for each in allowed), *(each.step for each in known_before)]
+        known = assess_uncertainty(objective, coordinates, coordinates.start, steps, self.setting.floor.value)
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)
         fit = FitResult(

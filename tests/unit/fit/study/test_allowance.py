@@ -31,9 +31,9 @@ def assessed(share: float):
     for each in scored:
         each.force[:] += rng.standard_normal(each.force.size)
     _, objective, coordinates = ready(SPRINGS, scored)
-    allowed = allowance(objective, "part", "spring", share)
+    allowed = allowance(objective.network.spec, "part", "spring", share)
     plain = assess_uncertainty(objective, coordinates, coordinates.start)
-    return coordinates, plain, assess_uncertainty(objective, coordinates, coordinates.start, [allowed.shift])
+    return coordinates, plain, assess_uncertainty(objective, coordinates, coordinates.start, [allowed.step])
 
 
 def test_a_stiffer_part_leaves_less_stiffness_to_the_rest():

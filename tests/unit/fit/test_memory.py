@@ -1,0 +1,82 @@
+"""Runs go through a fit one by one: the same numbers whatever stays prepared, and memory for a few of them only."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from seeds import seed_of
+from unit.fit.bench import kelvin_voigt, ready, run
+
+from dashpot.fit import shelf
+from dashpot.fit.linear import linearise
+from dashpot.fit.shelf import Shelf
+from dashpot.fit.uncertainty import assess_uncertainty
+
+BRANCHES = """
+    carcass: {element: spring, stiffness: {start: 200 N/mm}}
+    rubber: {repeat: 4, element: maxwell, stiffness: {start: 8 N/mm}, relaxation_time: {start: 30 ms}}
+    filler: {repeat: 4, element: prandtl, stiffness: {start: 9 N/mm}, limit: {start: 6 N}}
+"""
+
+
+def posed(count, jobs=1):
+    rng = np.random.default_rng(seed_of("test_memory"))
+    runs = [run(f"r{k}", 1e-3, rng.uniform(1.0, 20.0), kelvin_voigt, first=0) for k in range(count)]
+    _, objective, coordinates = ready(BRANCHES, runs, jobs=jobs)
+    return objective, coordinates
+
+
+@pytest.fixture
+def no_room(monkeypatch):
+    monkeypatch.setattr(shelf, "ROOM", 0.0)
+
+
+def test_what_is_prepared_anew_each_time_gives_the_same_numbers(no_room, monkeypatch):
+    objective, coordinates = posed(3)
+    anew = linearise(objective, coordinates, coordinates.start).gram, objective.losses(objective.network.start)
+    monkeypatch.setattr(shelf, "ROOM", 1e9)
+    objective, coordinates = posed(3)
+    kept = linearise(objective, coordinates, coordinates.start).gram, objective.losses(objective.network.start)
+    assert np.array_equal(anew[0], kept[0]) and np.array_equal(anew[1], kept[1])
+
+
+def test_threads_do_not_change_a_bit():
+    (one, coordinates), (two, _) = posed(5), posed(5, jobs=2)
+    grams = [linearise(each, coordinates, coordinates.start).gram for each in (one, two)]
+    assert np.array_equal(*grams)
+    widths = [assess_uncertainty(each, coordinates, coordinates.start).widths for each in (one, two)]
+    assert np.array_equal(*widths)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_memory_does_not_grow_with_the_number_of_runs(no_room, jobs):
+    peaks = []
+    for count in (3, 15):
+        objective, coordinates = posed(count, jobs)
+        assess_uncertainty(objective, coordinates, coordinates.start)
+        tracemalloc.start()
+        linearise(objective, coordinates, coordinates.start)
+        assess_uncertainty(objective, coordinates, coordinates.start)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    rows = 8 * objective.runs[0].samples * (1 + len(coordinates.paths))  # twelve runs more would take as many of these
+    assert peaks[1] < peaks[0] + rows
+
+
+class Bytes(bytes):
+    """So many bytes."""
+
+    @property
+    def nbytes(self):
+        return len(self)
+
+
+def test_the_first_are_kept_until_the_room_is_full(monkeypatch):
+    monkeypatch.setattr(shelf, "ROOM", 25.0)
+    made = []
+    answers = Shelf(lambda size: made.append(size) or Bytes(size))
+    for size in (10, 20, 15, 10, 20, 15):
+        assert len(answers(size)) == size
+    assert made == [10, 20, 15, 20]
