@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -35,13 +35,14 @@ class SystemRows:
     excitation: Excitation
     pairs: int
     still: Array
-    pieces: Pieces
-    quick: Pieces | None
+    pieces: Iterable[Piece]
+    quick: Iterable[Piece] | None
 
     @property
     def nbytes(self) -> int:
         """The bytes that stay prepared for the steps which are taken first."""
-        return (self.quick or self.pieces).nbytes
+        first = self.quick or self.pieces
+        return first.nbytes if isinstance(first, Pieces) else 0
 
     def steps(self, quick: bool) -> int:
         """How many long steps lie in a sample."""
