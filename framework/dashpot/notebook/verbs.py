@@ -288,8 +288,8 @@ def diagnose(
 
     Examples:
         >>> diagnosis = dp.diagnose("mount.yaml", data)
-        >>> diagnosis.headline.split()[1:4]
-        ['N', 'of', 'error']
+        >>> diagnosis.headline.split()[0]
+        'RMSE'
     """
     found = registry or load_registry()
     with hearing(progress, cancel) as hear:

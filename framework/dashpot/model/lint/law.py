@@ -66,7 +66,7 @@ class Law:
         share = np.concatenate([there, back, rest])[:, None]
         path = np.array([FAR, -FAR]) * share
         rate = np.gradient(path, PAUSE, axis=0)
-        rate[-PAUSES:] = 0.0
+        rate[-PAUSES - 1 :] = 0.0  # at rest from where the pause begins: no step runs past it
         force = self.force(path, rate, 0.0 * rate, PAUSE)
         pressing = force[-1] * np.sign(path[-1])
         # what cannot be told is not complained of
