@@ -7,6 +7,7 @@ import pytest
 from seeds import seed_of
 
 from dashpot.data.drive import drive_from_samples
+from dashpot.data.smoothing import HALF_WIDTHS, smooth_path
 
 DT, COUNT, AMPLITUDE, PLACES, DEVIATION = 1e-3, 4000, 5e-3, 1e-6, 2e-6
 INSIDE = slice(100, -100)
@@ -59,3 +60,28 @@ def test_a_short_clean_motion_keeps_its_velocity(count, period):
     found = drive_from_samples(DT, AMPLITUDE * np.sin(angle)).velocity[5:-5]
     truth = (AMPLITUDE * 2.0 * np.pi / (period * DT) * np.cos(angle))[5:-5]
     assert np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2)) < {20.0: 2e-5, 8.0: 1e-4, 4.0: 8e-3}[period]
+
+
+def random_motion(rng):
+    """A hundred waves from 1 to 25 Hz."""
+    omega, phase = 2.0 * np.pi * rng.uniform(1.0, 25.0, 100), rng.uniform(0.0, 2.0 * np.pi, 100)
+    angle = np.outer(DT * np.arange(COUNT), omega) + phase
+    return 0.1 * AMPLITUDE * np.sin(angle).sum(axis=1), 0.1 * AMPLITUDE * np.cos(angle) @ omega
+
+
+def rounded_triangles(rng):
+    """One a second; the corners last for some 20 ms."""
+    angle = 2.0 * np.pi * DT * np.arange(COUNT) + rng.uniform(0.0, 2.0 * np.pi)
+    slope = 0.998 * np.cos(angle) / np.sqrt(1.0 - (0.998 * np.sin(angle)) ** 2)
+    return AMPLITUDE * np.arcsin(0.998 * np.sin(angle)), AMPLITUDE * 2.0 * np.pi * slope
+
+
+@pytest.mark.parametrize("share", [1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("motion", [random_motion, rounded_triangles])
+def test_a_noisy_motion_of_many_frequencies_gets_nearly_the_best_window(motion, share):
+    rng = np.random.default_rng(seed_of(f"windows {motion.__name__} {share}"))
+    x, v = motion(rng)
+    noisy = x + share * np.std(x) * rng.standard_normal(COUNT)
+    speeds = [smooth_path(DT, noisy, half)[1] for half in HALF_WIDTHS]
+    errors = [np.sqrt(np.mean((speed - v)[INSIDE] ** 2) / np.mean(v[INSIDE] ** 2)) for speed in speeds]
+    assert error(noisy, v) < 1.3 * min(errors) < 0.5 * errors[0]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.smoothing import gains, half_width, sensor_noise, smooth_path
+from dashpot.data.smoothing import half_width, sensor_noise, smooth_path
 from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
@@ -85,8 +85,8 @@ def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = Non
     _refuse_single(x)
     if smooth is not False and x.size > FEWEST:
         noise = sensor_noise(x)
-        half = half_width(x, noise)
-        if smooth or (noise > NOISE_OF_SPAN * np.ptp(x) and gains(x, noise, half)):
+        half, better = half_width(x, noise)
+        if smooth or (better and noise > NOISE_OF_SPAN * np.ptp(x)):
             return drive_from_path(dt, *smooth_path(dt, x, half))
     return drive_from_path(dt, x, *_rates(dt, x))
 

@@ -1,6 +1,7 @@
-"""A noisy path made smooth: local polynomials, as long as the fastest part of the motion allows.
+"""A noisy path made smooth: local polynomials, as long as gives the best velocity.
 
-Where even the shortest ones would lose more of the motion than they take from the noise, the path is left as it is.
+Longer ones take more of the noise and lose more of the motion. Where even the shortest ones would lose more than they
+take, the path is left as it is.
 """
 
 from __future__ import annotations
@@ -14,12 +15,11 @@ from dashpot.data.white_noise import white_noise
 Array = NDArray[np.float64]
 
 DEGREE = 8
-PASSED = 0.3  # half width times frequency: up to there polynomials of this degree err by less than 1e-5
-SHORTEST, LONGEST = 6, 60  # half widths in samples
+HALF_WIDTHS = (6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 35, 42, 50, 60)  # in samples
 STANDS_OUT = 3.0  # times the density of the white noise
 FEWEST = 128  # samples that have a spectrum
 LENGTH = 256  # samples of a piece, at least, where there are so many
-OF_A_SHORT_PATH = 0.025  # periods a sample
+OF_A_SHORT_PATH = 12  # half width in samples
 PIECES, OVERLAP = 4, 0.7  # of a record whose spectra are averaged
 LINES = 9  # of a spectrum that are averaged
 WIDENED = 7  # lines by which a line is widened, by the window of a piece and by the average
@@ -39,9 +39,26 @@ def smooth_path(dt: float, x: Array, half: int) -> tuple[Array, Array, Array]:
     return place, speed, bend
 
 
-def half_width(x: Array, noise: float) -> int:
-    """The half width in samples with which a path (n,) with this white noise in m is smoothed."""
-    return int(np.clip(PASSED / max(fastest_part(x, noise), 1e-9), SHORTEST, LONGEST))
+def half_width(x: Array, noise: float) -> tuple[int, bool]:
+    """The half width in samples that gives the best velocity of a path (n,) with this white noise in m.
+
+    And whether it is better than that of the interpolating quintic spline. What is expected of a window is the motion
+    that it loses, by the spectrum of the path, and the noise that it lets pass.
+    """
+    if x.size < FEWEST:
+        return OF_A_SHORT_PATH, False
+    frequency, power = _spectrum(x)
+    # what the window of a piece spreads beyond the fastest part is no motion
+    moving = (power > STANDS_OUT * 2.0 * noise**2) & (frequency <= fastest_part(x, noise) + frequency[1])
+    angle = 2.0 * np.pi * frequency
+
+    def expected(response: Array) -> float:
+        lost = np.sum(power[moving] * (response - angle)[moving] ** 2)
+        return float(lost + 2.0 * noise**2 * np.sum(response**2))
+
+    error, best = min((expected(_response(half, frequency)), half) for half in HALF_WIDTHS if 2 * half < x.size)
+    spline = (50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)) / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
+    return best, error < expected(spline)
 
 
 def sensor_noise(x: Array) -> float:
@@ -52,30 +69,8 @@ def sensor_noise(x: Array) -> float:
     return min(white_noise(x), float(np.sqrt(0.5 * np.median(power[frequency > NOISE_ALONE]))))
 
 
-def gains(x: Array, noise: float, half: int) -> bool:
-    """Whether windows of this half width give a better velocity than the interpolating quintic spline."""
-    if x.size < FEWEST:
-        return False
-    frequency, power = _spectrum(x)
-    # what the window of a piece spreads beyond the fastest part is no motion
-    moving = (power > STANDS_OUT * 2.0 * noise**2) & (frequency <= fastest_part(x, noise) + frequency[1])
-    at, fit = _window(half)
-    steps = np.arange(-half, half + 1)
-    weights = _rate(at, fit, 1)[half] / half
-    smoothed = np.sin(2.0 * np.pi * np.outer(frequency, steps)) @ weights
-    angle = 2.0 * np.pi * frequency
-    spline = (50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)) / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
-    lost, spoilt = (
-        np.sum(power[moving] * (response - angle)[moving] ** 2) + 2.0 * noise**2 * np.sum(response**2)
-        for response in (smoothed, spline)
-    )
-    return bool(lost < spoilt)
-
-
 def fastest_part(x: Array, noise: float) -> float:
     """The frequency in periods a sample above which a path (n,) holds next to no velocity but that of white noise."""
-    if x.size < FEWEST:
-        return OF_A_SHORT_PATH
     frequency, power = _spectrum(x)
     excess = np.where(power > STANDS_OUT * 2.0 * noise**2, power, 0.0) * frequency**2
     above = np.cumsum(excess[::-1])[::-1]
@@ -94,6 +89,14 @@ def _spectrum(x: Array, window: str | tuple[str, float] = "blackmanharris") -> t
 def _window(half: int) -> tuple[Array, NDArray[np.floating]]:
     at = np.linspace(-1.0, 1.0, 2 * half + 1)
     return at, np.linalg.pinv(legendre.legvander(at, min(DEGREE, 2 * half)))
+
+
+def _response(half: int, frequency: Array) -> Array:
+    """The velocity per unit of displacement that a window gives at frequencies (f,) in periods a sample."""
+    at, fit = _window(half)
+    weights = _rate(at, fit, 1)[half] / half
+    found: Array = np.sin(2.0 * np.pi * np.outer(frequency, np.arange(-half, half + 1))) @ weights
+    return found
 
 
 def _rate(at: Array, fit: NDArray[np.floating], order: int) -> Array:
