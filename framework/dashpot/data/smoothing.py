@@ -6,6 +6,8 @@ take, the path is left as it is.
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
@@ -25,6 +27,7 @@ LINES = 9  # of a spectrum that are averaged
 WIDENED = 7  # lines by which a line is widened, by the window of a piece and by the average
 NEGLIGIBLE = 1e-6  # of the mean square of the velocity
 DARK = ("chebwin", 160.0)  # dB: what this window spreads is no noise
+FREQUENCIES = np.linspace(0.0, 0.5, 4097)  # periods a sample, at which the responses of windows are known
 NOISE_ALONE = 0.2  # periods a sample: beyond half of all lines are taken for noise
 
 
@@ -48,17 +51,18 @@ def half_width(x: Array, noise: float) -> tuple[int, bool]:
     if x.size < FEWEST:
         return OF_A_SHORT_PATH, False
     frequency, power = _spectrum(x)
+    stands_out = power > STANDS_OUT * 2.0 * noise**2
     # what the window of a piece spreads beyond the fastest part is no motion
-    moving = (power > STANDS_OUT * 2.0 * noise**2) & (frequency <= fastest_part(x, noise) + frequency[1])
-    angle = 2.0 * np.pi * frequency
+    moving = stands_out & (frequency <= _fastest_part(frequency, power * stands_out) + frequency[1])
 
     def expected(response: Array) -> float:
-        lost = np.sum(power[moving] * (response - angle)[moving] ** 2)
-        return float(lost + 2.0 * noise**2 * np.sum(response**2))
+        """The mean square, but for a factor, of the velocity that is lost and of the noise that passes."""
+        at = np.interp(frequency, FREQUENCIES, response)
+        lost = np.sum(power[moving] * (at - 2.0 * np.pi * frequency)[moving] ** 2)
+        return float(lost + 2.0 * noise**2 * np.sum(at**2))
 
-    error, best = min((expected(_response(half, frequency)), half) for half in HALF_WIDTHS if 2 * half < x.size)
-    spline = (50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)) / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
-    return best, error < expected(spline)
+    error, best = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
+    return best, error < expected(_response_of_spline())
 
 
 def sensor_noise(x: Array) -> float:
@@ -69,11 +73,9 @@ def sensor_noise(x: Array) -> float:
     return min(white_noise(x), float(np.sqrt(0.5 * np.median(power[frequency > NOISE_ALONE]))))
 
 
-def fastest_part(x: Array, noise: float) -> float:
-    """The frequency in periods a sample above which a path (n,) holds next to no velocity but that of white noise."""
-    frequency, power = _spectrum(x)
-    excess = np.where(power > STANDS_OUT * 2.0 * noise**2, power, 0.0) * frequency**2
-    above = np.cumsum(excess[::-1])[::-1]
+def _fastest_part(frequency: Array, power: Array) -> float:
+    """The frequency in periods a sample above which a motion of this power (f,) holds next to no velocity."""
+    above = np.cumsum((power * frequency**2)[::-1])[::-1]
     last = np.count_nonzero(above > NEGLIGIBLE * above[0]) - 1
     return float(frequency[max(int(last) - WIDENED, 0)])
 
@@ -91,12 +93,20 @@ def _window(half: int) -> tuple[Array, NDArray[np.floating]]:
     return at, np.linalg.pinv(legendre.legvander(at, min(DEGREE, 2 * half)))
 
 
-def _response(half: int, frequency: Array) -> Array:
-    """The velocity per unit of displacement that a window gives at frequencies (f,) in periods a sample."""
+@cache
+def _response(half: int) -> Array:
+    """The velocity (f,) per unit of displacement that a window gives at ``FREQUENCIES``."""
     at, fit = _window(half)
     weights = _rate(at, fit, 1)[half] / half
-    found: Array = np.sin(2.0 * np.pi * np.outer(frequency, np.arange(-half, half + 1))) @ weights
+    found: Array = np.sin(2.0 * np.pi * np.outer(FREQUENCIES, np.arange(-half, half + 1))) @ weights
     return found
+
+
+@cache
+def _response_of_spline() -> Array:
+    angle = 2.0 * np.pi * FREQUENCIES
+    found: Array = 50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)
+    return found / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
 
 
 def _rate(at: Array, fit: NDArray[np.floating], order: int) -> Array:
