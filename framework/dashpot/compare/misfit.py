@@ -71,7 +71,7 @@ def _split(run: Run, residual: Array) -> _Parts | None:
     oscillation = track(run)
     if oscillation is None:
         return None
-    orders = harmonics_of(residual, oscillation)
+    orders = harmonics_of(residual, oscillation, confident=False)
     half = 0.5 * (orders.sine**2 + orders.cosine**2)
     energy = {
         "storage": 0.5 * orders.sine[:, 0] ** 2,

@@ -56,7 +56,7 @@ def _sweeps(tracked: Mapping[str, Oscillation], conditions: Mapping[str, Conditi
 
 def _curve(run: Run, track: Oscillation, conditions: Conditions, residuals: Residuals) -> dict[str, Any]:
     points = POINTS if conditions.frequency is None else 1
-    measured = _averaged(harmonics_of(run.force, track), points)
+    measured = _averaged(harmonics_of(run.force, track, confident=False), points)
     return {
         "run": run.name,
         "amplitude": conditions.amplitude,
@@ -64,7 +64,7 @@ def _curve(run: Run, track: Oscillation, conditions: Conditions, residuals: Resi
         "frequency": measured.frequency,
         "measured": _response(measured),
         "simulated": {
-            label: _response(_averaged(harmonics_of(run.force - found[run.name], track), points))
+            label: _response(_averaged(harmonics_of(run.force - found[run.name], track, confident=False), points))
             for label, found in residuals.items()
         },
     }
@@ -88,7 +88,7 @@ def _harmonics(
 ) -> dict[str, list[float]]:
     groups: dict[float, list[Array]] = {}
     for name, track in tracked.items():
-        orders = harmonics_of(residuals[name], track)
+        orders = harmonics_of(residuals[name], track, confident=False)
         size = np.sqrt(np.mean(orders.sine**2 + orders.cosine**2, axis=0))[:HARMONICS]
         groups.setdefault(conditions[name].amplitude, []).append(size)
     return {pretty(group, "m"): np.mean(groups[group], axis=0).tolist() for group in sorted(groups)}

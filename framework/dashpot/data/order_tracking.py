@@ -151,16 +151,18 @@ def follow(
     )
 
 
-def harmonics_of(signal: np.ndarray, oscillation: Oscillation) -> DynamicStiffness:
+def harmonics_of(signal: np.ndarray, oscillation: Oscillation, confident: bool = True) -> DynamicStiffness:
     """Stiffness and harmonics of any force signal (n,) N relative to the motion, of a measured force or of a residual.
 
-    For a residual, storage and loss are the missing dK' and dK''.
+    For a residual, storage and loss are the missing dK' and dK''. The `confidence`, for which the noise of the whole
+    signal is read, is NaN where it is not asked for.
     """
     fit = fit_orders(oscillation.angle, oscillation.windows, signal[:, None], ORDERS)
     harmonics = fit.harmonics[:, :, 0]
     stiffness = harmonics[:, 0] / oscillation.motion
     lead = np.angle(1j * oscillation.motion)
     turned = harmonics * np.exp(-1j * np.outer(lead, np.arange(1, ORDERS + 1)))
+    magnitude = np.abs(stiffness)
     return DynamicStiffness(
         time=oscillation.time,
         frequency=oscillation.frequency,
@@ -173,7 +175,7 @@ def harmonics_of(signal: np.ndarray, oscillation: Oscillation) -> DynamicStiffne
         cosine=turned.real,
         offset=fit.mean[:, 0],
         noise=np.sqrt(fit.variance[:, 0]),
-        confidence=_confidence(signal, oscillation, fit, np.abs(stiffness)),
+        confidence=_confidence(signal, oscillation, fit, magnitude) if confident else np.full_like(magnitude, np.nan),
         periods=oscillation.windows.periods,
         step=oscillation.windows.step,
     )
