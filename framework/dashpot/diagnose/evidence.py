@@ -85,16 +85,18 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
 def _in_phase(refitter: Refitter, look: Look) -> Array:
     """For each fold (folds,) the share of its runs whose loss angle is below 45 degrees.
 
-    Of a sweep or a random motion it is that of the least squares of the force over deflection and velocity.
+    Of a sweep or a random motion it is that of the least squares of the force over deflection, velocity and
+    acceleration: what follows the velocity is lost, what follows the other two is stored.
     """
     found = np.zeros((2, len(look.folds.names)))
     for run in refitter.runs:
-        motion = np.array([run.drive.displacement, run.drive.velocity])[:, run.first :]
+        drive = run.drive
+        motion = np.array([drive.velocity, drive.displacement, drive.acceleration])[:, run.first :]
         motion = motion - motion.mean(axis=1, keepdims=True)
         motion /= np.maximum(motion.std(axis=1, keepdims=True), 1e-300)
-        stiffness, damping = np.linalg.lstsq(motion.T, run.force[run.first :], rcond=None)[0]
+        parts = motion * np.linalg.lstsq(motion.T, run.force[run.first :], rcond=None)[0][:, None]
         at = list(look.folds.parts[run.name][1])
-        found[:, at] += np.array([[1.0], [float(abs(damping) < abs(stiffness))]])
+        found[:, at] += np.array([[1.0], [float(np.std(parts[0]) < np.std(parts[1] + parts[2]))]])
     return found[1] / np.maximum(found[0], 1.0)
 
 

@@ -64,6 +64,18 @@ def test_dry_friction_behind_a_spring_is_no_delay():
     assert not proven(dataset(late(rubbing, 1.2e-3)), "delay")
 
 
+def heavy(motion, stiffness=40e3, damping=800.0, mass=28.0):
+    """A mass that moves along with a spring and a dashpot (n,) N, driven through their resonance at 6 Hz."""
+    rate = 2.0 * np.pi * (1.0 + (motion.fastest - 1.0) * TIME / TIME[-1])
+    bend = 2.0 * np.pi * (motion.fastest - 1.0) / TIME[-1] * np.cos(motion.phase()) - rate**2 * np.sin(motion.phase())
+    return stiffness * motion.x() + damping * motion.v() + mass * motion.amplitude * bend
+
+
+def test_a_mass_that_is_driven_through_its_resonance_is_proven():
+    """Stiffness and inertia cancel there, and the loss angle of the whole is that of what is left of both."""
+    assert proven(dataset(heavy), "moving_mass")
+
+
 def soft_fixture(motion, compliance=1e-6, damping=4e3):
     """Spring and dashpot behind a fixture of 1 kN/mm (n,) N: F + T dF/dt = (k x + d v) / (1 + k c)."""
     fine = np.linspace(0.0, TIME[-1], 10 * (TIME.size - 1) + 1)
