@@ -36,6 +36,7 @@ from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers, rename
 from dashpot.model.reading import parse_network
+from dashpot.text.name import joined_name
 from dashpot.triage.examine import Triage
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Findings:
         """
         words = list(dict.fromkeys(term.cause.word for term in self.pursuit.best.model.terms))
         words = words or ["corrected"] * bool(self.accused)
-        return f"{self.model.name}+{'+'.join(words)}.yaml" if words else None
+        return f"{joined_name(self.model.name, words)}.yaml" if words else None
 
     def probability(self, name: tuple[str, str]) -> float:
         """How sure a cause is, beside the structure that stays unexplained."""

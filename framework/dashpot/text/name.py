@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from unicodedata import category
 
 LONGEST = 120
@@ -21,3 +22,13 @@ def shown(text: str) -> str:
     """A text in quotes, with what cannot be seen written out, and not all of it where it is too long."""
     seen = "".join(sign if category(sign) not in UNSEEN else f"\\u{ord(sign):04x}" for sign in text[:LONGEST])
     return f"'{seen}'" if len(text) <= LONGEST else f"'{seen}...' of {len(text)} characters"
+
+
+def joined_name(name: str, words: Sequence[str]) -> str:
+    """A name followed by words, with ``+`` between them: as many words as it may have, then how many more there are."""
+    for count in range(len(words), 0, -1):
+        more = [f"{len(words) - count}_more"] * (count < len(words))
+        if is_name(found := "+".join([name, *words[:count], *more])):
+            return found
+    more = f"+{len(words)}_more"
+    return f"{name[: LONGEST - len(more)]}{more}"

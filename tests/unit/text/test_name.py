@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from dashpot.text.name import is_name, shown
+from dashpot.text.name import LONGEST, is_name, joined_name, shown
 
 
 @pytest.mark.parametrize("name", ["mount", "Stoßdämpfer 2", "a+b-c_1", "20 °C", "x" * 120, "橡胶", "v1.2"])
@@ -43,3 +45,17 @@ def test_what_cannot_be_a_file_or_deceives_the_reader_is_none(name):
 def test_what_cannot_be_seen_is_written_out():
     assert shown("a\u202eb\n") == "'a\\u202eb\\u000a'"
     assert shown("x" * 300) == f"'{'x' * 120}...' of 300 characters"
+
+
+@given(st.text("abc_", min_size=1, max_size=LONGEST), st.lists(st.text("xyz_", min_size=1, max_size=30), min_size=1))
+def test_a_joined_name_is_a_name_and_tells_how_many_words_it_has_no_room_for(name, words):
+    found = joined_name(name, words)
+    assert is_name(found)
+    whole = "+".join([name, *words])
+    if len(whole) <= LONGEST:
+        assert found == whole
+    else:
+        start, _, more = found.rpartition("+")
+        left = int(more.removesuffix("_more"))
+        assert 1 <= left <= len(words) and whole.startswith(start)
+        assert left == len(words) or start == "+".join([name, *words[: len(words) - left]])
