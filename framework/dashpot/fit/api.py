@@ -24,6 +24,7 @@ from dashpot.data.ends import one_force_each
 from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
@@ -175,6 +176,7 @@ def fit_prepared(
     steps = [each.step for each in known_numbers(fitted)]
     known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
+    intervals |= derived_intervals(fitted, coordinates, known)
     return FitResult(
         declared=spec,
         fitted=with_intervals(fitted, intervals),

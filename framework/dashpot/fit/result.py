@@ -141,9 +141,10 @@ class FitResult:
             lines.append(f"noise floor {self.noise_floor.value:.4g} N, from {self.noise_floor.source}")
         unknown = {*self.idle, *(self.known.undetermined if self.known else ())}
         for slot in self.fitted.slots():
-            if slot.value.searched and "[" not in slot.path:
+            if (slot.value.searched or slot.value.expression) and "[" not in slot.path:
                 interval = "" if slot.path in unknown else _interval(slot.value)
-                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}")
+                follows = f"  = {slot.value.expression}" if slot.value.expression else ""
+                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}{follows}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
         told = identifiability_of(self.fitted, self.known) if self.known else {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
@@ -181,6 +182,7 @@ def parameters_of(spec: NetworkSpec) -> dict[str, Any]:
             "unit": slot.value.unit,
             "role": slot.value.role,
             "interval": list(slot.value.interval) if slot.value.interval else None,
+            **({"expression": slot.value.expression} if slot.value.expression else {}),
         }
         for slot in spec.slots()
     }

@@ -147,10 +147,22 @@ def _value() -> Schema:
         ("known", "interval"),
         "a parameter known from elsewhere, not searched",
     )
+    follows = s.mapping(
+        {"expression": {"anyOf": [s.text(), s.items(s.text(), minItems=1)]}},
+        ("expression",),
+        "follows from other parameters: `0.5 * front.stiffness`",
+    )
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
     fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a parameter that is not searched")
     return s.by_key(
-        {"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
+        {
+            "setting": given,
+            "known": measured,
+            "fixed": fixed,
+            "expression": follows,
+            "value": known,
+            "start": searched,
+        },
         {"if": {"type": "object"}, "then": searched, "else": plain},
     )
 

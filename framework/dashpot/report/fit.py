@@ -77,8 +77,11 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
     )
     remarks |= dict.fromkeys(fit["without_influence"], "without influence on these data")
     found = {
-        path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
+        path: entry
+        for path, entry in fit["parameters"].items()
+        if (entry["role"] != "fixed" or "expression" in entry) and ("[" in path) is knots
     }
+    remarks |= {path: f"= {entry['expression']}" for path, entry in found.items() if "expression" in entry}
     unknown = {*fit["without_influence"], *(fit.get("identifiability") or {}).get("undetermined", ())}
     rows = [
         {"number": path, **_in_rig_units(entry, path not in unknown), "remark": remarks.get(path)}
