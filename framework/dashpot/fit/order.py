@@ -123,7 +123,7 @@ def _in_parallel(group: Group) -> Iterator[tuple[int, Branch]]:
 def _distinct(slot: Slot) -> object:
     # what would tell a branch from another one by this number
     value = slot.value
-    return (value.bounds, value.scale) if value.searched else value.number
+    return (value.bounds, value.scale, value.prior) if value.searched else value.number
 
 
 def _key(branch: Branch) -> tuple[str | None, str | None]:

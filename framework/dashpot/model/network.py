@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 
 from dashpot.model.element import Curve, Element, Scale
 from dashpot.model.identified import Identified
+from dashpot.model.prior import Prior
 from dashpot.text.document import Document
 from dashpot.text.node import Node
 from dashpot.text.problem import Place
@@ -38,7 +39,8 @@ class Value:
     ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``setting``
     the setting by which a run may give the number itself, ``node`` where it stands. A ``known`` number is fixed, but
     its interval is one to be allowed for: it was weighed or taken from a drawing. With ``over`` it is another number
-    in each run, as a setting of the run says. A number with an ``expression`` follows from others.
+    in each run, as a setting of the run says. A number with an ``expression`` follows from others. A ``prior`` is
+    what was known of a searched number before.
     """
 
     number: float
@@ -52,6 +54,7 @@ class Value:
     known: bool = False
     over: Over | None = None
     expression: str = ""
+    prior: Prior | None = None
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property

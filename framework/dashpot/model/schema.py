@@ -10,6 +10,7 @@ from dashpot.model.curves import FACTOR, FEWEST_KNOTS, MOST_KNOTS, SOURCES
 from dashpot.model.element import Curve, Element, Parameter, Scale
 from dashpot.model.identified import QUANTITIES
 from dashpot.model.joints import HOLDS, WEIGHTS
+from dashpot.model.prior import LAWS
 from dashpot.model.reading import FORMAT, MEASUREMENT
 from dashpot.model.values import Kind
 from dashpot.text import schema as s
@@ -135,6 +136,7 @@ def _value() -> Schema:
             "description": "how well it is known",
         },
         "over": s.part("over"),
+        "prior": _prior(),
     }
     numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
     searched = s.mapping({"start": numbers, **found}, ("start",), "a parameter to be identified")
@@ -165,6 +167,16 @@ def _value() -> Schema:
         },
         {"if": {"type": "object"}, "then": searched, "else": plain},
     )
+
+
+def _prior() -> Schema:
+    """What is known of a number before."""
+    numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
+    laws: dict[str, Schema] = {
+        law: s.mapping({law: numbers, "deviation": numbers}, (law, "deviation"), f"a {law} distribution")
+        for law in LAWS
+    }
+    return s.by_key(laws, {"type": "object", "required": [LAWS[0]]})
 
 
 def _over() -> Schema:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from dashpot.model.element import Parameter, Scale
 from dashpot.model.network import Over, Role, Value
 from dashpot.model.over import read_over
+from dashpot.model.prior import Prior, read_prior
 from dashpot.text.form import Form, read_items, read_quantity, read_text
 from dashpot.text.node import Mapping, Node, Sequence
 from dashpot.text.problem import Place, Problem
@@ -113,11 +114,12 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     scale: Scale = "log" if form.choice("scale", ("log", "linear"), kind.scale) == "log" else "linear"
     interval = form.take("interval", lambda inner: _read_interval(_pick_pair(inner, reading), kind.unit), None)
     over = _read_over(form, kind, reading)
+    prior = _read_prior(form, kind, reading)
     form.close()
     if number is None:
         return None
     role: Role = "identified" if key == "value" else "free"
-    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, over=over, node=node)
+    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, over=over, prior=prior, node=node)
     for complaint in _complaints(value):
         reading.complain(form.place_of(key), complaint)
     return value
@@ -182,6 +184,11 @@ def _read_fixed(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, over=over, node=node)
 
 
+def _read_prior(form: Form, kind: Kind, reading: Reading) -> Prior | None:
+    below = form.form("prior", f"{reading.what}, 'prior'", None)
+    return None if below is None else read_prior(below, kind, reading)
+
+
 def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
     below = form.form("over", f"{reading.what}, 'over'", None)
     if below is None:
@@ -241,6 +248,11 @@ def _complaints(value: Value) -> Iterator[str]:
         yield (
             f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}; move it, "
             "or widen the bounds"
+        )
+    if value.prior and not low <= value.prior.middle <= high:
+        yield (
+            f"expected a prior around a number inside its bounds {low:g} to {high:g} {value.unit}, got "
+            f"{value.prior.middle:g}; check its unit, or widen the bounds"
         )
     lowest = min(low, value.number) if value.bounds else value.number
     if value.scale == "log" and lowest <= 0.0:
