@@ -187,7 +187,7 @@ def fit_prepared(
     before, error = rows_beside(objective, coordinates, fitted, setting.floor.value)
     known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value, before, error)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
-    intervals |= derived_intervals(fitted, coordinates, known)
+    intervals |= derived_intervals(fitted.slots(), coordinates, known)
     return FitResult(
         declared=spec,
         fitted=with_intervals(fitted, intervals),

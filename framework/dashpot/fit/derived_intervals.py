@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.linear import STEP
 from dashpot.fit.uncertainty import Uncertainty
-from dashpot.model.network import NetworkSpec
+from dashpot.model.network import Slot
 
 
 def derived_intervals(
-    spec: NetworkSpec, coordinates: Coordinates, known: Uncertainty
+    slots: Sequence[Slot], coordinates: Coordinates, known: Uncertainty
 ) -> dict[str, tuple[float, float]]:
     """The 95 % interval, in SI, of each number with an expression over identified ones, by path.
 
@@ -22,7 +24,7 @@ def derived_intervals(
     point, step = coordinates.start, STEP * coordinates.unit
     values = coordinates.to_values(np.concatenate([point + np.diag(step), point - np.diag(step)]))
     slopes = (values[: point.size] - values[point.size :]) / (2.0 * STEP)
-    slots, found = spec.slots(), {}
+    found = {}
     for slot, rule in rules.items():
         felt = slopes[:, slot] != 0.0
         if felt.any():

@@ -143,12 +143,15 @@ class FitResult:
             "at_bound": list(self.at_bound),
             "without_influence": list(self.idle),
             "spread": list(self.spread),
-            "identifiability": self._identifiability() if self.known else None,
+            "identifiability": self.identifiability,
             **({"priors": describe_priors(self.priors)} if self.priors else {}),
         }
 
-    def _identifiability(self) -> dict[str, Any]:
-        assert self.known is not None
+    @property
+    def identifiability(self) -> dict[str, Any] | None:
+        """What the data tell of the parameters as it stands in result files; None where it was not looked at."""
+        if self.known is None:
+            return None
         told = identifiability_of(self.fitted, self.known) | {"undetermined": self.undetermined}
         if self.priors:
             told["weak"] = [f"without the priors {sentence}" for sentence in told["weak"]]
@@ -166,7 +169,7 @@ class FitResult:
                 follows = f"  = {slot.value.expression}" if slot.value.expression else ""
                 lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}{follows}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
-        told = self._identifiability() if self.known else {"weak": (), "may_go": ()}
+        told = self.identifiability or {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
         lines += [f"  {each.sentence}" for each in self.priors]
         return "\n".join([*lines, self.ending + but_undetermined(told.get("undetermined", ()))])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +12,7 @@ from numpy.typing import NDArray
 from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
-from dashpot.fit.linear import Linear, linearise
-from dashpot.fit.objective import Objective
+from dashpot.fit.linear import Linear, Loss, linearise
 from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
@@ -27,6 +27,13 @@ SHARE = 1e-6
 MOST_LEVERAGE = 0.99
 ABSORBED = 8.0
 NOISE_KNOWN = 1.05  # noise floors may be this much too low
+
+
+class OfRuns(Loss, Protocol):
+    """A loss of ``runs``, with ``total`` samples."""
+
+    runs: tuple[ScoredRun, ...]
+    total: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +65,7 @@ class Uncertainty:
 
 
 def assess_uncertainty(
-    objective: Objective,
+    objective: OfRuns,
     coordinates: Coordinates,
     point: Array,
     systematic: Sequence[Array] = (),
@@ -114,7 +121,7 @@ def assess_uncertainty(
     )
 
 
-def effective_error(objective: Objective, coordinates: Coordinates, point: Array, noise: float | None = None) -> float:
+def effective_error(objective: OfRuns, coordinates: Coordinates, point: Array, noise: float | None = None) -> float:
     """What a sample counts for in N, were samples independent: as much as the blocks of the record say at a point (p,).
 
     The standard deviation of white noise; more where residuals are coloured, as scores of blocks then scatter more than
@@ -180,7 +187,7 @@ def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
-def _blocks(objective: Objective, linear: Linear) -> Iterator[Array]:
+def _blocks(objective: OfRuns, linear: Linear) -> Iterator[Array]:
     """The products (1 + p, 1 + p) of the rows of each block, group by group as soon as its last run was seen."""
     groups = moved_alike(objective.runs)
     group_of = {number: group for group in groups for number in group}

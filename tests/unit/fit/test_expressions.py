@@ -52,7 +52,7 @@ def test_the_interval_of_what_follows_is_that_of_its_origin_times_the_slope(nois
     fitted = with_point(spec, coordinates, found.point)
     coordinates = search_coordinates(fitted)
     known = assess_uncertainty(objective, coordinates, coordinates.start)
-    [(path, pair)] = derived_intervals(fitted, coordinates, known).items()
+    [(path, pair)] = derived_intervals(fitted.slots(), coordinates, known).items()
     assert path == "oil.damping"
     # the interval of the stiffness is symmetric in the logarithm, that of the damping to first order
     assert pair == pytest.approx([TIME * side for side in known.intervals[0]], rel=1e-4)

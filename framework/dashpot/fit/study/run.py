@@ -198,7 +198,7 @@ class _Conduct:
         told = identifiability(objective, coordinates, coordinates.start, noise)
         fit = FitResult(
             declared=plan.network,
-            fitted=with_intervals(spec, intervals | derived_intervals(spec, coordinates, known)),
+            fitted=with_intervals(spec, intervals | derived_intervals(spec.slots(), coordinates, known)),
             errors=errors,
             noise_floor=self.setting.floor,
             split=self.setting.split,
