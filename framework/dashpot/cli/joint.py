@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("joint")
-@click.argument("file", metavar="JOINT", type=click.Path(path_type=Path, exists=True, dir_okay=False))
+@click.argument("file", metavar="JOINT", type=click.Path(path_type=Path))
 @output_option("Folder for the identified networks SPECIMEN.yaml, joint.json, shared.csv and report.html.")
 @switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(file: Path, output: Path, switches: Switches) -> None:

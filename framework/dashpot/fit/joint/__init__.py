@@ -2,7 +2,7 @@
 
 declaration - what a joint file says
 reading     - reading it
-common      - the coordinates of all specimens, shared ones once
+tied        - the coordinates of all specimens, shared ones once
 objective   - the misfit of all specimens
 run         - each specimen alone, then all together
 """

@@ -14,9 +14,9 @@ from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import POLISH_STEPS, Progress, Setting, fit_prepared, measure_errors, prepare, silent
 from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.derived_intervals import derived_intervals
-from dashpot.fit.joint.common import Common, common_coordinates
 from dashpot.fit.joint.declaration import JointSpec, Tie
 from dashpot.fit.joint.objective import JointObjective, Member
+from dashpot.fit.joint.tied import Common, common_coordinates
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.known import known_numbers
 from dashpot.fit.objective import Objective

@@ -12,11 +12,11 @@ from unit.fit.bench import ready, runs
 import dashpot as dp
 from dashpot import load_registry
 from dashpot.fit.coordinates import search_coordinates
-from dashpot.fit.joint.common import common_coordinates
 from dashpot.fit.joint.declaration import Tie
 from dashpot.fit.joint.objective import JointObjective, Member
 from dashpot.fit.joint.reading import read_joint
 from dashpot.fit.joint.run import fit_joint
+from dashpot.fit.joint.tied import common_coordinates
 from dashpot.fit.linear import linearise
 from dashpot.fit.refine import refine
 from dashpot.text.problem import InputError
