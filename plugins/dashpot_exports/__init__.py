@@ -6,6 +6,7 @@
 - `numba`    a Python module for numba
 - `modelica` a sampled Modelica model with flanges of the standard library
 - `gbs`      a bushing property file with a static curve and a constant damping
+- `petab` the tables of a parameter estimation problem, with the runs of a dataset
 - `stiffness_table` dynamic stiffness and loss angle as CSV
 - `sines` what tables and conversions are made with
 - `unit` `variables` what both versions of the mock-up units share; `component.h` `fmi2.c` `fmi3.c` their sources
@@ -25,6 +26,7 @@ def dashpot_exports() -> list[type]:
     from dashpot_exports.gbs import Gbs
     from dashpot_exports.modelica import Modelica
     from dashpot_exports.numba import Numba
+    from dashpot_exports.petab import Petab
     from dashpot_exports.stiffness_table import StiffnessTable
 
-    return [C, Fmu, Fmu2, Gbs, Modelica, Numba, StiffnessTable]
+    return [C, Fmu, Fmu2, Gbs, Modelica, Numba, Petab, StiffnessTable]

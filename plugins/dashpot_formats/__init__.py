@@ -26,9 +26,10 @@ def dashpot_formats() -> list[type]:
     from dashpot_formats.mat import Mat
     from dashpot_formats.mdf import Mdf
     from dashpot_formats.npz import Npz
+    from dashpot_formats.petab import Petab
     from dashpot_formats.rpc import Rpc
     from dashpot_formats.tdms import Tdms
     from dashpot_formats.tydex import Tydex
     from dashpot_formats.xlsx import Xlsx
 
-    return [Csv, Hdf5, JsonMatrix, Lvm, Mat, Mdf, Npz, Rpc, Tdms, Tydex, Xlsx]
+    return [Csv, Hdf5, JsonMatrix, Lvm, Mat, Mdf, Npz, Petab, Rpc, Tdms, Tydex, Xlsx]

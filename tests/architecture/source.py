@@ -11,7 +11,15 @@ ROOT = Path(__file__).resolve().parents[2]
 FRAMEWORK = ROOT / "framework" / "dashpot"
 PLUGINS = ROOT / "plugins"
 # what users are told: the README, and where it sends them
-REFERENCE = ("network-file", "dataset-file", "study-file", "campaign-file", "diagnosis-file", "command-line")
+REFERENCE = (
+    "network-file",
+    "dataset-file",
+    "study-file",
+    "joint-file",
+    "campaign-file",
+    "diagnosis-file",
+    "command-line",
+)
 MANUAL = (ROOT / "README.md", *(ROOT / "docs" / "reference" / f"{name}.md" for name in REFERENCE))
 
 

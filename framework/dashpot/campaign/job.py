@@ -81,7 +81,7 @@ def with_held(spec: NetworkSpec, held: Mapping[str, float]) -> NetworkSpec:
     """The network with some numbers fixed at values in SI."""
     slots = {slot.path: slot.value for slot in spec.slots()}
     return spec.with_values(
-        {path: replace(slots[path], number=number).as_role("fixed") for path, number in held.items()}
+        {path: replace(slots[path], number=number, expression="").as_role("fixed") for path, number in held.items()}
     )
 
 

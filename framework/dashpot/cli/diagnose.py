@@ -48,6 +48,9 @@ def verb(
 
     session = Session(switches, optimizer, settings)
     network, measured = session.network(model), session.dataset(dataset)
+    priors = [slot.path for slot in network.slots() if slot.value.prior]
+    if priors:
+        session.talk.warn(f"a diagnosis asks what the data say: the priors of {', '.join(priors)} do not count in it")
     folder = session.claim(output, *diagnosis_files(network.name))
     diagnosis = session.run(partial(diagnose, relevance=relevance / 100.0), network, measured)
     with session.watch("writing the report"):

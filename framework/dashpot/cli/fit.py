@@ -15,10 +15,23 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @click.command("fit")
 @model_and_dataset()
 @output_option("Folder for the identified network NAME.yaml, fit.json, tables and report.html.")
+@click.option(
+    "--prior",
+    "earlier",
+    metavar="NETWORK",
+    type=click.Path(path_type=Path),
+    help="Identified network of an earlier fit to other data: its intervals become priors.",
+)
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
-    model: str, dataset: str, output: Path, optimizer: str | None, settings: tuple[str, ...], switches: Switches
+    model: str,
+    dataset: str,
+    output: Path,
+    earlier: Path | None,
+    optimizer: str | None,
+    settings: tuple[str, ...],
+    switches: Switches,
 ) -> None:
     """Identify the parameters of a network from measurements.
 
@@ -30,9 +43,12 @@ def verb(
       dashpot fit tire_model_1 my/dataset.yaml --seed 7 -o identified
     """
     from dashpot.fit.api import fit_network
+    from dashpot.fit.prior import with_earlier
 
     session = Session(switches, optimizer, settings)
     network, measured = session.network(model), session.sound_dataset(dataset)
+    if earlier:
+        network = with_earlier(network, session.network(str(earlier)), measured.digest, earlier.name)
     folder = session.claim(output, *fit_files(network.name))
     found = session.run(fit_network, network, measured)
     with session.watch("writing the report"):

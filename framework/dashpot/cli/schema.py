@@ -27,9 +27,9 @@ Schemas = dict[str, Callable[["Registry"], dict[str, Any]]]
 def verb(kind: str | None, every: bool, output: Path | None, switches: Switches) -> None:
     """Print the JSON schema of a kind of file.
 
-    With it an editor completes and checks YAML files. KIND is network, dataset, rig, study or campaign. The schema
-    knows the elements, rigs, optimizers and formats that are installed. Editors with the yaml-language-server use it
-    where the first line of a file says:
+    With it an editor completes and checks YAML files. KIND is network, dataset, rig, study, joint or campaign. The
+    schema knows the elements, rigs, optimizers and formats that are installed. Editors with the yaml-language-server
+    use it where the first line of a file says:
 
     \b
       # yaml-language-server: $schema=schemas/network.schema.json
@@ -98,4 +98,18 @@ def campaign(_: Registry) -> dict[str, Any]:
     return campaign_schema()
 
 
-KINDS: Schemas = {"network": network, "dataset": dataset, "rig": rig, "study": study, "campaign": campaign}
+def joint(_: Registry) -> dict[str, Any]:
+    """The schema of a joint file."""
+    from dashpot.fit.joint.schema import joint_schema
+
+    return joint_schema()
+
+
+KINDS: Schemas = {
+    "network": network,
+    "dataset": dataset,
+    "rig": rig,
+    "study": study,
+    "joint": joint,
+    "campaign": campaign,
+}

@@ -28,6 +28,7 @@ VERBS = (
     "compare",
     "diagnose",
     "study",
+    "joint",
     "campaign",
     "schema",
     "doctor",

@@ -65,4 +65,5 @@ def _parameter(slot: Slot) -> dict[str, Any]:
         "role": value.role,
         "bounds": value.bounds,
         "interval": value.interval,
+        **({"expression": value.expression} if value.expression else {}),
     }

@@ -22,7 +22,7 @@ from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_each, prepare, silent
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Outcome
-from dashpot.fit.result import FitResult, floor_of, identifiability_of, parameters_of
+from dashpot.fit.result import FitResult, floor_of, parameters_of
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError
@@ -107,7 +107,7 @@ class Comparison:
             "rmse": errors,
             "nrmse": relative,
             "per_run": dict(fit.errors.per_run),
-            "identifiability": identifiability_of(fit.fitted, fit.known) if fit.known else None,
+            "identifiability": fit.identifiability,
             "status": "ok" if fit.ending == Outcome.CONVERGED.value else fit.ending,
         }
 

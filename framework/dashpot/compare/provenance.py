@@ -10,7 +10,7 @@ from typing import Any
 import dashpot
 from dashpot.fit.api import Setting
 from dashpot.fit.floor import false_repeats
-from dashpot.fit.result import FitResult, identifiability_of
+from dashpot.fit.result import FitResult
 
 
 def provenance_of(setting: Setting, seed: int) -> dict[str, Any]:
@@ -43,7 +43,7 @@ def warnings_of(setting: Setting, fits: Sequence[FitResult]) -> list[str]:
 
 
 def _not_told(fit: FitResult) -> Iterator[str]:
-    known = identifiability_of(fit.fitted, fit.known) if fit.known else {}
+    known = fit.identifiability or {}
     for sentence in (*known.get("weak", ()), *known.get("may_go", ())):
         yield f"{fit.declared.name}: {sentence}."
 

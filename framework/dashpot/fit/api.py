@@ -24,6 +24,7 @@ from dashpot.data.ends import one_force_each
 from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
@@ -33,6 +34,7 @@ from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
+from dashpot.fit.prior import beside_priors, first_error, refine_beside_priors, rows_beside, told_priors
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Refined, refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
@@ -167,14 +169,25 @@ def fit_prepared(
     grounded = with_ranges(ground_curves(spec, setting.train), natural_sizes(setting.train))
     curves = set(grounded.data_curves())
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
-    staged, best = _search(grounded, fast, lambda slot: _curve_of(slot) not in curves, method, seed, jobs, watch)
-    refined, polished = _polish(correct_ends(staged, setting.train), setting.train, jobs, watch)
+    staged, best = _search(
+        grounded,
+        fast,
+        lambda slot: _curve_of(slot) not in curves,
+        method,
+        seed,
+        jobs,
+        watch,
+        first_error(setting.floor.value, setting.swing),
+    )
+    refined, polished = _polish(correct_ends(staged, setting.train), setting, jobs, watch)
     fitted = ordered(spec, refined)
     objective, coordinates = Objective(compile_network(fitted), setting.train, jobs), search_coordinates(fitted)
     noise = noise_of_runs(setting.train_runs, setting.floor)
     steps = [each.step for each in known_numbers(fitted)]
-    known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value)
+    before, error = rows_beside(objective, coordinates, fitted, setting.floor.value)
+    known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value, before, error)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
+    intervals |= derived_intervals(fitted.slots(), coordinates, known)
     return FitResult(
         declared=spec,
         fitted=with_intervals(fitted, intervals),
@@ -195,14 +208,15 @@ def fit_prepared(
         errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
         samples=sum(run.samples for run in setting.train),
         known=identifiability(objective, coordinates, coordinates.start, noise),
+        priors=told_priors(fitted, coordinates, known.errors),
     )
 
 
-def _polish(spec: NetworkSpec, runs: Sequence[ScoredRun], jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:
+def _polish(spec: NetworkSpec, setting: Setting, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:
     watch.stage("polish", 0.0)
-    whole = refinement(spec, Objective(compile_network(spec), runs, jobs), lambda slot: True)
-    steps = watch.steps("polish", POLISH_STEPS)
-    found = refine(whole.loss, whole.coordinates, whole.coordinates.start, POLISH_STEPS, watch=steps)
+    objective, steps = Objective(compile_network(spec), setting.train, jobs), watch.steps("polish", POLISH_STEPS)
+    whole = refinement(spec, objective, lambda slot: True)
+    found, _ = refine_beside_priors(whole, objective, POLISH_STEPS, setting.floor.value, steps)
     return whole.at(found.point), found
 
 
@@ -227,24 +241,28 @@ def _search(
     seed: int,
     jobs: int,
     watch: _Watch,
+    error: float,
 ) -> tuple[NetworkSpec, Best]:
     objective = Objective(compile_network(spec), runs, jobs)
     coordinates = search_coordinates(spec, chosen)
+    loss = beside_priors(objective, spec, error)
     if method is None or not coordinates.paths:
-        best = refine_from_starts(objective, coordinates, seed, lambda done, loss: watch.stage("search", done, loss))
+        best = refine_from_starts(
+            objective, coordinates, seed, lambda done, loss: watch.stage("search", done, loss), loss=loss
+        )
         return with_point(spec, coordinates, best.refined.point), best
     space = Space(coordinates.paths, coordinates.to_cube(coordinates.start))
     found = run_search(
         method,
-        lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
-        lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
+        lambda cube: loss.losses(coordinates.to_values(coordinates.from_cube(cube))),
+        lambda cube: loss.residuals(coordinates.to_values(coordinates.from_cube(cube))),
         space,
         seed,
         progress=lambda standing: watch.stage(method.word, None, standing.loss),
     )
     point = coordinates.from_cube(found.best)
     history = tuple((standing.evaluations, standing.loss) for standing in found.history)
-    refined = refine(objective, coordinates, point, steps=0)
+    refined = refine(loss, coordinates, point, steps=0)
     best = Best(refined, (found.loss,), found.evaluations, history)
     return with_point(spec, coordinates, point), best
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.model.derived import Derived
 from dashpot.model.network import NetworkSpec, Slot
 
 Array = NDArray[np.float64]
@@ -21,7 +22,8 @@ class Coordinates:
 
     ``which`` (p,) are their numbers among all slots, ``log`` (p,) says which are searched by logarithm, ``low`` and
     ``high`` (p,) are bounds in coordinates, ``unit`` (p,) is the size of a natural step in coordinates. Each entry of
-    ``rising`` holds the coordinates of neighbouring knots of a law that must not fall.
+    ``rising`` holds the coordinates of neighbouring knots of a law that must not fall. ``derived`` numbers follow from
+    the others.
     """
 
     paths: tuple[str, ...]
@@ -32,13 +34,14 @@ class Coordinates:
     unit: Array
     base: Array
     rising: tuple[tuple[int, ...], ...] = ()
+    derived: Derived = field(default_factory=Derived)
 
     def to_values(self, points: Array) -> Array:
         """All slots (lanes, slots) in SI for points (lanes, p) in coordinates."""
         points = np.atleast_2d(points)
         values = np.repeat(self.base[None], points.shape[0], axis=0)
         values[:, self.which] = np.where(self.log, np.exp(np.where(self.log, points, 0.0)), points)
-        return values
+        return self.derived.fill(values)
 
     def of_values(self, values: Array) -> Array:
         """The point (p,) of a single lane of slots in SI."""
@@ -93,7 +96,15 @@ class Coordinates:
         place = np.cumsum(rest) - 1
         rising = tuple(tuple(int(place[knot]) for knot in knots if knot != number) for knots in self.rising)
         return Coordinates(
-            paths, self.which[rest], self.log[rest], self.low[rest], self.high[rest], self.unit[rest], base, rising
+            paths,
+            self.which[rest],
+            self.log[rest],
+            self.low[rest],
+            self.high[rest],
+            self.unit[rest],
+            base,
+            rising,
+            self.derived,
         )
 
 
@@ -118,6 +129,7 @@ def search_coordinates(spec: NetworkSpec, chosen: Callable[[Slot], bool] = lambd
         _units(slots, which),
         np.array([slot.value.number for slot in slots]),
         _rising(spec, [slots[number].path for number in which], log),
+        spec.derived,
     )
 
 

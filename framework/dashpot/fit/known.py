@@ -24,10 +24,13 @@ class KnownNumber:
 
 
 def known_numbers(spec: NetworkSpec) -> list[KnownNumber]:
-    """The known numbers of a network."""
+    """The known numbers of a network; what follows from them moves with them."""
     slots = spec.slots()
+    start = np.array([slot.value.number for slot in slots])
     return [
-        KnownNumber(slot.path, slot.value, _standard_error(slot.value) * unit)
+        KnownNumber(
+            slot.path, slot.value, spec.derived.fill((start + _standard_error(slot.value) * unit)[None])[0] - start
+        )
         for slot, unit in zip(slots, np.eye(len(slots)), strict=True)
         if slot.value.known
     ]

@@ -97,13 +97,16 @@ def ordered(declared: NetworkSpec, spec: NetworkSpec) -> NetworkSpec:
 
 
 def _alike(spec: NetworkSpec) -> Iterator[list[Branch]]:
+    slots = spec.slots()
     shared = {branch.shares for branch in spec.leaves() if branch.shares}
+    # a branch to whose numbers an expression refers is not another one's equal
+    tied = {slots[k].path for rule in spec.derived.rules for k in (rule.slot, *rule.names.values())}
     families: dict[object, list[Branch]] = {}
     for group, branch in _in_parallel(spec.root):
-        slots = tuple(branch_slots(branch))
-        if branch.shares or branch.name in shared or any(slot.value.over for slot in slots):
+        own = tuple(branch_slots(branch))
+        if branch.shares or branch.name in shared or any(slot.value.over or slot.path in tied for slot in own):
             continue
-        numbers = tuple((slot.path.removeprefix(branch.name), _distinct(slot)) for slot in slots)
+        numbers = tuple((slot.path.removeprefix(branch.name), _distinct(slot)) for slot in own)
         forms = tuple((key, curve.form, curve.at, curve.data) for key, curve in branch.characteristics().items())
         families.setdefault((group, spec.ends.get(branch.name), branch.element, numbers, forms), []).append(branch)
     return (family for family in families.values() if len(family) > 1)
@@ -120,7 +123,7 @@ def _in_parallel(group: Group) -> Iterator[tuple[int, Branch]]:
 def _distinct(slot: Slot) -> object:
     # what would tell a branch from another one by this number
     value = slot.value
-    return (value.bounds, value.scale) if value.searched else value.number
+    return (value.bounds, value.scale, value.prior) if value.searched else value.number
 
 
 def _key(branch: Branch) -> tuple[str | None, str | None]:

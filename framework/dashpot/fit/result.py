@@ -14,6 +14,7 @@ from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
 from dashpot.fit.holdout import Split
 from dashpot.fit.identifiability import Identifiability, may_go, number_in_words
+from dashpot.fit.prior import PriorTold, describe_priors
 from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.patch import fill_numbers
@@ -40,7 +41,8 @@ class FitResult:
     losses that different starts ended at, best first: near one another they are evidence of convergence. ``known`` says
     the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
     is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
-    so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted.
+    so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted; ``priors``
+    what became of the priors.
     """
 
     declared: NetworkSpec
@@ -62,6 +64,7 @@ class FitResult:
     known: Identifiability | None = field(default=None, repr=False)
     errors_of_numbers: NDArray[np.float64] | None = field(default=None, repr=False)
     samples: int = 0
+    priors: tuple[PriorTold, ...] = ()
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -102,6 +105,15 @@ class FitResult:
         return 2.0 * self.samples * float(np.log(self.errors.train))
 
     @property
+    def undetermined(self) -> list[str]:
+        """The parameters of which neither the data nor a prior tell even the order of magnitude."""
+        found = self.known.undetermined if self.known else []
+        if not self.priors or self.errors_of_numbers is None:
+            return found
+        lost = {path for path, error in zip(self.free, self.errors_of_numbers, strict=True) if not np.isfinite(error)}
+        return [path for path in found if path in lost]
+
+    @property
     def identified_text(self) -> str:
         """The network's text with its numbers filled in."""
         record = {
@@ -131,22 +143,35 @@ class FitResult:
             "at_bound": list(self.at_bound),
             "without_influence": list(self.idle),
             "spread": list(self.spread),
-            "identifiability": identifiability_of(self.fitted, self.known) if self.known else None,
+            "identifiability": self.identifiability,
+            **({"priors": describe_priors(self.priors)} if self.priors else {}),
         }
+
+    @property
+    def identifiability(self) -> dict[str, Any] | None:
+        """What the data tell of the parameters as it stands in result files; None where it was not looked at."""
+        if self.known is None:
+            return None
+        told = identifiability_of(self.fitted, self.known) | {"undetermined": self.undetermined}
+        if self.priors:
+            told["weak"] = [f"without the priors {sentence}" for sentence in told["weak"]]
+        return told
 
     def summary(self) -> str:
         """The result for the terminal."""
         lines = [f"{self.declared.name}: RMSE {self.errors.train:.4g} N on training runs" + _held_out(self.errors)]
         if self.noise_floor.value:
             lines.append(f"noise floor {self.noise_floor.value:.4g} N, from {self.noise_floor.source}")
-        unknown = {*self.idle, *(self.known.undetermined if self.known else ())}
+        unknown = {*self.idle, *self.undetermined}
         for slot in self.fitted.slots():
-            if slot.value.searched and "[" not in slot.path:
+            if (slot.value.searched or slot.value.expression) and "[" not in slot.path:
                 interval = "" if slot.path in unknown else _interval(slot.value)
-                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}")
+                follows = f"  = {slot.value.expression}" if slot.value.expression else ""
+                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}{follows}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
-        told = identifiability_of(self.fitted, self.known) if self.known else {"weak": (), "may_go": ()}
+        told = self.identifiability or {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
+        lines += [f"  {each.sentence}" for each in self.priors]
         return "\n".join([*lines, self.ending + but_undetermined(told.get("undetermined", ()))])
 
 
@@ -181,6 +206,7 @@ def parameters_of(spec: NetworkSpec) -> dict[str, Any]:
             "unit": slot.value.unit,
             "role": slot.value.role,
             "interval": list(slot.value.interval) if slot.value.interval else None,
+            **({"expression": slot.value.expression} if slot.value.expression else {}),
         }
         for slot in spec.slots()
     }

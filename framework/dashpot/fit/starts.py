@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.dictionary import dictionary_start
+from dashpot.fit.linear import Loss
 from dashpot.fit.objective import Objective
 from dashpot.fit.refine import Refined, refine
 
@@ -37,32 +38,34 @@ def refine_from_starts(
     seed: int,
     watch: Callable[[float, float], None],
     budget: int | None = None,
+    loss: Loss | None = None,
 ) -> Best:
     """The file's start and the best of a block of others, a few steps each; the best of them to its end.
 
-    The others are random, and one comes from a dictionary of branches where there is no ``budget``.
+    The others are random, and one comes from a dictionary of branches where there is no ``budget``. What is refined is
+    the ``loss``, by default that of the objective.
 
     ``watch(done, loss)`` hears of the progress; ``budget`` is the largest number of parameter vectors.
     """
-    start = coordinates.start
+    start, whole = coordinates.start, objective if loss is None else loss
     if start.size == 0:
-        loss = float(objective.losses(coordinates.to_values(start))[0])
-        return Best(refine(objective, coordinates, start), (loss,), 1, ((1, loss),))
+        only = float(whole.losses(coordinates.to_values(start))[0])
+        return Best(refine(whole, coordinates, start), (only,), 1, ((1, only),))
     points = _scatter(coordinates, start, np.random.default_rng(seed))
     linear = dictionary_start(objective, coordinates) if budget is None else None
     points = np.concatenate([points, linear.point[None]]) if linear else points[:budget]
-    losses = objective.losses(coordinates.to_values(points))
+    losses = whole.losses(coordinates.to_values(points))
     order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
     spent = len(points) + (linear.evaluations if linear else 0)
     history = [(spent, float(losses.min()))]
     ends = []
     for number, k in enumerate(order):
-        ends.append(refine(objective, coordinates, points[k], FIRST_STEPS, budget=_left(budget, spent)))
+        ends.append(refine(whole, coordinates, points[k], FIRST_STEPS, budget=_left(budget, spent)))
         spent += ends[-1].evaluations
         history.append((spent, min(end.loss for end in ends)))
         watch((number + 1) / (len(order) + 1), history[-1][1])
     ends.sort(key=lambda end: end.loss)
-    best = refine(objective, coordinates, ends[0].point, LAST_STEPS, budget=_left(budget, spent))
+    best = refine(whole, coordinates, ends[0].point, LAST_STEPS, budget=_left(budget, spent))
     spent += best.evaluations
     history.append((spent, best.loss))
     return Best(best, tuple(end.loss for end in ends), spent, tuple(history))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +12,7 @@ from numpy.typing import NDArray
 from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
-from dashpot.fit.linear import Linear, linearise
-from dashpot.fit.objective import Objective
+from dashpot.fit.linear import Linear, Loss, linearise
 from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
@@ -27,6 +27,13 @@ SHARE = 1e-6
 MOST_LEVERAGE = 0.99
 ABSORBED = 8.0
 NOISE_KNOWN = 1.05  # noise floors may be this much too low
+
+
+class OfRuns(Loss, Protocol):
+    """A loss of ``runs``, with ``total`` samples."""
+
+    runs: tuple[ScoredRun, ...]
+    total: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,11 +65,13 @@ class Uncertainty:
 
 
 def assess_uncertainty(
-    objective: Objective,
+    objective: OfRuns,
     coordinates: Coordinates,
     point: Array,
     systematic: Sequence[Array] = (),
     noise: float | None = None,
+    priors: Array | None = None,
+    error: float = 0.0,
 ) -> Uncertainty:
     """Sandwich covariance with blocks of half a second, so that coloured noise and small model errors count.
 
@@ -72,7 +81,9 @@ def assess_uncertainty(
     which are few where a parameter shows in a narrow band of a sweep only.
     ``tests/interval_coverage`` measures how often the intervals hold. Each of the ``systematic`` deviations, steps
     (slots,) in SI by one standard error of something that the runs cannot tell, widens them in addition.
-    Where the ``noise`` (N) is known, a model with a larger RMSE has wider intervals: see ``widening``.
+    Where the ``noise`` (N) is known, a model with a larger RMSE has wider intervals: see ``widening``. ``priors``
+    (k, p), the changes of their pulls with natural steps, narrow the intervals as in a fit in which a sample counts
+    for ``error`` (N).
 
     Sources: Liang and Zeger, Biometrika 73 (1986) 13, with blocks of time as clusters; Bell and McCaffrey, Survey
     Methodology 28 (2002) 169, for the correction (CR2 under white noise) and the degrees of freedom.
@@ -80,24 +91,27 @@ def assess_uncertainty(
     linear = linearise(objective, coordinates, point, systematic)
     unsolved, scale = linear.unsolved[: point.size], np.sqrt(np.diag(linear.normal))
     loss = np.sqrt(linear.square / objective.total)
-    idle = ~unsolved & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
-    safe = np.where(idle | unsolved, 1.0, scale)
-    root, lost = _inverse_root(linear.normal / np.outer(safe, safe))
-    root /= safe[:, None]
+    known_before = error * (np.zeros((0, point.size)) if priors is None else priors)
+    told = np.any(known_before != 0.0, axis=0)
+    idle = ~unsolved & ~told & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
+    root, lost = _scaled_root(linear.normal + known_before.T @ known_before, idle | unsolved)
     covariance, freedom = _sandwich(_blocks(objective, linear), root)
     moved = -linear.beside @ root @ root.T
+    # the middle of a prior may be off by its deviation
+    pulled = error * known_before @ root @ root.T
     wider = widening(float(loss), noise)
     unknown = idle | lost | unsolved
 
     def root_of_sum(random: Array | float, systematic: float) -> Array:
-        squares = (random * wider) ** 2 * np.diag(covariance) + np.sum((systematic * moved) ** 2, axis=0)
+        beside = np.sum(moved**2, axis=0) + np.sum(pulled**2, axis=0)
+        squares = (random * wider) ** 2 * np.diag(covariance) + systematic**2 * beside
         return np.where(unknown | ~np.isfinite(squares), np.inf, np.sqrt(squares))
 
     widths = root_of_sum(_quantiles(freedom), NORMAL)
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
-        covariance,
+        covariance + pulled.T @ pulled,
         widths,
         tuple(_interval(coordinates, k, point[k], widths[k] * coordinates.unit[k]) for k in range(point.size)),
         tuple(np.array(coordinates.paths)[bound].tolist()),
@@ -105,6 +119,22 @@ def assess_uncertainty(
         moved,
         root_of_sum(1.0, 1.0),
     )
+
+
+def effective_error(objective: OfRuns, coordinates: Coordinates, point: Array, noise: float | None = None) -> float:
+    """What a sample counts for in N, were samples independent: as much as the blocks of the record say at a point (p,).
+
+    The standard deviation of white noise; more where residuals are coloured, as scores of blocks then scatter more than
+    their sum of squares says, and where the model is worse than the ``noise`` (N); see ``widening``.
+    """
+    linear = linearise(objective, coordinates, point)
+    loss = float(np.sqrt(linear.square / objective.total))
+    root, _ = _scaled_root(linear.normal, linear.unsolved)
+    if not root.shape[1]:
+        return loss
+    covariance, _ = _sandwich(_blocks(objective, linear), root)
+    # few blocks may scatter less by chance; samples never count for more than they would if they were independent
+    return max(float(np.sqrt(np.sum(covariance * linear.normal) / root.shape[1])), loss) * widening(loss, noise)
 
 
 def widening(loss: float, noise: float | None) -> float:
@@ -142,6 +172,14 @@ def _quantiles(freedom: Array) -> Array:
     return stdtrit(np.maximum(freedom, 1.0), LEVEL)
 
 
+def _scaled_root(normal: Array, without: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+    """``_inverse_root`` of products (p, p) with parameters scaled alike, some of which are left out."""
+    scale = np.sqrt(np.diag(normal))
+    safe = np.where(without | (scale == 0.0), 1.0, scale)
+    root, lost = _inverse_root(normal / np.outer(safe, safe))
+    return root / safe[:, None], lost
+
+
 def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     """W (p, k) with W W' the inverse where the data decide, and which parameters share in what they do not decide."""
     values, vectors = np.linalg.eigh(normal)
@@ -149,7 +187,7 @@ def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
     return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
 
 
-def _blocks(objective: Objective, linear: Linear) -> Iterator[Array]:
+def _blocks(objective: OfRuns, linear: Linear) -> Iterator[Array]:
     """The products (1 + p, 1 + p) of the rows of each block, group by group as soon as its last run was seen."""
     groups = moved_alike(objective.runs)
     group_of = {number: group for group in groups for number in group}

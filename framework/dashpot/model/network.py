@@ -6,13 +6,17 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from dashpot.model.element import Curve, Element, Scale
 from dashpot.model.identified import Identified
+from dashpot.model.prior import Prior
 from dashpot.text.document import Document
 from dashpot.text.node import Node
 from dashpot.text.problem import Place
+
+if TYPE_CHECKING:
+    from dashpot.model.derived import Derived
 
 Role = Literal["fixed", "free", "identified"]
 Form = Literal["constant", "polynomial", "table", "data"]
@@ -35,7 +39,8 @@ class Value:
     ``sensible`` is the range in which such a number makes sense at all, ``interval`` how well it is known, ``setting``
     the setting by which a run may give the number itself, ``node`` where it stands. A ``known`` number is fixed, but
     its interval is one to be allowed for: it was weighed or taken from a drawing. With ``over`` it is another number
-    in each run, as a setting of the run says.
+    in each run, as a setting of the run says. A number with an ``expression`` follows from others. A ``prior`` is
+    what was known of a searched number before.
     """
 
     number: float
@@ -48,6 +53,8 @@ class Value:
     setting: str = ""
     known: bool = False
     over: Over | None = None
+    expression: str = ""
+    prior: Prior | None = None
     node: Node | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -253,11 +260,29 @@ class NetworkSpec:
         found += [Slot(f"measurement.{key}", value) for key, value in self.measurement.items()]
         return tuple(each for slot in found for each in (slot, *over_slots(slot)))
 
+    @cached_property
+    def derived(self) -> Derived:
+        """How numbers follow from others. Raises InputError for an expression that does not fit the network."""
+        from dashpot.model.derived import derived_of
+
+        return derived_of(self.slots())
+
     def with_values(self, values: Mapping[str, Value]) -> NetworkSpec:
-        """The same network with the values of some slots replaced, by path. KeyError for a path that it has not."""
+        """The same network with the values of some slots replaced, by path, and all that follow from them.
+
+        KeyError for a path that it has not. Raises InputError for a number that follows and would make no sense.
+        """
         unknown = set(values) - {slot.path for slot in self.slots()}
         if unknown:
             raise KeyError(f"'{self.name}' has no slot {', '.join(sorted(unknown))}")
+        found = self._renewed(values)
+        if not any(slot.value.expression for slot in found.slots()):
+            return found
+        from dashpot.model.derived import followed
+
+        return found._renewed(followed(found.slots(), found.derived))
+
+    def _renewed(self, values: Mapping[str, Value]) -> NetworkSpec:
         return replace(
             self,
             root=_regroup(self.root, lambda branch: _revalue(branch, values)),

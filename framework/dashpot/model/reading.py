@@ -85,7 +85,8 @@ def _build(document: Document, uses: _Uses) -> NetworkSpec:
     problems.extend(find_clashes(spec))
     if problems:
         raise InputError(problems)
-    return spec
+    # numbers that follow from others are computed when all have been read
+    return spec.with_values({})
 
 
 def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:

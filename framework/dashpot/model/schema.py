@@ -10,6 +10,7 @@ from dashpot.model.curves import FACTOR, FEWEST_KNOTS, MOST_KNOTS, SOURCES
 from dashpot.model.element import Curve, Element, Parameter, Scale
 from dashpot.model.identified import QUANTITIES
 from dashpot.model.joints import HOLDS, WEIGHTS
+from dashpot.model.prior import LAWS
 from dashpot.model.reading import FORMAT, MEASUREMENT
 from dashpot.model.values import Kind
 from dashpot.text import schema as s
@@ -135,6 +136,7 @@ def _value() -> Schema:
             "description": "how well it is known",
         },
         "over": s.part("over"),
+        "prior": _prior(),
     }
     numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
     searched = s.mapping({"start": numbers, **found}, ("start",), "a parameter to be identified")
@@ -147,12 +149,34 @@ def _value() -> Schema:
         ("known", "interval"),
         "a parameter known from elsewhere, not searched",
     )
+    follows = s.mapping(
+        {"expression": {"anyOf": [s.text(), s.items(s.text(), minItems=1)]}},
+        ("expression",),
+        "follows from other parameters: `0.5 * front.stiffness`",
+    )
     plain = {"if": {"type": "array"}, "then": s.items(s.quantity(), minItems=1), "else": s.quantity()}
     fixed = s.mapping({"fixed": numbers, "over": s.part("over")}, ("fixed", "over"), "a parameter that is not searched")
     return s.by_key(
-        {"setting": given, "known": measured, "fixed": fixed, "value": known, "start": searched},
+        {
+            "setting": given,
+            "known": measured,
+            "fixed": fixed,
+            "expression": follows,
+            "value": known,
+            "start": searched,
+        },
         {"if": {"type": "object"}, "then": searched, "else": plain},
     )
+
+
+def _prior() -> Schema:
+    """What is known of a number before."""
+    numbers = {"anyOf": [s.quantity(), s.items(s.quantity(), minItems=1)]}
+    laws: dict[str, Schema] = {
+        law: s.mapping({law: numbers, "deviation": numbers}, (law, "deviation"), f"a {law} distribution")
+        for law in LAWS
+    }
+    return s.by_key(laws, {"type": "object", "required": [LAWS[0]]})
 
 
 def _over() -> Schema:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from dashpot.model.element import Parameter, Scale
 from dashpot.model.network import Over, Role, Value
 from dashpot.model.over import read_over
-from dashpot.text.form import Form, read_items, read_quantity
+from dashpot.model.prior import Prior, read_prior
+from dashpot.text.form import Form, read_items, read_quantity, read_text
 from dashpot.text.node import Mapping, Node, Sequence
 from dashpot.text.problem import Place, Problem
 
@@ -82,8 +84,9 @@ def read_value(node: Node, kind: Kind, reading: Reading) -> Value | None:
 
     With ``{setting: word, value: 0 kg}`` a run that has a setting of that word gives the number; one that is ``{known:
     1.5 kg, interval: [1 kg, 2 kg]}`` is not searched, but its 95 % interval is allowed for. One that is free, found or
-    ``{fixed: 30 N}`` may depend on a setting, ``over: {...}``; see ``read_over``. In a repeated branch a list holds one
-    number for each copy. None when there is no number to be had; every mistake is noted.
+    ``{fixed: 30 N}`` may depend on a setting, ``over: {...}``; see ``read_over``. One with ``{expression: 0.5 *
+    front.stiffness}`` follows from others. In a repeated branch a list holds one number for each copy. None when there
+    is no number to be had; every mistake is noted.
     """
     if isinstance(node, Mapping):
         special = next((read for key, read in SPECIAL.items() if key in node.entries), _read_searched)
@@ -111,11 +114,12 @@ def _read_searched(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     scale: Scale = "log" if form.choice("scale", ("log", "linear"), kind.scale) == "log" else "linear"
     interval = form.take("interval", lambda inner: _read_interval(_pick_pair(inner, reading), kind.unit), None)
     over = _read_over(form, kind, reading)
+    prior = _read_prior(form, kind, reading)
     form.close()
     if number is None:
         return None
     role: Role = "identified" if key == "value" else "free"
-    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, over=over, node=node)
+    value = Value(number, kind.unit, role, bounds, scale, interval, kind.bounds, over=over, prior=prior, node=node)
     for complaint in _complaints(value):
         reading.complain(form.place_of(key), complaint)
     return value
@@ -130,6 +134,23 @@ def _read_setting(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
         return None
     _refuse_outside(number, kind, form.place_of("value"), reading)
     return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, setting=word, node=node)
+
+
+def _read_expression(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
+    from dashpot.model.expression import parse_expression
+
+    form = reading.form(node)
+    text = form.take("expression", lambda inner: read_text(reading.pick(inner)))
+    form.close()
+    if text is None:
+        return None
+    try:
+        parse_expression(text)
+    except ValueError as error:
+        reading.complain(form.place_of("expression"), str(error))
+        return None
+    # what it comes to is known when all numbers have been read
+    return Value(math.nan, kind.unit, scale=kind.scale, sensible=kind.bounds, expression=text, node=node)
 
 
 def _read_known(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
@@ -163,6 +184,11 @@ def _read_fixed(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     return Value(number, kind.unit, scale=kind.scale, sensible=kind.bounds, over=over, node=node)
 
 
+def _read_prior(form: Form, kind: Kind, reading: Reading) -> Prior | None:
+    below = form.form("prior", f"{reading.what}, 'prior'", None)
+    return None if below is None else read_prior(below, kind, reading)
+
+
 def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
     below = form.form("over", f"{reading.what}, 'over'", None)
     if below is None:
@@ -172,12 +198,14 @@ def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
         value = read_value(node, Kind(unit, bounds, scale), reading.named(f"{reading.what}, {name}"))
         if value and (value.over or value.setting):
             reading.complain(node.place, f"the {name} cannot depend on a setting itself", "write a number")
+        elif value and value.expression:
+            reading.complain(node.place, f"the {name} cannot follow from other numbers", "write a number")
         return value
 
     return read_over(below, kind.unit, read)
 
 
-SPECIAL = {"setting": _read_setting, "known": _read_known, "fixed": _read_fixed}
+SPECIAL = {"setting": _read_setting, "known": _read_known, "fixed": _read_fixed, "expression": _read_expression}
 
 
 def _pick_pair(node: Node, reading: Reading) -> Node:
@@ -220,6 +248,11 @@ def _complaints(value: Value) -> Iterator[str]:
         yield (
             f"expected a start inside its bounds {low:g} to {high:g} {value.unit}, got {value.number:g}; move it, "
             "or widen the bounds"
+        )
+    if value.prior and not low <= value.prior.middle <= high:
+        yield (
+            f"expected a prior around a number inside its bounds {low:g} to {high:g} {value.unit}, got "
+            f"{value.prior.middle:g}; check its unit, or widen the bounds"
         )
     lowest = min(low, value.number) if value.bounds else value.number
     if value.scale == "log" and lowest <= 0.0:

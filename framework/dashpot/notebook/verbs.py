@@ -17,6 +17,7 @@ from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.writing import dataset_files
 from dashpot.diagnose.diagnose import diagnose as diagnose_network
 from dashpot.fit.api import Progress, fit_network
+from dashpot.fit.prior import with_earlier
 from dashpot.fit.result import FitResult
 from dashpot.fit.virtual_test import virtual_test
 from dashpot.kernel.api import TOLERANCE, forces_by_name, solve_runs
@@ -191,6 +192,7 @@ def fit(
     options: Mapping[str, Any] | None = None,
     seed: int = 0,
     jobs: Jobs = 1,
+    prior: AnyModel | None = None,
     registry: Registry | None = None,
     progress: Progress | bool = False,
     cancel: Callable[[], bool] | None = None,
@@ -201,7 +203,8 @@ def fit(
     are threads, or a pool or cluster that does it: an Executor of ``concurrent.futures``, or a client of Dask.
 
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
-    starts. InputError for a model that does not compile.
+    starts. The intervals of a ``prior``, identified on other data, become priors of the parameters of the same path.
+    InputError for a model that does not compile, and for a prior from the same data or without a parameter in common.
 
     ``progress=True`` shows a line that tells how far it is; a function is called with the stage, the share of it that
     is done, the best error so far and the noise floor in N, the last three None where there is nothing to tell.
@@ -214,11 +217,14 @@ def fit(
         ...
     """
     found = registry or load_registry()
-    sound = examined(_data(data, found))
+    sound, network = examined(_data(data, found)), _model(model, found)
+    if prior is not None:
+        earlier = _model(prior, found)
+        network = with_earlier(network, earlier, sound.digest, earlier.name)
     with hearing(progress, cancel) as hear:
         return _shown_fit(
             fit_network(
-                _model(model, found),
+                network,
                 sound,
                 optimizer=optimizer,
                 options=options,

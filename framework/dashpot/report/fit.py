@@ -19,6 +19,8 @@ from dashpot.report.readable import rig_unit, shown_with_unit
 Json = Mapping[str, Any]
 
 GOOD_RATIO = 1.2
+CONTRADICTION = 3.0  # deviations of a prior
+PRIORS = "100 % in the last column: the data add nothing to the prior. A small one: they decide, the prior does not."
 
 
 def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
@@ -31,6 +33,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
     sections = [
         Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
         Section("Parameters", _ending(fit), parts=numbers),
+        Section("Priors", PRIORS, parts=[priors_grid(fit)] if fit.get("priors") else []),
         Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
         Section("The shape of the force", parts=list(shape_parts(evidence))),
         Section("Over displacement and time", parts=list(signal_parts(evidence))),
@@ -57,6 +60,42 @@ def numbers_grid(fit: Json) -> Grid:
     return _grid(fit, "Identified parameters", "numbers.csv", knots=False)
 
 
+def priors_grid(fit: Json) -> Grid:
+    """What was known before, and what the data made of it."""
+    rows = []
+    for prior in fit["priors"]:
+        factor, unit = rig_unit(prior["unit"], abs(prior["middle"]))
+        scale = 100.0 if prior["law"] == "lognormal" else factor
+        rows.append(
+            {
+                "number": prior["parameter"],
+                "law": prior["law"],
+                "middle": prior["middle"] * factor,
+                "deviation": prior["deviation"] * scale,
+                "of": "%" if prior["law"] == "lognormal" else unit,
+                "value": prior["value"] * factor,
+                "unit": unit or None,
+                "pull": prior["pull"],
+                "narrowed": 100.0 * prior["narrowed"],
+                "source": prior["source"],
+            }
+        )
+    columns = [
+        Column("number", "parameter"),
+        Column("law", "prior"),
+        Column("middle", "middle", "", 4),
+        Column("value", "identified", "", 4),
+        Column("unit", "unit"),
+        Column("deviation", "deviation", "", 3),
+        Column("of", "in"),
+        Column("pull", "identified less middle, in deviations", "", 2),
+        Column("narrowed", "standard error over deviation, %", "", 3),
+        Column("source", "from"),
+    ]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    return Grid("Priors", used, rows, csv_name="priors.csv")
+
+
 def knots_grid(fit: Json) -> Grid:
     """The knots and coefficients of the curves, likewise."""
     return _grid(fit, "Knots and coefficients of the curves", "knots.csv", knots=True)
@@ -77,8 +116,11 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
     )
     remarks |= dict.fromkeys(fit["without_influence"], "without influence on these data")
     found = {
-        path: entry for path, entry in fit["parameters"].items() if entry["role"] != "fixed" and ("[" in path) is knots
+        path: entry
+        for path, entry in fit["parameters"].items()
+        if (entry["role"] != "fixed" or "expression" in entry) and ("[" in path) is knots
     }
+    remarks |= {path: f"= {entry['expression']}" for path, entry in found.items() if "expression" in entry}
     unknown = {*fit["without_influence"], *(fit.get("identifiability") or {}).get("undetermined", ())}
     rows = [
         {"number": path, **_in_rig_units(entry, path not in unknown), "remark": remarks.get(path)}
@@ -106,8 +148,18 @@ def _result(fit: Json, status: str, evidence: Evidence) -> Iterator[Part]:
     if status != "ok":
         yield Notice("warning", f"The fit did not converge: {status}.")
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
+    yield from (Notice("warning", text) for text in _contradictions(fit))
     if floor and fit["rmse"][_judged_on(fit)] > GOOD_RATIO * floor:
         yield Notice("info", "The error is above the noise floor: 'dashpot diagnose' says what the model lacks.")
+
+
+def _contradictions(fit: Json) -> Iterator[str]:
+    for prior in fit.get("priors", ()):
+        if abs(prior["pull"]) > CONTRADICTION:
+            yield (
+                f"The data contradict the prior of {prior['parameter']}: the fit is {abs(prior['pull']):.2g} of its "
+                "deviations away. Check the prior, its unit, and whether the model fits the data."
+            )
 
 
 def _model(fit: Json, evidence: Evidence) -> Iterator[Part]:

@@ -72,5 +72,5 @@ def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
         "unit": unit or None,
         "lower": lower,
         "upper": upper,
-        "role": remark or ROLES[value.role],
+        "role": remark or (f"= {value.expression}" if value.expression else ROLES[value.role]),
     }

@@ -7,7 +7,6 @@ from typing import Any
 
 from dashpot.compare.comparison import Comparison
 from dashpot.fit.identifiability import Identifiability
-from dashpot.fit.result import identifiability_of
 from dashpot.fit.study.preview import Preview
 from dashpot.fit.study.run import ModelResult, StudyResult
 from dashpot.fit.study.stage import StageResult
@@ -92,7 +91,7 @@ def _model(model: ModelResult) -> dict[str, Any]:
         "evaluations": fit.evaluations,
         "at_bound": list(fit.at_bound),
         "without_influence": list(fit.idle),
-        "identifiability": identifiability_of(fit.fitted, model.known),
+        "identifiability": fit.identifiability,
         "stages": [_stage(stage) for stage in model.stages],
         "bootstrap": {path: list(pair) for path, pair in model.bootstrap.items()},
         "profiles": [

@@ -159,8 +159,8 @@ def is_unit(text: str) -> bool:
 @cache
 def base_unit(unit_text: str) -> str:
     """The SI base unit of the same kind: `kN` gives `kg*m*s^-2`. ValueError for an unknown unit."""
-    powers = _powers(unit_text)
-    present = [(name, powers[key]) for key, name in _BASE_UNITS.items() if key in powers]
+    found = powers(unit_text)
+    present = [(name, found[key]) for key, name in _BASE_UNITS.items() if key in found]
     return "*".join(f"{name}^{power:g}" for name, power in present) or "1"
 
 
@@ -182,7 +182,7 @@ def force_dimension(unit: str) -> int:
     At fixed lengths and times forces grow like masses, so it is the power of the mass. Raises ValueError when that
     is not a whole number or the unit is unknown.
     """
-    power = _powers(unit).get("[mass]", 0.0)
+    power = powers(unit).get("[mass]", 0.0)
     if power != int(power):
         raise ValueError(f"expected a whole power of force in the unit '{unit}', got {power:g}")
     return int(power)
@@ -191,7 +191,7 @@ def force_dimension(unit: str) -> int:
 @cache
 def dimensions(unit: str) -> tuple[float, float, float]:
     """The powers of force, length and time in a unit: `N*s/m` gives (1, -1, 1). ValueError for an unknown unit."""
-    found = _powers(unit)
+    found = powers(unit)
     mass, length, time = (found.get(name, 0.0) for name in ("[mass]", "[length]", "[time]"))
     return mass, length - mass, time + 2.0 * mass
 
@@ -289,7 +289,9 @@ def _parse(unit_text: str) -> pint.Unit:
         raise _unknown_unit(unit_text, names[0]) from None
 
 
-def _powers(unit: str) -> dict[str, float]:
+@cache
+def powers(unit: str) -> dict[str, float]:
+    """The powers of mass, length, time and so on in a unit: `N/m` gives 1 of mass, -2 of time. ValueError for none."""
     dimension: Any = _parse(unit).dimensionality
     return {name: float(power) for name, power in dimension.items()}
 

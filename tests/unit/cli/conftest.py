@@ -137,7 +137,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
     dataset = SimpleNamespace(problems=("a.csv: set aside",), runs=())
 
     def read(name, elements):
-        return SimpleNamespace(name=name, identified=Identified())
+        return SimpleNamespace(name=name, identified=Identified(), slots=tuple)
 
     replaced = {
         "dashpot.model.reading": {"read_network": read},

@@ -188,7 +188,7 @@ def test_one_schema_is_printed_and_all_are_written(schema_call, tmp_path):
     "arguments, hint",
     [
         (["netwrk"], "No schema of 'netwrk', did you mean 'network'?"),
-        ([], "Say either a kind (network, dataset, rig, study, campaign) or --all"),
+        ([], "Say either a kind (network, dataset, rig, study, joint, campaign) or --all"),
         (["--all"], "say -o FOLDER"),
     ],
 )

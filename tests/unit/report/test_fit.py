@@ -73,3 +73,41 @@ def test_the_page_is_complete_and_says_where_it_comes_from():
 def test_a_file_with_nothing_to_be_found_has_no_table_of_numbers():
     content = fit(parameters={"friction.limit": number(20.0, "N", role="fixed")}, spread=[])
     assert "Parameters" not in [section.title for section in page_of(content).sections]
+
+
+PRIOR = {
+    "parameter": "maxwell.stiffness",
+    "law": "lognormal",
+    "middle": 40e3,
+    "deviation": 0.05,
+    "unit": "N/m",
+    "source": None,
+    "value": 45e3,
+    "pull": 2.4,
+    "narrowed": 0.2,
+}
+
+
+def test_priors_are_listed_beside_what_became_of_them():
+    page = page_of(fit(priors=[PRIOR]))
+    [grid] = [part for part in parts(page, Grid) if part.title == "Priors"]
+    [row] = grid.rows
+    assert (row["middle"], row["value"], row["unit"]) == (pytest.approx(40.0), pytest.approx(45.0), "N/mm")
+    assert (row["deviation"], row["of"], row["narrowed"]) == (pytest.approx(5.0), "%", pytest.approx(20.0))
+    assert "source" not in [column.key for column in grid.columns]
+    assert not [notice for notice in parts(page, Notice) if "contradict" in notice.text]
+
+
+def test_a_prior_that_the_data_contradict_is_warned_of():
+    page = page_of(fit(priors=[{**PRIOR, "pull": -4.2}]))
+    [notice] = [notice for notice in parts(page, Notice) if "contradict" in notice.text]
+    assert notice.kind == "warning"
+    assert "maxwell.stiffness" in notice.text and "4.2 of its deviations" in notice.text
+
+
+def test_what_follows_from_others_shows_its_expression():
+    tied = {"value": 300.0, "unit": "N*s/m", "role": "fixed", "interval": [290.0, 310.0], "expression": "1 ms * a.b"}
+    grid = numbers_grid(fit(parameters={"oil.damping": tied}))
+    [row] = grid.rows
+    assert row["remark"] == "= 1 ms * a.b"
+    assert row["low"] is not None

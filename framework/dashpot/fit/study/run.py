@@ -17,12 +17,14 @@ from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, measure_errors, silent
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.identifiability import Identifiability, identifiability
 from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import interchangeable, ordered
+from dashpot.fit.prior import priors_of, rows_beside, told_priors
 from dashpot.fit.profile import Profile, profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome
@@ -41,6 +43,7 @@ from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.workers import threads
 from dashpot.model.network import NetworkSpec
+from dashpot.text.problem import InputError, Place
 
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
@@ -127,6 +130,7 @@ class _Conduct:
 
     def models(self) -> Iterator[ModelResult]:
         """Every model; those identified before may be starting points."""
+        _refuse_priors(self.study)
         done: dict[str, ModelResult] = {}
         whole = self.setting
         for plan in self.study.models:
@@ -159,7 +163,9 @@ class _Conduct:
         runs = {"slow": slow, "dynamic": dynamic, "all": train}[stage.runs] or train
         label = f"{plan.name}-{number + 1}-{stage.name}"
         seed = zlib.crc32(label.encode()) ^ self.study.seed
-        task = Task(runs, run_weights(self.study, runs), seed, threads(self.jobs), self.registry.optimizers)
+        weights, optimizers = run_weights(self.study, runs), self.registry.optimizers
+        noise, swing = self.setting.floor.value, self.setting.swing
+        task = Task(runs, weights, seed, threads(self.jobs), optimizers, noise, swing)
 
         def watch(evaluations: int, loss: float) -> None:
             done = (self.spent + min(evaluations, stage.budget)) / max(self.study.budget, 1)
@@ -184,12 +190,15 @@ class _Conduct:
         allowed = [allowance(spec, branch, part.fit.declared.name, shares[branch]) for branch, part in parts.items()]
         known_before = known_numbers(spec)
         steps = [*(each.step for each in allowed), *(each.step for each in known_before)]
-        known = assess_uncertainty(objective, coordinates, coordinates.start, steps, self.setting.floor.value)
+        floor = self.setting.floor.value
+        before = rows_beside(objective, coordinates, spec, floor)
+        known = assess_uncertainty(objective, coordinates, coordinates.start, steps, floor, *before)
+        intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)
         fit = FitResult(
             declared=plan.network,
-            fitted=with_intervals(spec, dict(zip(coordinates.paths, known.intervals, strict=True))),
+            fitted=with_intervals(spec, intervals | derived_intervals(spec.slots(), coordinates, known)),
             errors=errors,
             noise_floor=self.setting.floor,
             split=self.setting.split,
@@ -204,6 +213,8 @@ class _Conduct:
             history=_joined(stages),
             seen=seen_range(plan.network, train),
             known=told,
+            errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
+            priors=told_priors(spec, coordinates, known.errors),
         )
         effects = [effect(coordinates, moved) for moved in known.moved]
         owed = tuple(
@@ -254,6 +265,19 @@ class _Conduct:
 
     def _tell(self, plan: ModelPlan, what: str) -> None:
         self.progress(f"{plan.name}: {what}", self.spent / max(self.study.budget, 1), None, self.setting.floor.value)
+
+
+def _refuse_priors(study: StudySpec) -> None:
+    """Bootstrap and profiles tell what the data say; a prior would be drawn or walked away from in silence."""
+    wanted = [key for key in ("bootstrap", "profiles") if getattr(study, key)]
+    for plan in study.models if wanted else ():
+        priors = priors_of(plan.network)
+        if priors:
+            raise InputError.at(
+                Place(plan.network.file),
+                f"expected parameters without priors for '{wanted[0]}', got priors of {', '.join(priors.paths)}",
+                f"leave '{wanted[0]}' out of the study, or the priors out of the network",
+            )
 
 
 def _joined(stages: tuple[StageResult, ...]) -> tuple[tuple[int, float], ...]:

@@ -13,9 +13,10 @@ from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.fit.api import OWN_METHOD
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
-from dashpot.fit.kept_curves import refinement
+from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Loss, Outcome, Refined, refine
+from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_beside_priors
+from dashpot.fit.refine import Loss, Outcome, Refined
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
 from dashpot.fit.starts import refine_from_starts
@@ -47,13 +48,18 @@ class StageResult:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What a search works on: the runs with their weights, the seed, the workers, the optimizers."""
+    """What a search works on: the runs with their weights, the seed, the workers, the optimizers.
+
+    ``noise`` (N) is known or not, and ``swing`` (N) that of the forces; both weigh priors.
+    """
 
     runs: Sequence[ScoredRun]
     weights: Sequence[float]
     seed: int
     jobs: int
     known: Mapping[str, type[Optimizer]]
+    noise: float | None
+    swing: float
 
 
 def search(
@@ -69,12 +75,15 @@ def search(
         return spec, _nothing(stage, objective, coordinates)
     if stage.optimizer == OWN_METHOD and stage.starts == 1:
         whole = refinement(spec, objective, stage.frees)
-        known = _recorded(record(0), lambda keep: _refine(whole.loss, whole.coordinates, stage))
+        known = _recorded(record(0), lambda keep: _refine(whole, objective, stage, task.noise))
         return whole.at(np.array(known["point"])), _summed(stage, whole.coordinates, [known])
+    loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
     if stage.optimizer == OWN_METHOD:
-        found = [_recorded(record(0), lambda keep: _refine_starts(objective, coordinates, stage, task.seed, watch))]
+        found = [
+            _recorded(record(0), lambda keep: _refine_starts(objective, loss, coordinates, stage, task.seed, watch))
+        ]
     else:
-        found = [_start(number, stage, task, objective, coordinates, record, watch) for number in range(stage.starts)]
+        found = [_start(number, stage, task, loss, coordinates, record, watch) for number in range(stage.starts)]
     found = sorted(found, key=lambda each: each["loss"])
     fitted = with_point(spec, coordinates, np.array(found[0]["point"]))
     return fitted, _summed(stage, coordinates, found)
@@ -84,7 +93,7 @@ def _start(
     number: int,
     stage: SearchStage,
     task: Task,
-    objective: Objective,
+    loss: Objective | WithPriors,
     coordinates: Coordinates,
     record: Callable[[int], Record],
     watch: Watch,
@@ -99,8 +108,8 @@ def _start(
     def work(kept: Record) -> dict[str, Any]:
         found = run_search(
             method,
-            lambda cube: objective.losses(coordinates.to_values(coordinates.from_cube(cube))),
-            lambda cube: objective.residuals(coordinates.to_values(coordinates.from_cube(cube))),
+            lambda cube: loss.losses(coordinates.to_values(coordinates.from_cube(cube))),
+            lambda cube: loss.residuals(coordinates.to_values(coordinates.from_cube(cube))),
             Space(coordinates.paths, np.clip(begin, 0.0, 1.0)),
             seed,
             budget=max(budget, 1),
@@ -126,18 +135,18 @@ def _start(
     return _recorded(record(number), work)
 
 
-def _refine(loss: Loss, coordinates: Coordinates, stage: SearchStage) -> dict[str, Any]:
+def _refine(whole: Refinement, objective: Objective, stage: SearchStage, noise: float | None) -> dict[str, Any]:
     """The framework's own method from one start."""
-    refined = refine(loss, coordinates, coordinates.start, steps=stage.budget, budget=stage.budget)
+    refined, _ = refine_beside_priors(whole, objective, stage.budget, noise, budget=stage.budget)
     return _own_result(refined, refined.evaluations, ((refined.evaluations, refined.loss),), (refined.loss,))
 
 
 def _refine_starts(
-    objective: Objective, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
+    objective: Objective, whole: Loss, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
 ) -> dict[str, Any]:
     """The framework's own method from several starts."""
     best = refine_from_starts(
-        objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget
+        objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget, whole
     )
     return _own_result(best.refined, best.evaluations, best.history, best.spread)
 

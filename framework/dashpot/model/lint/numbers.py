@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -114,8 +114,37 @@ def _inside(value: Value, number: float) -> float:
 
 def _sensitivities(topology: Topology, spec: NetworkSpec, slots: tuple[Slot, ...], seed: int) -> tuple[Outputs, Array]:
     trials = draw_trials(topology, max(FEWEST_TRIALS, TRIALS_PER_NUMBER * len(slots)))
-    outputs = Outputs(spec, topology, trials, _numbers(spec) | _others(spec, seed))
-    return outputs, outputs.changes({slot.path: STEP * _size(slot, outputs) for slot in slots}) / STEP
+    numbers = _numbers(spec) | _others(spec, seed)
+    outputs = Outputs(spec, topology, trials, numbers | _following(spec, numbers))
+    followers = tuple(spec.slots()[rule.slot] for rule in spec.derived.rules)
+    steps = {slot.path: STEP * _size(slot, outputs) for slot in (*slots, *followers)}
+    table = outputs.changes(steps) / STEP
+    own, moved = table[:, : len(slots)], table[:, len(slots) :]
+    return outputs, own + moved @ _pull(spec, outputs.numbers, slots, followers, steps)
+
+
+def _following(spec: NetworkSpec, numbers: Mapping[str, float]) -> dict[str, float]:
+    """The numbers that follow from others, by path."""
+    slots = spec.slots()
+    filled = spec.derived.fill(np.array([[numbers[slot.path] for slot in slots]]))[0]
+    return {slots[rule.slot].path: float(filled[rule.slot]) for rule in spec.derived.rules}
+
+
+def _pull(
+    spec: NetworkSpec,
+    numbers: Mapping[str, float],
+    slots: tuple[Slot, ...],
+    followers: tuple[Slot, ...],
+    steps: Mapping[str, float],
+) -> Array:
+    """By how many steps of its own each follower (followers, slots) moves with a step of each slot."""
+    found = np.zeros((len(followers), len(slots)))
+    own = {slot.path for slot in spec.slots()} if followers else set()
+    for column, slot in enumerate(slots):
+        if slot.path in own:
+            moved = _following(spec, {**numbers, slot.path: numbers[slot.path] + steps[slot.path]})
+            found[:, column] = [(moved[other.path] - numbers[other.path]) / steps[other.path] for other in followers]
+    return found
 
 
 def _size(slot: Slot, outputs: Outputs) -> float:
