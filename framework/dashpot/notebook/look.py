@@ -29,7 +29,7 @@ class Look(PlainLook):
     Examples:
         >>> seen = dp.look(data)
         >>> print(seen.headline)
-        Forces up to ... N; noise floor ... N; a general model of the past motion leaves ... N.
+        Forces up to ... N; noise floor ... N; explainable error ... N.
         >>> all(run["energy_per_cycle"] > 0.0 for run in seen.as_dict()["runs"])
         True
     """
