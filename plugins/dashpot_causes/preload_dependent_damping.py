@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch, add_to_branch, branch_names
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty, pretty_all
 from dashpot_causes.factors import SMALLEST_FACTOR, at_all_places, factors_of
 from dashpot_causes.stiffness_curve import hats
 
@@ -191,5 +191,5 @@ def _rising_from_zero(atoms: Sequence[Atom]) -> tuple[Array, Array, int]:
 
 def _scale_lines(atoms: Sequence[Atom], factors: Array, reference: int) -> list[str]:
     texts = ["1" if k == reference else f"{{start: {factor:.5g}, {BOUNDS}}}" for k, factor in enumerate(factors)]
-    at = ", ".join(pretty(place, "m", 6) for _, place in atoms)
+    at = ", ".join(pretty_all([place for _, place in atoms], "m", 6))
     return ["scale:", f"  deflection: [{at}]", f"  factor: [{', '.join(texts)}]"]

@@ -16,11 +16,10 @@ from dashpot.fit.holdout import Split
 from dashpot.fit.identifiability import Identifiability, may_go, number_in_words
 from dashpot.fit.prior import PriorTold, describe_priors
 from dashpot.model.identified import Range
-from dashpot.model.network import NetworkSpec, Value
+from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers
+from dashpot.text.digits import quantity, with_interval
 from dashpot.text.quantity import pretty
-
-INTERVAL_DIGITS = (3, 5, 8, 17)  # as many as tell its two ends apart
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,15 +158,16 @@ class FitResult:
 
     def summary(self) -> str:
         """The result for the terminal."""
-        lines = [f"{self.declared.name}: RMSE {self.errors.train:.4g} N on training runs" + _held_out(self.errors)]
+        train = quantity(self.errors.train, "N")
+        lines = [f"{self.declared.name}: RMSE {train} on training runs{_held_out(self.errors)}"]
         if self.noise_floor.value:
-            lines.append(f"noise floor {self.noise_floor.value:.4g} N, from {self.noise_floor.source}")
+            lines.append(f"noise floor {quantity(self.noise_floor.value, 'N')}, from {self.noise_floor.source}")
         unknown = {*self.idle, *self.undetermined}
         for slot in self.fitted.slots():
             if (slot.value.searched or slot.value.expression) and "[" not in slot.path:
-                interval = "" if slot.path in unknown else _interval(slot.value)
-                follows = f"  = {slot.value.expression}" if slot.value.expression else ""
-                lines.append(f"  {slot.path} = {pretty(slot.value.number, slot.value.unit)}{interval}{follows}")
+                value, interval = slot.value, None if slot.path in unknown else slot.value.interval
+                follows = f"  = {value.expression}" if value.expression else ""
+                lines.append(f"  {slot.path} = {with_interval(value.number, interval, value.unit)}{follows}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
         told = self.identifiability or {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
@@ -219,14 +219,4 @@ def with_intervals(spec: NetworkSpec, intervals: Mapping[str, tuple[float, float
 
 
 def _held_out(errors: Errors) -> str:
-    return "" if errors.held_out is None else f", {errors.held_out:.4g} N on held-out runs"
-
-
-def _interval(value: Value) -> str:
-    if not value.interval:
-        return ""
-    for digits in INTERVAL_DIGITS:
-        low, high = (pretty(side, value.unit, digits) for side in value.interval)
-        if low != high:
-            break
-    return f"  [{low}, {high}]"
+    return "" if errors.held_out is None else f", {quantity(errors.held_out, 'N')} on held-out runs"

@@ -6,14 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
+from dashpot.text.digits import beside
 from dashpot.text.form import Form, read_items, read_quantity
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty_all
 
 Range = Mapping[str, tuple[float, float]]
 
 QUANTITIES = {"displacement": "m", "speed": "m/s", "amplitude": "m", "preload": "m", "frequency": "Hz"}
+PLACES = ("displacement", "preload")  # count from anywhere
 DIGITS = 6
 SLACK = {"displacement": 0.02, "speed": 0.02, "amplitude": 0.02, "preload": 0.02, "frequency": 0.1}
 
@@ -96,7 +98,7 @@ def _widened(name: str, ends: tuple[float, float], found: Range) -> tuple[float,
     # places count from anywhere: their room is a share of how far the motion went
     quantity, at, node = name.partition("@")
     (low, high), slack = ends, SLACK[quantity]
-    if quantity not in ("displacement", "preload"):
+    if quantity not in PLACES:
         return low * (1.0 - slack), high * (1.0 + slack)
     least, largest = found.get(f"displacement{at}{node}", ends)
     room = slack * (largest - least)
@@ -104,9 +106,15 @@ def _widened(name: str, ends: tuple[float, float], found: Range) -> tuple[float,
 
 
 def _listed(name: str, ends: tuple[float, float]) -> str:
-    return f"[{', '.join(pretty(end, unit_of(name), DIGITS) for end in ends)}]"
+    return f"[{', '.join(_pretty(name, ends, DIGITS))}]"
 
 
 def _span(name: str, ends: tuple[float, float]) -> str:
-    low, high = (pretty(end, unit_of(name), 3) for end in ends)
-    return f"{low} to {high}"
+    low, high = _pretty(name, ends, 3)
+    return low if low == high else f"{low} to {high}"
+
+
+def _pretty(name: str, ends: tuple[float, float], digits: int) -> list[str]:
+    if quantity_of(name) in PLACES:
+        ends = beside(ends[0], max(map(abs, ends))), beside(ends[1], max(map(abs, ends)))
+    return pretty_all(ends, unit_of(name), digits)

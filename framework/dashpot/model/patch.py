@@ -22,7 +22,7 @@ from dashpot.text.inserting import (
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import InputError, Place, nearest
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty, pretty_all, pretty_in, shown_unit
 
 DIGITS = 8
 INTERVAL_DIGITS = (4, 8, 17)  # as many as tell its two ends apart
@@ -219,8 +219,8 @@ def _interval_edit(document: Document, node: MappingNode, number: Node, text: st
 def _curve_edit(curve: Characteristic, found: Characteristic) -> Edit:
     assert curve.node is not None
     (value, unit), (over, over_unit) = curve.curve.value, curve.curve.over
-    at = ", ".join(pretty(x, over_unit, DIGITS) for x in found.at)
-    values = ", ".join(pretty(knot.number, unit, DIGITS) for knot in found.values)
+    at = ", ".join(pretty_all(found.at, over_unit, DIGITS))
+    values = ", ".join(pretty_all([knot.number for knot in found.values], unit, DIGITS))
     refine = "refine: true, " if found.refine else ""
     text = f"{{from: {curve.data}, {refine}{over}: [{at}], {value}: [{values}]}}"
     return Edit(curve.node.start, curve.node.end, text)
@@ -244,8 +244,9 @@ def _with_record(text: str, entries: Sequence[str], file: str | None) -> str:
 
 def _pair(value: Value) -> str:
     assert value.interval is not None
+    shown = shown_unit(value.number, value.unit)
     for digits in INTERVAL_DIGITS:
-        low, high = (pretty(side, value.unit, digits) for side in value.interval)
+        low, high = (pretty_in(side, value.unit, shown, digits) for side in value.interval)
         if low != high:
             break
     return f"[{low}, {high}]"

@@ -22,7 +22,7 @@ from dashpot.notebook.listing import Listing, frame
 from dashpot.notebook.plots import plot
 from dashpot.notebook.promoted import promoted
 from dashpot.report.parts import Column, Grid, Notice
-from dashpot.report.readable import rig_unit
+from dashpot.text.digits import rig_unit
 from dashpot.text.problem import InputError
 from dashpot.text.quantity import pretty
 

@@ -69,7 +69,9 @@ class Diagnosis(PlainDiagnosis):
         """The network with the accepted causes, ready to be simulated and saved; None where none was accepted."""
         if self.extended_text is None:
             return None
-        return promoted(Model, parse_network(self.extended_text, load_registry().elements, self.model.file))
+        own = {branch.element.word: branch.element for branch in self.final.leaves()}
+        elements = {**load_registry().elements, **own}
+        return promoted(Model, parse_network(self.extended_text, elements, self.model.file))
 
     def report(self, path: str | Path) -> Path:
         """Write the report, one HTML file that needs nothing else; the path."""

@@ -9,8 +9,8 @@ from typing import Any
 from dashpot.report import figures
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Part, Section
-from dashpot.report.readable import MISSING, number, quantity
 from dashpot.study.masses import mass_sentence, mass_warnings
+from dashpot.text.digits import MISSING, number, quantity
 
 Json = Mapping[str, Any]
 

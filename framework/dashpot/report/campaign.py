@@ -7,7 +7,8 @@ from typing import Any
 
 from dashpot.report import figures
 from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
-from dashpot.report.readable import number, percent, quantity, with_interval
+from dashpot.report.readable import percent
+from dashpot.text.digits import number, quantity, with_interval
 
 Json = Mapping[str, Any]
 

@@ -20,8 +20,8 @@ from dashpot.report.grids import (
 )
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Grid, KeyFigures, Notice, Page, Part, Picture, Section
-from dashpot.report.readable import number, quantity, shown_with_unit
 from dashpot.report.shapes import shape_figures
+from dashpot.text.digits import number, quantity, shown_with_unit
 
 Json = Mapping[str, Any]
 

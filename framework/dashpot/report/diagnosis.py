@@ -11,7 +11,8 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.headline import Errors, accepted_causes, headline, read_errors, short_headline
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
 from dashpot.report.patch import diff
-from dashpot.report.readable import percent, shown_with_unit
+from dashpot.report.readable import percent
+from dashpot.text.digits import shown_with_unit
 
 Json = Mapping[str, Any]
 

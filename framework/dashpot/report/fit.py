@@ -14,7 +14,7 @@ from dashpot.report.grids import floor_origin, floor_value, runs_grid
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Code, Column, Grid, KeyFigures, Notice, Page, Part, Picture, Section
 from dashpot.report.patch import diff
-from dashpot.report.readable import rig_unit, shown_with_unit
+from dashpot.text.digits import rig_unit, shown_with_unit
 
 Json = Mapping[str, Any]
 
@@ -104,9 +104,9 @@ def knots_grid(fit: Json) -> Grid:
 def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
     columns = [
         Column("number", "parameter"),
-        Column("value", "value", "", 4),
-        Column("low", "95 % from", "", 4),
-        Column("high", "to", "", 4),
+        Column("value", "value", "", 4, interval="interval"),
+        Column("low", "95 % from", "", 4, interval="interval"),
+        Column("high", "to", "", 4, interval="interval"),
         Column("unit", "unit"),
         Column("remark", "remark"),
     ]
@@ -133,9 +133,15 @@ def _grid(fit: Json, title: str, file: str, knots: bool) -> Grid:
 def _in_rig_units(entry: Json, known: bool) -> dict[str, Any]:
     factor, unit = rig_unit(entry["unit"], abs(entry["value"]))
     # the interval of a number that the data do not determine is all that was searched
-    low, high = (entry["interval"] if known else None) or (None, None)
-    shown = {"value": entry["value"], "low": low, "high": high}
-    return {key: None if value is None else value * factor for key, value in shown.items()} | {"unit": unit or None}
+    interval = [end * factor for end in entry["interval"]] if known and entry["interval"] else None
+    low, high = interval or (None, None)
+    return {
+        "value": entry["value"] * factor,
+        "low": low,
+        "high": high,
+        "interval": interval,
+        "unit": unit or None,
+    }
 
 
 def _result(fit: Json, status: str, evidence: Evidence) -> Iterator[Part]:

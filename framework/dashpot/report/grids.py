@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import Any
 
 from dashpot.report.parts import Column, Grid
-from dashpot.report.readable import join, number, percent_interval, rig_unit, with_interval
+from dashpot.report.readable import join, percent_interval
+from dashpot.text.digits import number, rig_unit, with_interval
 
 Json = Mapping[str, Any]
 
@@ -70,7 +71,7 @@ def parameters_grid(comparison: Json) -> Grid:
     models = [model for model in comparison["models"] if model.get("parameters")]
     names = sorted(_in_order([list(model["parameters"]) for model in models]), key=_is_knot)
     columns = [Column("parameter", "parameter"), UNIT]
-    columns += [Column(f"model {i}", model["name"], "", 4) for i, model in enumerate(models)]
+    columns += [Column(f"model {i}", model["name"], "", 4, interval=f"interval {i}") for i, model in enumerate(models)]
     rows = [_parameter_row(name, [model["parameters"].get(name) for model in models]) for name in names]
     return Grid("Identified parameters", columns, rows, csv_name="parameters.csv")
 
@@ -110,7 +111,7 @@ def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
         Column("found", "verdict"),
         Column("evidence", "evidence"),
         Column("expected", "expected gain", "%", 2),
-        Column("gain", "gain held-out", "%", 2),
+        Column("gain", "gain held-out", "%", 2, interval="ends"),
         Column("interval", "interval", "%"),
         Column("parameters", "parameters"),
         Column("confused", "indistinguishable from"),
@@ -276,13 +277,16 @@ def _in_order(lists: Sequence[Sequence[str]]) -> list[str]:
 
 
 def _parameter_row(name: str, entries: Sequence[Any]) -> dict[str, Any]:
-    """A parameter of all models, in the unit that suits the largest of them."""
+    """A parameter of all models with its intervals, in the unit that suits the largest of them."""
     described = [entry if isinstance(entry, Mapping) else {"value": entry} for entry in entries]
     unit = next((entry["unit"] for entry in described if entry.get("unit")), "")
     known = [abs(entry["value"]) for entry in described if entry["value"] is not None]
     factor, shown = rig_unit(unit, max(known, default=0.0))
-    values = [None if entry["value"] is None else entry["value"] * factor for entry in described]
-    return {"parameter": name, "unit": shown or None} | {f"model {i}": value for i, value in enumerate(values)}
+    row: dict[str, Any] = {"parameter": name, "unit": shown or None}
+    for i, entry in enumerate(described):
+        row[f"model {i}"] = None if entry["value"] is None else entry["value"] * factor
+        row[f"interval {i}"] = [end * factor for end in entry.get("interval") or ()]
+    return row
 
 
 def _in_rig_units(value: float | None, unit: str | None) -> dict[str, Any]:
@@ -303,6 +307,7 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
         "expected": _percent(cause.get("expected_gain")),
         "gain": _percent(cause.get("gain")),
         "interval": percent_interval(cause.get("gain_interval")),
+        "ends": [100.0 * end for end in cause.get("gain_interval") or ()],
         "parameters": join(parameter_texts(cause)) if cause.get("parameters") else None,
         "confused": join(others) if others else None,
     }

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from dashpot.report.grids import cause_name, cause_title, floor_value, is_named
-from dashpot.report.readable import join, number, percent, quantity, with_interval
+from dashpot.report.readable import join, percent
+from dashpot.text.digits import number, quantity, with_interval
 
 Json = Mapping[str, Any]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from dashpot.report import figures
@@ -11,12 +12,14 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.figures import excerpt
 from dashpot.report.grids import explainable_origin, explainable_value, floor_origin, floor_value, metrics_grid
 from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
-from dashpot.report.readable import join, quantity, shown_with_unit
+from dashpot.report.readable import join
 from dashpot.report.shapes import shape_figures
+from dashpot.text.digits import beside, quantity, shown_with_unit
 
 Json = Mapping[str, Any]
 
 POINTS = 1200
+ENERGIES = {"J": 1.0, "mJ": 1e-3}
 FEW = ("run", "amplitude", "peak_speed", "largest_force", "energy", "stiffness", "loss", "remark")  # for a terminal
 
 COLUMNS = (
@@ -86,26 +89,35 @@ def look_headline(look: Json) -> str:
 def look_grid(look: Json, keys: Sequence[str] = ()) -> Grid:
     """The runs in numbers, with what their closed cycles take up; of the columns those in `keys`, or all."""
     faults = {fault["run"]: fault["kind"].replace("_", " ") for fault in look["faults"]}
-    rows = [_row(run, faults.get(run["run"], "")) for run in look["runs"]]
-    chosen = [column for column in COLUMNS if not keys or column.key in keys]
+    unit = _energy_unit(look["runs"])
+    rows = [_row(run, faults.get(run["run"], ""), ENERGIES[unit]) for run in look["runs"]]
+    columns = [replace(column, unit=unit) if column.key == "energy" else column for column in COLUMNS]
+    chosen = [column for column in columns if not keys or column.key in keys]
     used = [column for column in chosen if any(row.get(column.key) is not None for row in rows)]
     caption = "Energy per cycle is the median over closed cycles; positive: the specimen takes up work."
     return Grid("The runs", used, rows, caption, "runs.csv")
 
 
-def _row(run: Json, fault: str) -> dict[str, Any]:
+def _energy_unit(runs: Sequence[Json]) -> str:
+    """The unit that suits the largest energy of a cycle."""
+    largest = max((abs(run["energy_per_cycle"] or 0.0) for run in runs), default=0.0)
+    return next((name for name, size in ENERGIES.items() if largest >= 0.1 * size), "mJ")
+
+
+def _row(run: Json, fault: str, unit: float) -> dict[str, Any]:
     remarks = [
         fault,
         f"repeats {run['repeats']}" if run["repeats"] else "",
         "gives back work" if run["gives_back"] else "",
     ]
     thousandth = {key: None if run[key] is None else 1e-3 * run[key] for key in ("stiffness", "loss")}
-    in_mm = {key: 1e3 * run[key] for key in ("amplitude", "preload", "peak_speed")}
+    middle = beside(run["preload"], run["amplitude"])
+    in_mm = {"preload": 1e3 * middle, **{key: 1e3 * run[key] for key in ("amplitude", "peak_speed")}}
     return {
         **run,
         **in_mm,
         **thousandth,
-        "energy": run["energy_per_cycle"],
+        "energy": None if run["energy_per_cycle"] is None else run["energy_per_cycle"] / unit,
         "remark": ", ".join(filter(None, remarks)) or None,
     }
 

@@ -8,15 +8,15 @@ from typing import Any
 
 from dashpot.model.network import NetworkSpec, Slot, Value
 from dashpot.report.parts import Column, Grid
-from dashpot.report.readable import rig_unit
+from dashpot.text.digits import rig_unit
 
 ROLES = {"fixed": "fixed", "free": "free", "identified": "identified"}
 COLUMNS = (
     Column("number", "parameter"),
     Column("about", "meaning"),
-    Column("value", "value", "", 4),
-    Column("low", "95 % from", "", 4),
-    Column("high", "to", "", 4),
+    Column("value", "value", "", 4, interval="interval"),
+    Column("low", "95 % from", "", 4, interval="interval"),
+    Column("high", "to", "", 4, interval="interval"),
     Column("unit", "unit"),
     Column("lower", "lower bound", "", 3),
     Column("upper", "upper bound", "", 3),
@@ -61,7 +61,8 @@ def _range(value: Value) -> tuple[float, float]:
 def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
     value = slot.value
     factor, unit = rig_unit(value.unit, abs(value.number))
-    low, high = (None, None) if value.interval is None else (side * factor for side in value.interval)
+    interval = None if value.interval is None else [side * factor for side in value.interval]
+    low, high = interval or (None, None)
     lower, upper = (side * factor if math.isfinite(side) else None for side in _range(value))
     return {
         "number": slot.path,
@@ -69,6 +70,7 @@ def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
         "value": value.number * factor,
         "low": low,
         "high": high,
+        "interval": interval,
         "unit": unit or None,
         "lower": lower,
         "upper": upper,

@@ -15,8 +15,9 @@ NoticeKind = Literal["info", "warning", "good", "bad"]
 class Column:
     """One column of a table.
 
-    `digits` are significant digits; None shows the cell as text. Numbers in the rows are already in `unit`. In a page
-    the cell leads to the relative address that the row has under the key `link`.
+    `digits` are significant digits; None shows the cell as text. Where the row has an interval (low, high) under the
+    key `interval`, that gives the decimals instead. Numbers in the rows are already in `unit`. In a page the cell
+    leads to the relative address that the row has under the key `link`.
     """
 
     key: str
@@ -24,6 +25,7 @@ class Column:
     unit: str = ""
     digits: int | None = None
     link: str = ""
+    interval: str = ""
 
     @property
     def heading(self) -> str:

@@ -13,8 +13,9 @@ from dashpot.report.axle import axle_sections
 from dashpot.report.comparison import best_model, comparison_page
 from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
-from dashpot.report.readable import number, rig_unit, set_value
+from dashpot.report.readable import set_value
 from dashpot.study.masses import mass_sentence
+from dashpot.text.digits import number, rig_unit
 
 Json = Mapping[str, Any]
 

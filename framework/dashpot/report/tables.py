@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dashpot.report.parts import Column, Grid
-from dashpot.report.readable import MISSING, number
+from dashpot.text.digits import MISSING, number_within
 
 if TYPE_CHECKING:
+    from rich.console import JustifyMethod
     from rich.table import Table
 
 FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
@@ -25,7 +26,7 @@ def cell_text(column: Column, row: Mapping[str, Any]) -> str:
         return MISSING
     if isinstance(value, str | int) or column.digits is None:
         return str(value)
-    return number(value, column.digits)
+    return number_within(value, row.get(column.interval), column.digits)
 
 
 def to_csv(rows: Sequence[Mapping[str, Any]], columns: Sequence[Column]) -> str:
@@ -48,10 +49,17 @@ def rich_table(grid: Grid) -> Table:
 
     table = Table(title=Text(grid.title), title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in grid.columns:
-        table.add_column(Text(column.heading), justify="left" if column.digits is None else "right")
+        # a long name goes on in the next line, a number is never cut
+        width = None if column.digits is None else _width(column, grid)
+        side: JustifyMethod = "left" if column.digits is None else "right"
+        table.add_column(Text(column.heading), justify=side, overflow="fold", min_width=width)
     for row in grid.rows:
         table.add_row(*(Text(cell_text(column, row)) for column in grid.columns))
     return table
+
+
+def _width(column: Column, grid: Grid) -> int:
+    return max((len(cell_text(column, row)) for row in grid.rows), default=0)
 
 
 def plain_table(grid: Grid, width: int = 120) -> str:

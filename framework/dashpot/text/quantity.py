@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from decimal import Decimal
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -92,6 +93,7 @@ _RIG_UNITS = (
     "s from 1, ms from 0.1, us from 0",
     "kN from 10, N from 0",
     "kN/mm from 10, N/mm from 0",
+    "mm/N from 0.01, um/N from 0",
     "kN*s/mm from 10, N*s/mm from 0.01, N*s/m from 0",
     "t from 10, kg from 0.1, g from 0",
     "kHz from 10, Hz from 0",
@@ -201,19 +203,37 @@ def pretty(value: float, unit: str, digits: int = 4) -> str:
 
     `si` reads it back, to the `digits` shown. Raises ValueError for an unknown unit or a number that is not finite.
     """
-    if not math.isfinite(value):
-        raise ValueError(f"expected a finite number in {unit}, got {value}")
-    number, shown = Decimal(repr(float(value))), unit
-    known = _rig_units(unit)
+    return pretty_in(value, unit, shown_unit(value, unit), digits)
+
+
+def pretty_all(values: Sequence[float], unit: str, digits: int = 4) -> list[str]:
+    """Numbers of one kind in `unit` as `pretty` writes them, all in the unit that suits the largest.
+
+    `pretty_all([-5e-6, 4e-3], "m")` is `["-0.005 mm", "4 mm"]`. ValueError as for `pretty`.
+    """
+    shown = shown_unit(max(values, key=abs, default=0.0), unit)
+    return [pretty_in(value, unit, shown, digits) for value in values]
+
+
+def pretty_in(value: float, unit: str, shown: str, digits: int = 4) -> str:
+    """A number in `unit` written in the unit `shown` of the same kind. ValueError as for `pretty`."""
+    number = _finite(value, unit) / _exact_factor(shown, unit)[0]
+    return _format(number, digits) + ("" if shown == "1" else f" {shown}")
+
+
+def shown_unit(value: float, unit: str) -> str:
+    """The unit in which a rig engineer writes a number in `unit`: `N/mm` for 220000 N/m. ValueError as for `pretty`."""
+    number, known = _finite(value, unit), _rig_units(unit)
     if not number:
         # nothing has no size: the unit of what is usual
-        return _format(number, digits) + (f" {known[1][0]}" if known else "" if unit == "1" else f" {unit}")
-    for rig_unit, smallest in known:
-        candidate = number / _exact_factor(rig_unit, unit)[0]
-        if abs(candidate) >= smallest:
-            number, shown = candidate, rig_unit
-            break
-    return _format(number, digits) + ("" if shown == "1" else f" {shown}")
+        return known[1][0] if known else unit
+    return next((name for name, smallest in known if abs(number / _exact_factor(name, unit)[0]) >= smallest), unit)
+
+
+def _finite(value: float, unit: str) -> Decimal:
+    if not math.isfinite(value):
+        raise ValueError(f"expected a finite number in {unit}, got {value}")
+    return Decimal(repr(float(value)))
 
 
 @cache

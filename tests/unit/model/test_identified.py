@@ -72,3 +72,10 @@ def test_inside_is_told_nothing_and_outside_each_quantity():
 def test_places_have_room_for_a_share_of_the_whole_way():
     assert widened(SEEN)["preload"] == pytest.approx((-0.4e-3, 15.4e-3))
     assert widened(SEEN)["speed"][1] == pytest.approx(0.255)
+
+
+def test_places_beside_zero_are_zero_and_one_place_is_told_once():
+    seen = {"displacement": (-0.83e-6, 31.0016e-3), "preload": (2.5e-3, 2.5e-3)}
+    filled = fill_numbers(read(HEAD), read(HEAD), {}, seen)
+    assert "displacement: [0 mm, 31 mm]" in filled and "preload: [2.5 mm, 2.5 mm]" in filled
+    assert read(filled).identified.told() == "displacement 0 mm to 31 mm, preload 2.5 mm"

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from unit.report.report_samples import comparison, model
 
 from dashpot.report.grids import comparison_grid, parameters_grid
+from dashpot.report.look import look_grid
 from dashpot.report.parts import Column, Grid
-from dashpot.report.tables import plain_table, to_csv
+from dashpot.report.tables import cell_text, plain_table, to_csv
 
 COLUMNS = (Column("run", "run"), Column("rmse", "RMSE", "N", 3))
 
@@ -85,3 +86,29 @@ def test_a_model_that_failed_has_no_numbers_and_its_reason_below():
     grid = comparison_grid(comparison() | {"models": [model("one", 9.0), failed]})
     assert grid.rows[1]["train"] is None and grid.rows[1]["ratio"] is None
     assert grid.caption.endswith("axle: it fell apart.")
+
+
+def test_the_interval_of_a_row_gives_the_decimals():
+    column = Column("value", "value", "", 4, interval="interval")
+    rows = [{"value": 7.9736, "interval": (4.923, 12.91)}, {"value": 7.9736, "interval": None}, {"value": 7.9736}]
+    assert [cell_text(column, row) for row in rows] == ["8", "7.974", "7.974"]
+
+
+def test_in_a_narrow_terminal_no_name_and_no_number_is_cut():
+    name = "kelvin_voigt+preload_dependent_damping+friction"
+    columns = [Column("run", "run"), *(Column(f"{i}", f"a long heading {i}", "N", 4) for i in range(6))]
+    grid = Grid("", columns, [{"run": name} | {f"{i}": 12345.6 for i in range(6)}])
+    text = plain_table(grid, 80)
+    assert text.split().count("12346") == 6
+    assert name in "".join(line.split(" ", 2)[1] for line in text.splitlines() if line.strip())
+
+
+def test_a_look_shows_no_dust_of_rounding_and_small_energies_in_millijoules():
+    run = {"run": "a", "amplitude": 5e-4, "preload": 6.4e-10, "peak_speed": 0.08, "energy_per_cycle": 9.5e-4}
+    run |= {"least_force": -0.7, "largest_force": 0.7, "cycles": 37, "stiffness": 575.0, "loss": 1210.0}
+    run |= {"repeats": "", "gives_back": False}
+    grid = look_grid({"runs": [run], "faults": []})
+    shown = {column.heading: cell_text(column, grid.rows[0]) for column in grid.columns}
+    assert (shown["middle (mm)"], shown["energy per cycle (mJ)"]) == ("0", "0.950")
+    warm = look_grid({"runs": [run, run | {"energy_per_cycle": -4.0}], "faults": []})
+    assert [row["energy"] for row in warm.rows] == [9.5e-4, -4.0]

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dashpot.text.quantity import USUAL, base_unit, factor, force_dimension, is_unit, measure, pretty, si
+from dashpot.text.quantity import USUAL, base_unit, factor, force_dimension, is_unit, measure, pretty, pretty_all, si
 
 
 @pytest.mark.parametrize(
@@ -187,3 +187,14 @@ def test_the_factors_of_usual_units_are_those_of_the_library_of_units(given, wan
 def test_a_unit_that_is_wanted_from_itself_is_still_looked_up_where_it_is_odd(unit):
     with pytest.raises(ValueError, match="unknown unit|expected"):
         factor(unit, "N")
+
+
+def test_numbers_of_one_kind_stand_in_one_unit():
+    assert pretty_all([-0.83646106e-6, 1.347095e-3, 31e-3], "m", 8) == ["-0.00083646106 mm", "1.347095 mm", "31 mm"]
+    assert pretty_all([0.0, 0.0], "m") == ["0 mm", "0 mm"]
+    assert pretty_all([12.9e3, 4.92e-2], "N") == ["12.9 kN", "0.0000492 kN"]
+    assert pretty_all([], "N") == []
+
+
+def test_a_compliance_stands_in_millimetres_a_newton():
+    assert pretty(7.69e-5, "m/N") == "0.0769 mm/N"

@@ -85,7 +85,7 @@ def _trace(
             "opacity": 0.7,
             "symbol": "circle-open" if label == "measured" else "circle",
         },
-        "hovertemplate": f"%{{text}}<br>{_heading(name)} %{{x:.4g}}<br>{title} %{{y:.4g}}<extra></extra>",
+        "hovertemplate": f"%{{text}}<br>{_heading(name)} %{{x:.4r}}<br>{title} %{{y:.4r}}<extra></extra>",
     }
 
 

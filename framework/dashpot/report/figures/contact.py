@@ -65,7 +65,7 @@ def _traces(
             "y": block[_heading(label)],
             "xaxis": axis_number("x", panel),
             "yaxis": axis_number("y", panel),
-            "hovertemplate": "%{text}<br>%{x:.2f} Hz, %{y:.4g} N<extra></extra>",
+            "hovertemplate": "%{text}<br>%{x:.2f} Hz, %{y:.4r} N<extra></extra>",
         }
         for label, look in looks.items()
     ]

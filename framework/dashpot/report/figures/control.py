@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from dashpot.report.parts import Figure
-from dashpot.report.readable import rig_unit
 from dashpot.report.theme import axis, layout, plain
+from dashpot.text.digits import rig_unit
 
 LIMITS = {"low": "lower limit", "high": "upper limit"}
 
@@ -30,7 +30,7 @@ def control_chart(chart: Mapping[str, Any]) -> Figure:
             "x": names,
             "y": columns[name],
             "line": {"color": "@warning", "dash": "dash", "shape": "hvh", "width": 1.4},
-            "hovertemplate": f"{name} %{{y:.4g}}<extra></extra>",
+            "hovertemplate": f"{name} %{{y:.4r}}<extra></extra>",
         }
         for name in LIMITS.values()
     ]
@@ -43,7 +43,7 @@ def control_chart(chart: Mapping[str, Any]) -> Figure:
         "y": columns[heading],
         "line": {"color": "@soft", "width": 1.0},
         "marker": {"size": 9, "color": marks},
-        "hovertemplate": "%{x}<br>%{y:.4g}<extra></extra>",
+        "hovertemplate": "%{x}<br>%{y:.4r}<extra></extra>",
     }
     outside = [each["batch"] for each in batches if each["outside"]]
     caption = "Limits are three standard errors of a mean, by the scatter within batches. " + (

@@ -57,5 +57,5 @@ def _trace(label: str, block: Mapping[str, Any], labels: Sequence[str]) -> dict[
         "x": block[EVALUATIONS],
         "y": block[BEST],
         "line": {"color": series_color(label, labels), "width": 1.8, "shape": "hv"},
-        "hovertemplate": "%{text}<br>%{y:.2f} N after %{x} simulations<extra></extra>",
+        "hovertemplate": "%{text}<br>%{y:.3r} N after %{x} simulations<extra></extra>",
     }

@@ -12,8 +12,8 @@ from dashpot.report.evidence import IdentifiedCurve
 from dashpot.report.figures.misfit import share
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
-from dashpot.report.readable import rig_unit
 from dashpot.report.theme import axis, axis_number, layout, plain
+from dashpot.text.digits import rig_unit
 
 ACROSS, ROW, HEAD, GAP = 3, 220, 90, 0.09  # panels in a row; pixels of a panel and around it; share between two
 AT, VALUE, LOW, HIGH = "at", "value", "95 % from", "to"
@@ -81,7 +81,7 @@ def _traces(
         "y": drawn[VALUE],
         "line": {"color": "@after", "width": 2},
         "marker": {"size": 6},
-        "hovertemplate": f"%{{x:.4g}} {units[0]}, %{{y:.4g}} {units[1]}<extra></extra>",
+        "hovertemplate": f"%{{x:.4r}} {units[0]}, %{{y:.4r}} {units[1]}<extra></extra>",
     }
     return [band, line]
 

@@ -54,7 +54,7 @@ def _bars(group: str, label: str, block: Mapping[str, Any], panel: int, labels: 
         "xaxis": axis_number("x", panel),
         "yaxis": axis_number("y", panel),
         "marker": {"color": series_color(label, labels)},
-        "hovertemplate": "%{text}<br>harmonic %{x}: %{y:.2f} N<extra></extra>",
+        "hovertemplate": "%{text}<br>harmonic %{x}: %{y:.3r} N<extra></extra>",
     }
 
 

@@ -143,7 +143,7 @@ def _trace(
         "yaxis": y,
         "customdata": block[TIME],
         "line": _line(label, labels),
-        "hovertemplate": f"%{{text}}<br>%{{x:.3f}} {unit}, %{{y:.1f}} N<br>at %{{customdata:.3f}} s<extra></extra>",
+        "hovertemplate": f"%{{text}}<br>%{{x:.3f}} {unit}, %{{y:.4r}} N<br>at %{{customdata:.3f}} s<extra></extra>",
     }
 
 

@@ -80,7 +80,7 @@ def _panel(matrix: np.ndarray, runs: Sequence[str], columns: Sequence[str], inde
         "xgap": 2,
         "ygap": 2,
         "texttemplate": "%{z:.3r}",
-        "hovertemplate": "%{y}, %{x}<br>%{z:.2f} N<extra></extra>",
+        "hovertemplate": "%{y}, %{x}<br>%{z:.3r} N<extra></extra>",
         "hoverongaps": False,
     }
 

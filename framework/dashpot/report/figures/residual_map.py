@@ -9,8 +9,9 @@ import numpy as np
 
 from dashpot.report.figures import toggles
 from dashpot.report.parts import Figure
-from dashpot.report.readable import number, percent
+from dashpot.report.readable import percent
 from dashpot.report.theme import axis, layout
+from dashpot.text.digits import number
 
 SIGNED = [[0.0, "@after"], [0.5, "@paper"], [1.0, "@before"]]
 IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
@@ -35,7 +36,7 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
         "colorscale": SIGNED,
         "colorbar": {"title": {"text": "N", "side": "top"}, "thickness": 12, "outlinewidth": 0},
         "text": [[f"{x_name} {wide}<br>{y_name} {high}" for wide in _ranges(x)] for high in _ranges(y)],
-        "hovertemplate": "%{text}<br>%{z:.3g} N<extra></extra>",
+        "hovertemplate": "%{text}<br>%{z:.3r} N<extra></extra>",
         "hoverongaps": False,
     }
     best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]

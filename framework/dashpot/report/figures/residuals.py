@@ -62,7 +62,7 @@ def _trace(run: str, label: str, block: Mapping[str, Any], labels: Sequence[str]
         "x": block[TIME],
         "y": block[_heading(label)],
         "line": {"color": series_color(label, labels), "width": 1.0},
-        "hovertemplate": "%{text}<br>%{x:.3f} s, %{y:.1f} N<extra></extra>",
+        "hovertemplate": "%{text}<br>%{x:.3f} s, %{y:.3r} N<extra></extra>",
     }
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
-from dashpot.report.readable import number
 from dashpot.report.theme import axis, layout, plain
+from dashpot.text.digits import number
 
 PARTS = (("train", "training runs", "@train"), ("held_out", "held-out runs", "@held-out"))
 
@@ -45,7 +45,7 @@ def _bars(names: Sequence[str], title: str, color: str) -> dict[str, Any]:
         "texttemplate": "%{y:.3r}",
         "textposition": "outside",
         "cliponaxis": False,
-        "hovertemplate": f"%{{x}}<br>%{{y:.2f}} N on {title}<extra></extra>",
+        "hovertemplate": f"%{{x}}<br>%{{y:.3r}} N on {title}<extra></extra>",
     }
 
 
@@ -59,7 +59,7 @@ def _line(name: str, value: float, dash: str) -> dict[str, Any]:
         "y": [value, value],
         "xaxis": "x2",
         "line": {"color": "@ink", "dash": dash, "width": 1.6},
-        "hovertemplate": f"{name} %{{y:.2f}} N<extra></extra>",
+        "hovertemplate": f"{name} %{{y:.3r}} N<extra></extra>",
     }
 
 

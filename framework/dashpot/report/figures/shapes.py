@@ -158,7 +158,7 @@ def _trace(curve: Curve, block: Mapping[str, Any], about: Way, color: str, label
         "x": block[about.x],
         "y": block[about.y],
         "showlegend": False,
-        "hovertemplate": f"%{{text}}<br>{about.x} %{{x:.4g}}<br>{about.y} %{{y:.4g}}<extra></extra>",
+        "hovertemplate": f"%{{text}}<br>{about.x} %{{x:.4r}}<br>{about.y} %{{y:.4r}}<extra></extra>",
     }
 
 

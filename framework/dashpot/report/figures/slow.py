@@ -64,7 +64,7 @@ def _trace(label: str, block: Mapping[str, Any], what: str, cell: int, labels: S
         "xaxis": axis_number("x", cell),
         "yaxis": axis_number("y", cell),
         "line": {"color": series_color(label, models), "width": 2.4 if label == "measured" else 1.6},
-        "hovertemplate": "%{text}<br>%{x:.1f} mm, %{y:.4g} N<extra></extra>",
+        "hovertemplate": "%{text}<br>%{x:.1f} mm, %{y:.4r} N<extra></extra>",
     }
 
 

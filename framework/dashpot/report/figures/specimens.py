@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from dashpot.report.parts import Figure
-from dashpot.report.readable import rig_unit
 from dashpot.report.theme import axis, layout, plain
+from dashpot.text.digits import rig_unit
 
 SOUND, NAMED = "belongs to the others", "stands out"
 TWO = 2.0  # standard deviations between specimens, about 95 % of them
@@ -67,7 +67,7 @@ def _points(columns: Mapping[str, Sequence[Any]], heading: str, over: str, kind:
             "thickness": 1.2,
             "width": 0,
         },
-        "hovertemplate": "%{text}<br>%{y:.4g}<extra></extra>",
+        "hovertemplate": "%{text}<br>%{y:.4r}<extra></extra>",
     }
 
 

@@ -89,7 +89,7 @@ def _trace(
         "xaxis": axis_number("x", level),
         "yaxis": axis_number("y", level),
         "marker": _marker(label, labels),
-        "hovertemplate": f"%{{text}}<br>%{{x:.4g}} {over[-3:-1]}, %{{y:.4g}} {ROWS[level][2]}<extra></extra>",
+        "hovertemplate": f"%{{text}}<br>%{{x:.4r}} {over[-3:-1]}, %{{y:.4r}} {ROWS[level][2]}<extra></extra>",
     }
 
 

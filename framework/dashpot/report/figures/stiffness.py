@@ -69,7 +69,7 @@ def _traces(
             "y": block[_heading(label, row)],
             "xaxis": axis_number("x", cell),
             "yaxis": axis_number("y", cell),
-            "hovertemplate": f"%{{text}}<br>%{{x:.2f}} Hz, %{{y:.4g}} {row[2]}<extra></extra>",
+            "hovertemplate": f"%{{text}}<br>%{{x:.2f}} Hz, %{{y:.4r}} {row[2]}<extra></extra>",
         }
         for label in _responses(curve)
         for cell, row in zip(cells, ROWS, strict=True)

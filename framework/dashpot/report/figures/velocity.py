@@ -78,5 +78,5 @@ def _line(label: str, drawn: Mapping[str, Any], labels: Sequence[str]) -> dict[s
         "y": drawn[FORCE],
         "line": {"color": series_color(label, labels), "width": 2},
         "marker": {"size": 6},
-        "hovertemplate": "%{text}<br>%{x:.3f} m/s, %{y:.0f} N<extra></extra>",
+        "hovertemplate": "%{text}<br>%{x:.3f} m/s, %{y:.3r} N<extra></extra>",
     }

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from dashpot.model.element import Curve
 from dashpot.model.network import Branch, Characteristic, Joint, NetworkSpec, Value
+from dashpot.text.digits import beside
 from dashpot.text.quantity import pretty
 
 GREEK = {
@@ -99,5 +99,4 @@ def _table_lines(sign: str, argument: str, curve: Characteristic, declared: Curv
 
 def _place(at: float, curve: Characteristic, declared: Curve) -> str:
     """A knot to a thousandth of all of them: one that was measured beside zero stands at zero."""
-    step = 10.0 ** math.floor(math.log10(1e-3 * max(map(abs, curve.at)))) if any(curve.at) else 1.0
-    return quantity(step * round(at / step) + 0.0, declared.over[1])
+    return quantity(beside(at, max(map(abs, curve.at))), declared.over[1])
