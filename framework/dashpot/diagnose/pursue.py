@@ -55,7 +55,11 @@ class Scored:
     @property
     def score(self) -> float:
         """Minus the log of likelihood and prior."""
-        return float(self.nats.sum()) + self.errors + self.price
+        return self.likelihood(forms_err=True) + self.price
+
+    def likelihood(self, forms_err: bool) -> float:
+        """Minus its log, with errors of forms allowed for or with the laws as they are."""
+        return float(self.nats.sum()) + self.errors if forms_err else float(self.exact.sum())
 
     def drawn(self, weights: Array) -> Array:
         """The score (draws,) under weights (draws, folds) of the folds."""
@@ -114,7 +118,7 @@ class Pursuit:
     def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """How sure a cause is: the share of draws in which the best structure has it.
 
-        Times what the cause explains over that and what stays ``unexplained``, which might be its own.
+        Times its own part of what it explains and of what stays ``unexplained``, which might be its own.
         """
         return self._share(lambda names: name in names) * self._own(name, unexplained)
 
@@ -148,13 +152,22 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause explains over that and what stays unexplained, which might be its own."""
+        """What a cause alone explains over all that it explains and what stays unexplained, which might be its own."""
         explained = self.explained(name)
-        return explained / (explained + unexplained) if unexplained > 0.0 else 1.0
+        # of several terms of a cause one may be an error of the form of another, and is this cause all the same
+        several = sum(one.term.name == name for one in self.without) > 1
+        alone = explained if several else self.explained(name, forms_err=True)
+        whole = max(explained, alone) + unexplained
+        return alone / whole if whole > 0.0 else 1.0
 
-    def explained(self, name: tuple[str, str]) -> float:
-        """By what share the square of the residual grows without a cause, all else refitted."""
-        cost = sum(float(np.sum(one.scored.exact - self.best.exact)) for one in self.without if one.term.name == name)
+    def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
+        """By what share the square of the residual grows without a cause, all else refitted.
+
+        Where the forms of the other terms may err, they take up a part of it.
+        """
+        gone = [one.scored for one in self.without if one.term.name == name]
+        best = self.best.likelihood(forms_err)
+        cost = sum(scored.likelihood(forms_err) - best for scored in gone)
         return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
 
 

@@ -51,6 +51,16 @@ def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
     assert found == pytest.approx(explained / (explained + unexplained))
 
 
+def test_what_another_form_could_explain_as_well_is_not_its_own():
+    """Without it the square of the residual grows by a with errors of forms allowed for, by e otherwise: a over e."""
+    alone, explained = (np.exp(2.0 * nats / SAMPLES) - 1.0 for nats in (4.0, 10.0))
+    without = Scored(**{**vars(scored(4.0)), "exact": np.full(FOLDS, 10.0)})
+    found = pursuit(scored(0.0, "a"), [without]).probability(("a", ""))
+    assert found == pytest.approx(alone / explained)
+    twice = pursuit(scored(0.0, "a", "a"), [without, without])
+    assert twice.probability(("a", "")) == 1.0
+
+
 def test_a_rival_has_to_predict_better_with_the_laws_as_they_are():
     """One that is likelier only where the errors of its form are allowed for is taken in no draw."""
     rival = Scored(**{**vars(scored(-5.0, "b")), "exact": np.full(FOLDS, 5.0)})
