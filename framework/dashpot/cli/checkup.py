@@ -28,6 +28,7 @@ COMPARISONS: dict[str, Callable[[tuple, tuple], bool]] = {
 PURPOSES = {
     "matlab73": "reads MATLAB 7.3 and HDF5 files",
     "excel": "reads Excel workbooks",
+    "sampler": "draws from the posterior of a fit",
     "pandas": "gives tables as data frames in Python",
     "docs": "builds the documentation",
     "dev": "runs the tests",

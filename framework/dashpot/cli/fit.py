@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import click
@@ -22,6 +23,14 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
     type=click.Path(path_type=Path),
     help="Identified network of an earlier fit to other data: its intervals become priors.",
 )
+@click.option("--sampler", metavar="NAME", help="Draw from the posterior of the fit, too: emcee (extra sampler).")
+@click.option(
+    "--sampler-steps",
+    "steps",
+    metavar="N",
+    type=click.IntRange(min=1),
+    help="Steps of the sampler at most; it ends when it has converged. 10000 by default.",
+)
 @optimizer_options
 @switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
@@ -29,6 +38,8 @@ def verb(
     dataset: str,
     output: Path,
     earlier: Path | None,
+    sampler: str | None,
+    steps: int | None,
     optimizer: str | None,
     settings: tuple[str, ...],
     switches: Switches,
@@ -43,14 +54,20 @@ def verb(
       dashpot fit tire_model_1 my/dataset.yaml --seed 7 -o identified
     """
     from dashpot.fit.api import fit_network
+    from dashpot.fit.posterior import STEPS, require_sampler
     from dashpot.fit.prior import with_earlier
 
+    if sampler:
+        require_sampler(sampler, steps or STEPS)
+    elif steps:
+        raise click.UsageError("--sampler-steps is for a sampler: name it with --sampler")
     session = Session(switches, optimizer, settings)
     network, measured = session.network(model), session.sound_dataset(dataset)
     if earlier:
         network = with_earlier(network, session.network(str(earlier)), measured.digest, earlier.name)
     folder = session.claim(output, *fit_files(network.name))
-    found = session.run(fit_network, network, measured)
+    work = partial(fit_network, sampler=sampler, sampler_steps=steps or STEPS)
+    found = session.run(work, network, measured)
     with session.watch("writing the report"):
         report = write_fit(found, folder)
     session.talk.result(found.summary(), found.as_dict())

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @output_option("Folder for the identified networks SPECIMEN.yaml, joint.json, shared.csv and report.html.")
 @switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
 def verb(file: Path, output: Path, switches: Switches) -> None:
-    """Identify several specimens together, with parameters in common.
+    """Identify specimens with parameters in common.
 
     JOINT is a file with specimens, each a network and a dataset, and the parameters that are one number for all of
     them. Each specimen is fitted alone first; the report tells whether the specimens contradict one another.

@@ -29,7 +29,15 @@ def diagnosis_files(network: str) -> tuple[str, ...]:
 
 def fit_files(network: str) -> tuple[str, ...]:
     """Patterns of the files that the fit of a network writes."""
-    return "fit.json", "numbers.csv", "knots.csv", "report.html", f"{escape(network)}.yaml"
+    return (
+        "fit.json",
+        "numbers.csv",
+        "knots.csv",
+        "posterior.csv",
+        "draws.csv",
+        "report.html",
+        f"{escape(network)}.yaml",
+    )
 
 
 def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
@@ -39,15 +47,20 @@ def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
     from dashpot.report.json_text import json_text
     from dashpot.report.networks import with_network
     from dashpot.report.page import render
+    from dashpot.report.posterior import draws_grid, draws_of, posterior_grid
     from dashpot.report.tables import to_csv
 
     content, name = fit.as_dict(), f"{fit.declared.name}.yaml"
     comparison = comparison_of(fit)
     patch = {"before": fit.declared.text, "after": fit.identified_text, "before_name": "declared", "after_name": name}
     evidence = with_network({**comparison.evidence(), "patch": patch}, fit.fitted.name, fit.fitted, fit.dataset)
+    grids = [numbers_grid(content), knots_grid(content)]
+    if fit.posterior:
+        evidence["draws"] = draws_of(fit.posterior, fit.fitted)
+        grids += [posterior_grid(content), draws_grid(fit.posterior)]
     with folder.together() as results:
         results.write("fit.json", json_text(content))
-        for grid in (numbers_grid(content), knots_grid(content)):
+        for grid in grids:
             results.write(grid.csv_name, to_csv(grid.rows, grid.columns))
         results.write(name, fit.identified_text)
         return results.write("report.html", render(fit_page(content, comparison.as_dict(), evidence)))

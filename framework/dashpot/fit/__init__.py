@@ -13,6 +13,9 @@ replay       answers to asked blocks: from a record first, then by evaluation
 starts       the framework's own search: a screening block, then refinements of the best of it
 refine       damped Gauss-Newton, the framework's own polish
 uncertainty  how well the parameters are known
+prior        what was known before, as residual terms
+posterior    draws from the posterior of a fit
+chains       whether these draws have come to rest
 identifiability  what the data can tell, from the Fisher information, in words
 profile      the profile likelihood of a number
 bootstrap    refits on runs drawn with replacement

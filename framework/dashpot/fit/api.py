@@ -4,13 +4,14 @@
 2  parameters everything else on the dynamic training runs, by the chosen optimizer
 3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs; a
               curve that is kept moves only so that the simulated slow loop keeps the mid line of the measured one
+4  posterior  where a sampler is asked for: draws from what data and priors tell of the parameters
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +35,7 @@ from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
+from dashpot.fit.posterior import STEPS, require_sampler, sample_posterior
 from dashpot.fit.prior import beside_priors, first_error, refine_beside_priors, rows_beside, told_priors
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import Refined, refine
@@ -128,15 +130,33 @@ def fit_network(
     jobs: Jobs = 1,
     registry: Registry,
     progress: Progress | None = None,
+    sampler: str | None = None,
+    sampler_steps: int = STEPS,
 ) -> FitResult:
     """Identify the searched numbers of a network; see the module for the stages.
 
     ``optimizer`` is a plugged-in method for stage 2; without one the framework's own Gauss-Newton from several starts.
-    Raises InputError for a network that does not compile.
+    A ``sampler`` draws from the posterior of the fit, in so many steps at most. Raises InputError for a network that
+    does not compile, and for a sampler that is unknown or not installed.
     """
+    if sampler is not None:
+        require_sampler(sampler, sampler_steps)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
-    [found] = fit_each([spec], prepare(dataset, seed), method, seed, jobs, progress or silent)
-    return _or_raise(found)
+    setting = prepare(dataset, seed)
+    [found] = fit_each([spec], setting, method, seed, jobs, progress or silent)
+    fit = _or_raise(found)
+    if sampler is None:
+        return fit
+    watch = _Watch(progress or silent, spec.name, setting.floor.value)
+    posterior = sample_posterior(
+        fit,
+        setting.train,
+        sampler=sampler,
+        steps=sampler_steps,
+        jobs=threads(jobs),
+        progress=lambda done: watch.stage("posterior", done),
+    )
+    return replace(fit, posterior=posterior)
 
 
 def fit_each(

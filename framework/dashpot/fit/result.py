@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers
 from dashpot.text.digits import quantity, with_interval
 from dashpot.text.quantity import pretty
+
+if TYPE_CHECKING:
+    from dashpot.fit.posterior import Posterior
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +44,7 @@ class FitResult:
     the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
     is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
     so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted; ``priors``
-    what became of the priors.
+    what became of the priors; ``posterior`` has the draws of a sampler where one was asked for.
     """
 
     declared: NetworkSpec
@@ -64,6 +67,7 @@ class FitResult:
     errors_of_numbers: NDArray[np.float64] | None = field(default=None, repr=False)
     samples: int = 0
     priors: tuple[PriorTold, ...] = ()
+    posterior: Posterior | None = field(default=None, repr=False)
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -144,6 +148,7 @@ class FitResult:
             "spread": list(self.spread),
             "identifiability": self.identifiability,
             **({"priors": describe_priors(self.priors)} if self.priors else {}),
+            **({"posterior": self.posterior.as_dict()} if self.posterior else {}),
         }
 
     @property
@@ -172,6 +177,7 @@ class FitResult:
         told = self.identifiability or {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
         lines += [f"  {each.sentence}" for each in self.priors]
+        lines += [f"  {self.posterior.sentence}"] if self.posterior else []
         return "\n".join([*lines, self.ending + but_undetermined(told.get("undetermined", ()))])
 
 

@@ -17,6 +17,7 @@ from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.writing import dataset_files
 from dashpot.diagnose.diagnose import diagnose as diagnose_network
 from dashpot.fit.api import Progress, fit_network
+from dashpot.fit.posterior import STEPS
 from dashpot.fit.prior import with_earlier
 from dashpot.fit.result import FitResult
 from dashpot.fit.virtual_test import virtual_test
@@ -193,6 +194,8 @@ def fit(
     seed: int = 0,
     jobs: Jobs = 1,
     prior: AnyModel | None = None,
+    sampler: str | None = None,
+    sampler_steps: int = STEPS,
     registry: Registry | None = None,
     progress: Progress | bool = False,
     cancel: Callable[[], bool] | None = None,
@@ -205,6 +208,9 @@ def fit(
     ``optimizer`` and its ``options`` as on the command line; without one the framework's own Gauss-Newton from several
     starts. The intervals of a ``prior``, identified on other data, become priors of the parameters of the same path.
     InputError for a model that does not compile, and for a prior from the same data or without a parameter in common.
+
+    With ``sampler="emcee"`` (extra ``sampler``) ``fit.posterior`` has draws from the posterior, of ``sampler_steps``
+    steps at most; it ends sooner where it has converged. InputError where emcee is not installed.
 
     ``progress=True`` shows a line that tells how far it is; a function is called with the stage, the share of it that
     is done, the best error so far and the noise floor in N, the last three None where there is nothing to tell.
@@ -232,6 +238,8 @@ def fit(
                 jobs=jobs,
                 registry=found,
                 progress=hear,
+                sampler=sampler,
+                sampler_steps=sampler_steps,
             )
         )
 

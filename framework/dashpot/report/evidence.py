@@ -113,6 +113,17 @@ class IdentifiedCurve(TypedDict):
     high: np.ndarray
 
 
+class Draws(TypedDict):
+    """Draws from a posterior in SI: `step` and `walker` (k,) of each, `numbers[path]` (k,), `units[path]`, and the
+    `fitted[path]` number."""
+
+    step: np.ndarray
+    walker: np.ndarray
+    numbers: ByRun
+    units: Mapping[str, str]
+    fitted: Mapping[str, float]
+
+
 class Evidence(TypedDict, total=False):
     """The evidence of a diagnosis or comparison."""
 
@@ -129,6 +140,7 @@ class Evidence(TypedDict, total=False):
     contact_response: Sequence[Contact]
     slow_curves: Mapping[str, Mapping[str, Signals]]  # "measured" or model -> part; see `figures.slow_curves`
     history: Mapping[str, Progress]  # fit -> progress
+    draws: Draws  # from the posterior of a fit
     patch: Patch
     schematic: Mapping[str, str]  # title -> drawing in SVG
     rejected: Sequence[Rejected]

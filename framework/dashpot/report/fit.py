@@ -14,6 +14,7 @@ from dashpot.report.grids import floor_origin, floor_value, runs_grid
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Code, Column, Grid, KeyFigures, Notice, Page, Part, Picture, Section
 from dashpot.report.patch import diff
+from dashpot.report.posterior import TEXT, posterior_parts
 from dashpot.text.digits import rig_unit, shown_with_unit
 
 Json = Mapping[str, Any]
@@ -26,7 +27,7 @@ PRIORS = "100 % in the last column: the data add nothing to the prior. A small o
 def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
     """The report of a `dashpot-fit/1`; ``comparison`` is the `dashpot-comparison/1` of this model alone.
 
-    Used keys of the evidence: those of a comparison, and `patch`, the text before and after.
+    Used keys of the evidence: those of a comparison, `patch`, the text before and after, and `draws` of a posterior.
     """
     numbers: list[Part] = [grid for grid in (numbers_grid(fit), replace(knots_grid(fit), folded=True)) if grid.rows]
     numbers += [figures.identified_curves(evidence["curves"])] if evidence.get("curves") else []
@@ -34,6 +35,7 @@ def fit_page(fit: Json, comparison: Json, evidence: Evidence) -> Page:
         Section("Result", parts=list(_result(fit, comparison["models"][0]["status"], evidence))),
         Section("Parameters", _ending(fit), parts=numbers),
         Section("Priors", PRIORS, parts=[priors_grid(fit)] if fit.get("priors") else []),
+        Section("Posterior", TEXT, list(posterior_parts(fit, evidence.get("draws"))) if "posterior" in fit else []),
         Section("Over frequency and amplitude", parts=list(frequency_parts(evidence))),
         Section("The shape of the force", parts=list(shape_parts(evidence))),
         Section("Over displacement and time", parts=list(signal_parts(evidence))),

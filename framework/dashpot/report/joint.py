@@ -8,7 +8,8 @@ from typing import Any
 from dashpot.report.colophon import colophon
 from dashpot.report.fit import numbers_grid
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
-from dashpot.report.readable import join, rig_unit
+from dashpot.report.readable import join
+from dashpot.text.digits import rig_unit
 
 Json = Mapping[str, Any]
 

@@ -27,8 +27,8 @@ def shown(text: str) -> str:
 def joined_name(name: str, words: Sequence[str]) -> str:
     """A name followed by words, with ``+`` between them: as many words as it may have, then how many more there are."""
     for count in range(len(words), 0, -1):
-        more = [f"{len(words) - count}_more"] * (count < len(words))
-        if is_name(found := "+".join([name, *words[:count], *more])):
+        left = [f"{len(words) - count}_more"] * (count < len(words))
+        if is_name(found := "+".join([name, *words[:count], *left])):
             return found
     more = f"+{len(words)}_more"
     return f"{name[: LONGEST - len(more)]}{more}"

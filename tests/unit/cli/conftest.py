@@ -79,6 +79,7 @@ class FakeResult:
         "spring", Group("", "parallel", ()), document=Document.parse("a: 1")
     )
     fits = ()
+    posterior = None
     dataset = SimpleNamespace(runs=())
     setting = SimpleNamespace(dataset=dataset)
 

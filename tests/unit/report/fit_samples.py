@@ -44,3 +44,23 @@ def fit(**changes: Any) -> dict[str, Any]:
 def page_of(content: dict[str, Any], **evidence: Any) -> Page:
     alone = {**comparison(), "models": comparison()["models"][:1]}
     return fit_page(content, alone, {**comparison_evidence(), **evidence})
+
+
+def posterior(**changes: Any) -> dict[str, Any]:
+    """The posterior of two of the parameters."""
+    known = {"r_hat": 1.01, "effective_draws": 1700.0, "autocorrelation_time": 9.5}
+    return {
+        "sampler": "emcee",
+        "converged": True,
+        "sentence": "the posterior converged: 1700 effective draws",
+        "walkers": 32,
+        "steps": 500,
+        "discarded": 100,
+        "acceptance": 0.3,
+        "error": 12.0,
+        "held": [],
+        "parameters": {
+            "maxwell.stiffness": {"median": 45.2e3, "interval": [43e3, 47e3], "unit": "N/m", **known},
+            "maxwell.relaxation_time": {"median": 0.15, "interval": [0.1, 0.2], "unit": "s", **known},
+        },
+    } | changes

@@ -11,6 +11,7 @@ from dashpot.report.figures.contact import contact_response
 from dashpot.report.figures.control import control_chart
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.curves import identified_curves
+from dashpot.report.figures.draws import corner, draw_ranks, draw_traces
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
 from dashpot.report.figures.loop import branch_loops, loops
@@ -31,6 +32,9 @@ __all__ = [
     "contact_response",
     "control_chart",
     "convergence_history",
+    "corner",
+    "draw_ranks",
+    "draw_traces",
     "dynamic_stiffness",
     "gain_intervals",
     "harmonic_bars",
