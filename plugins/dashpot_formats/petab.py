@@ -65,6 +65,9 @@ def _rows(path: Path, needed: Sequence[str]) -> list[tuple[int, Row]]:
     rows: list[tuple[int, Row]] = list(enumerate(reader, 2))
     if not rows:
         raise ReadingError("expected rows below the header, got none", "export the table again")
+    for line, row in rows:
+        if any(row[name] is None for name in needed):
+            raise ReadingError("the row ends before all columns are there", "export the table again", line)
     return rows
 
 

@@ -192,6 +192,12 @@ def _xlsx(folder: Path) -> list[bytes]:
     return contents
 
 
+def _petab(folder: Path) -> list[bytes]:
+    heads = ["observableId", "simulationConditionId", "measurement", "time"]
+    rows = [(name, "c", x, t) for name, values in (("x", WAY), ("F", FORCE)) for t, x in zip(TIME, values, strict=True)]
+    return ["\n".join("\t".join(map(str, row)) for row in [heads, *rows]).encode()]
+
+
 _WRITERS = {
     "csv": _csv,
     "hdf5": _hdf5,
@@ -200,6 +206,7 @@ _WRITERS = {
     "mat": _mat,
     "mdf": _mdf,
     "npz": _npz,
+    "petab": _petab,
     "rpc": _rpc,
     "tdms": _tdms,
     "tydex": _tydex,

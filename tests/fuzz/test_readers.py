@@ -92,7 +92,8 @@ def outcome(reader, path):
 def fuzz(word, count, seed, folder):
     """Read `count` damaged files of a format; how often each outcome came, and the seconds and megabytes it took."""
     chance = random.Random(seed)
-    reader, path = READERS[word], folder / f"a{READERS[word].suffixes[0]}"
+    reader = READERS[word]
+    path = folder / f"a{reader.suffixes[0] if reader.suffixes else '.tsv'}"
     sound = sound_files(word, folder)
     for content in sound:
         path.write_bytes(content)

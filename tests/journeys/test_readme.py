@@ -22,6 +22,7 @@ from .conftest import ROOT, Installation, install
 README, NETWORKS, DATASETS, *_ = MANUAL
 PLUGIN = ROOT / "docs" / "how-to" / "own-plugin.md"
 TAKES_MINUTES = ("demo", "diagnose", "study")
+OWN_FILES = ("campaign", "joint")
 
 
 def blocks(language: str, start: str = "", pages: tuple[Path, ...] = MANUAL) -> list[str]:
@@ -31,9 +32,9 @@ def blocks(language: str, start: str = "", pages: tuple[Path, ...] = MANUAL) -> 
 
 
 def tour() -> list[list[str]]:
-    """The commands of the README and of the reference, one after the other; a campaign has a journey of its own."""
+    """The commands of the README and of the reference in order, without those that need files of one's own."""
     lines = [line.split() for block in blocks("sh", "dashpot ") for line in block.splitlines()]
-    return [line for line in lines if line[1] != "campaign"]
+    return [line for line in lines if line[1] not in OWN_FILES]
 
 
 def named(text: str) -> str:
