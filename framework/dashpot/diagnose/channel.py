@@ -3,14 +3,15 @@
 A specimen answers the same motion alike, or changes from test to test in one way. So a run may be accused where its
 repeat disagrees as other repeats do not; without a repeat, where two pairs of repeats disagree by the same, or where
 other, sound runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at
-a setting is not. Where no repeat tells, what the same fault would
-explain in all other runs is the error of the model: nats are divided by this overdispersion. Samples of what a fault
-leaves that follow from one another count as fewer.
+a setting is not. A specimen that changed between two tests, for good, is the rival of a fault of one run: it shows in
+all tests before or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in
+all other runs is the error of the model: nats are divided by this overdispersion. Samples of what a fault leaves that
+follow from one another count as fewer.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,7 +22,7 @@ from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import Odds
+from dashpot.diagnose.score import RIG_ODDS, Odds
 from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
 
 Array = NDArray[np.float64]
@@ -30,6 +31,7 @@ SLACK = 0.02  # of the range of a condition
 SAME_MOTION = 0.02  # of the deviation of the displacement
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 Key = tuple[str, int]  # run, number of the kind
+Block = tuple[tuple[str, ...], int]  # runs with a fault of the same strengths, number of the kind
 Pair = tuple[str, str]  # runs of the same motion
 
 
@@ -222,11 +224,26 @@ def accuse(
                 return _accused(solver, chosen, kinds)
             evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
             needed = least * (_overdispersion_beside(solver, key, chosen) if evidence == NEIGHBOURS else 1.0)
-            if evidence and gains[key] > needed:
+            changed = evidence.startswith("repeats") and _changed(solver, key, chosen, shares[key])
+            if evidence and gains[key] > needed and not changed:
                 chosen[key] = evidence
                 break
         else:
             return _accused(solver, chosen, kinds)
+
+
+def _changed(solver: _Solver, key: Key, chosen: Mapping[Key, str], share: float) -> bool:
+    """Whether the fault ``key`` of one run may as well be a specimen that changed between two tests.
+
+    The runs are in the order of the dataset, and at least two of them lie before and after. A kind of fault that other
+    runs have is the channel's. Of the nats a ``share`` counts.
+    """
+    runs, kind = list(solver.rows.residual), key[1]
+    if any(other == kind for _, other in chosen):
+        return False
+    steps = [solver.gain((tuple(runs[place:]), kind), chosen) for place in range(2, len(runs) - 1)]
+    lead = solver.gain(key, chosen) - max(steps, default=-np.inf)
+    return bool(share * lead < -np.log(RIG_ODDS))
 
 
 def _overdispersion_beside(solver: _Solver, key: Key, chosen: Mapping[Key, str]) -> float:
@@ -298,10 +315,10 @@ def conditions(run: Run) -> dict[str, float]:
 
 
 class _Solver:
-    """Least squares of residuals by tangents of all runs and shapes of single runs.
+    """Least squares of residuals by tangents of all runs and shapes of single runs, or of several alike.
 
     Beforehand a fault is thought to be about as large as repeats differ by it, which is ``known`` (k,) by kind, else as
-    what is left of its run: offsets of all runs would else be as good as another curve.
+    what is left of its runs: offsets of all runs would else be as good as another curve.
     """
 
     def __init__(self, rows: _Rows, known: Mapping[int, Array]) -> None:
@@ -311,47 +328,55 @@ class _Solver:
         self.square = float(sum(residual @ residual for residual in rows.residual.values()))
         self.samples = sum(residual.size for residual in rows.residual.values())
 
-    def _normal(self, keys: Sequence[Key]) -> tuple[Array, Array]:
-        fixed = len(self.right)
-        sizes = [len(self.rows.shapes[key]) for key in keys]
+    def _normal(self, blocks: Sequence[Block]) -> tuple[Array, Array]:
+        fixed, shapes = len(self.right), self.rows.shapes
+        sizes = [len(shapes[runs[0], kind]) for runs, kind in blocks]
         ends = fixed + np.cumsum([0, *sizes])
         gram, right = np.zeros((ends[-1], ends[-1])), np.zeros(ends[-1])
         gram[:fixed, :fixed], right[:fixed] = self.gram, self.right
-        for number, key in enumerate(keys):
-            mine, shapes = slice(ends[number], ends[number + 1]), self.rows.shapes[key]
-            right[mine] = shapes @ self.rows.residual[key[0]]
-            gram[mine, :fixed] = shapes @ self.rows.tangents[key[0]].T
+        for number, (runs, kind) in enumerate(blocks):
+            mine = slice(ends[number], ends[number + 1])
+            for run in runs:
+                right[mine] += shapes[run, kind] @ self.rows.residual[run]
+                gram[mine, :fixed] += shapes[run, kind] @ self.rows.tangents[run].T
             gram[:fixed, mine] = gram[mine, :fixed].T
-            for other_number, other in enumerate(keys):
-                if other[0] == key[0]:
-                    gram[mine, ends[other_number] : ends[other_number + 1]] = shapes @ self.rows.shapes[other].T
-            gram[mine, mine] += np.diag(self._precision(key))
+            for other, (others, other_kind) in enumerate(blocks):
+                for run in set(runs) & set(others):
+                    gram[mine, ends[other] : ends[other + 1]] += shapes[run, kind] @ shapes[run, other_kind].T
+            gram[mine, mine] += np.diag(self._precision(runs, kind))
         return gram, right
 
-    def _precision(self, key: Key) -> Array:
-        """What is known of the strengths (k,) of a fault beforehand."""
-        if key[1] in self.known:
-            return np.asarray(np.maximum(self.known[key[1]], 1e-300) ** -2.0)
-        expected = float(self.rows.residual[key[0]] @ self.rows.residual[key[0]])
-        return np.asarray(np.sum(self.rows.shapes[key] ** 2, axis=1) / max(expected, 1.0))
+    def _precision(self, runs: Sequence[str], kind: int) -> Array:
+        """What is known of the strengths (k,) of a fault of some runs beforehand."""
+        if kind in self.known:
+            return np.asarray(np.maximum(self.known[kind], 1e-300) ** -2.0)
+        expected = sum(float(self.rows.residual[run] @ self.rows.residual[run]) for run in runs)
+        size = np.sum([np.sum(self.rows.shapes[run, kind] ** 2, axis=1) for run in runs], axis=0)
+        return np.asarray(size / max(expected, 1.0))
 
-    def _solved(self, keys: Sequence[Key]) -> tuple[Array, float]:
-        gram, right = self._normal(keys)
+    def _solved(self, blocks: Sequence[Block]) -> tuple[Array, float]:
+        gram, right = self._normal(blocks)
         scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
         inverse = np.linalg.pinv(gram / np.outer(scale, scale), rcond=1e-11, hermitian=True)
         solution = inverse @ (right / scale) / scale
         return solution, self.square - float(solution @ right)
 
-    def gain(self, key: Key, chosen: Mapping[Key, str]) -> float:
+    def gain(self, key: Key | Block, chosen: Iterable[Key]) -> float:
         """The nats that a fault explains beside others that are chosen."""
-        before, after = self._solved(list(chosen))[1], self._solved([*chosen, key])[1]
+        beside = [_block(one) for one in chosen]
+        before, after = self._solved(beside)[1], self._solved([*beside, _block(key)])[1]
         return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
 
     def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:
         """The strengths of faults found together."""
-        solution, first, found = self._solved(keys)[0], len(self.right), dict[Key, Array]()
+        solution, first, found = self._solved([_block(key) for key in keys])[0], len(self.right), dict[Key, Array]()
         for key in keys:
             count = len(self.rows.shapes[key])
             found[key] = solution[first : first + count]
             first += count
         return found
+
+
+def _block(key: Key | Block) -> Block:
+    runs, kind = key
+    return ((runs,) if isinstance(runs, str) else runs), kind

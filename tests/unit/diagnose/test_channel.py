@@ -46,6 +46,15 @@ def test_a_repeat_that_differs_is_accused_with_its_size(word):
     assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
 
 
+def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
+    """From the fourth run on it is softer by 3 %: the repeat of the first run differs, that of the sixth does not."""
+    repeats = {"again": "a1_p5", "once_more": "a3_p11"}
+    later = [*list(MOTIONS)[3:], *repeats]
+    data = dataset(repeats=repeats, fault=dict.fromkeys(later, lambda force: 0.97 * force))
+    assert "gain" in examined(data, doubted=True)
+    assert not [run for run, word in examined(data) if word == "gain"]
+
+
 def test_a_doubted_fault_is_as_large_as_repeats_differ():
     """The difference of two that are off by one deviation each is root 2 times as large."""
     made = bench(dataset(repeats=AGAIN, fault={"again": lambda force: force + 15.0}))
