@@ -151,7 +151,9 @@ def find_causes(
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
     accused = accuse(refitter, pursuit.look, kinds, groups, measured, doubted, relevance)
     if accused:
-        left = look_for_leftover(_put_right(refitter, accused), pursuit.look, pairs)
+        again = _put_right(refitter, accused)
+        refitted = replace(pursuit.look, model=again.fit(pursuit.look.model, pursuit.look.noise))
+        left = look_for_leftover(again, refitted, pairs)
         accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
     if accused:
         again = _put_right(refitter, accused)

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from unit.diagnose.rig import MOTIONS, Motion, bench, causes, dataset, line, plain
 
+from dashpot.contract.registry import load_registry
 from dashpot.diagnose.channel import accuse, conditions, covers, doubts, kinds_of, repeats_of
+from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 
@@ -74,6 +76,14 @@ def test_a_run_within_what_others_cover_is_accused():
     found = examined(dataset(fault={"a3_p8": lambda force: 1.03 * force}))
     assert set(found) == {("a3_p8", "gain")}
     assert "other runs under the same conditions" in found["a3_p8", "gain"].words
+
+
+def test_a_run_that_pulled_the_fit_to_itself_is_named():
+    """What the model leaves in the other runs is judged after it was fitted again without the fault."""
+    data = dataset(fault={"a3_p8": lambda force: 1.03 * force})
+    found = diagnose(bench(data).model.declared, data, registry=load_registry()).as_dict()["causes"]
+    [(word, probability)] = [(one["cause"], one["probability"]) for one in found if one["accepted"]]
+    assert word == "gain" and probability > 0.9
 
 
 @pytest.mark.parametrize(
