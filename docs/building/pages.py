@@ -1,4 +1,4 @@
-"""The pages that come from the registry, the commands, the public names and the kept results."""
+"""The pages that come from the registry, the public names and the kept results."""
 
 from __future__ import annotations
 
@@ -12,12 +12,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-import click
-
 import dashpot
 from building.law import Term, clauses, mathml, symbol
-from dashpot.cli.shell import VERBS
-from dashpot.cli.shell import dashpot as command
 from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.svg import svg
 
@@ -72,24 +68,6 @@ def networks() -> Iterator[str]:
         if model.source:
             yield f"Source: {model.source}"
         yield from folded("The file", "yaml", path.read_text(encoding="utf-8").rstrip())
-
-
-def commands() -> Iterator[str]:
-    """Every verb with its arguments and options, as `--help` tells them."""
-    yield "# Commands"
-    yield "`dashpot VERB --help` says the same. A MODEL is a network file or a shipped name."
-    for name in VERBS:
-        context = click.Context(command, info_name="dashpot")
-        verb = command.get_command(context, name)
-        assert verb is not None
-        inner = click.Context(verb, info_name=name, parent=context)
-        yield f"## `dashpot {name}`"
-        yield f"```text\n{' '.join(verb.get_usage(inner).split())}\n```"
-        yield from told(inspect.cleandoc(verb.help or ""))
-        options = [option.get_help_record(inner) for option in verb.params if isinstance(option, click.Option)]
-        rows = [(f"`{record[0]}`", record[1]) for record in options if record]
-        if rows:
-            yield written.table(("option", "meaning"), rows)
 
 
 def told(words: str) -> Iterator[str]:
@@ -287,7 +265,6 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
         "[the inside](../explanation/inside.md) tells how they work together.",
         written.modules,
     ),
-    "commands": commands,
     "python": python,
     "accuracy": accuracy,
     "masses": masses,
