@@ -14,10 +14,10 @@ from pathlib import Path
 
 import click
 from architecture import written
-from dashpot.cli.shell import VERBS
-from dashpot.cli.shell import dashpot as command
 
 from building.pages import folded, put, told
+from dashpot.cli.shell import VERBS
+from dashpot.cli.shell import dashpot as command
 
 FILES = Path(__file__).resolve().parents[1] / "verbs" / "files"
 SHOWN_LINES = 40
@@ -132,23 +132,22 @@ def _files(text: str) -> dict[str, str]:
 
 
 def _arguments(verb: click.Command, context: click.Context) -> Iterator[str]:
-    rows = [
-        (f"`{argument.make_metavar(context)}`", _meaning(argument, context))
-        for argument in verb.params
-        if isinstance(argument, click.Argument)
-    ]
+    shown = [one.make_metavar(context) for one in verb.params if isinstance(one, click.Argument)]
+    rows = [(f"`{word}`", _meaning(word)) for word in " ".join(shown).split()]
     if rows:
         yield written.table(("argument", "meaning"), rows)
 
 
-def _meaning(argument: click.Argument, context: click.Context) -> str:
-    word = argument.make_metavar(context).strip("[].")
-    if isinstance(argument.type, click.Choice):
-        meaning = "one of " + ", ".join(f"`{choice}`" for choice in argument.type.choices)
-    else:
-        meaning = ARGUMENTS[word]
-    several = "; one or more" if argument.required else "; any number"
-    return meaning + (several if argument.nargs == -1 else "" if argument.required else "; optional")
+def _meaning(word: str) -> str:
+    """What stands for an argument, and how many of it."""
+    optional, several = word.startswith("["), word.endswith("...")
+    number = {(True, True): "; any number", (False, True): "; one or more", (True, False): "; optional"}
+    return _kind(word.strip("[].")) + number.get((optional, several), "")
+
+
+def _kind(word: str) -> str:
+    choices = word.strip("{}").split("|")
+    return f"one of {', '.join(f'`{choice}`' for choice in choices)}" if word.startswith("{") else ARGUMENTS[word]
 
 
 def _options(verb: click.Command, context: click.Context) -> Iterator[str]:

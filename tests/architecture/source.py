@@ -21,6 +21,7 @@ REFERENCE = (
     "command-line",
 )
 MANUAL = (ROOT / "README.md", *(ROOT / "docs" / "reference" / f"{name}.md" for name in REFERENCE))
+VERB_PAGES = tuple(sorted((ROOT / "docs" / "verbs").glob("*.md")))
 
 
 def modules(folder: Path) -> list[Path]:
@@ -63,8 +64,8 @@ def texts(path: Path) -> Iterator[tuple[str, int]]:
 
 
 def manual() -> str:
-    """The text of the README and of the reference, page by page."""
-    return "\n".join(page.read_text(encoding="utf-8") for page in MANUAL)
+    """The text of the README, of the reference and of the pages of verbs, page by page."""
+    return "\n".join(page.read_text(encoding="utf-8") for page in (*MANUAL, *VERB_PAGES))
 
 
 def at(path: Path, line: int) -> str:

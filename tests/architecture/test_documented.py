@@ -27,7 +27,7 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 TOLD = manual()
 INSIDE = (ROOT / "framework" / "README.md").read_text(encoding="utf-8")
 HOW = (ROOT / "docs" / "explanation" / "inside.md").read_text(encoding="utf-8")
-COMMANDS = re.findall(r"^dashpot (.+)$", TOLD, flags=re.MULTILINE)
+COMMANDS = re.findall(r"^(?:\$ )?dashpot (.+)$", TOLD, flags=re.MULTILINE)
 VARIABLES = {
     found
     for folder in (FRAMEWORK, PLUGINS)
@@ -72,11 +72,6 @@ def test_the_manual_uses_only_what_the_command_knows(line):
 @pytest.mark.parametrize("name", VERBS)
 def test_every_option_says_what_it_does(name):
     assert not [option.opts for option in options(name) if not option.help]
-
-
-@pytest.mark.parametrize("name", VERBS)
-def test_the_manual_explains_every_option(name):
-    assert not [text for option in options(name) for text in option.opts if not mentioned(text)]
 
 
 @pytest.mark.parametrize("kind", LISTS)
