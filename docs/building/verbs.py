@@ -30,7 +30,7 @@ ARGUMENTS: Mapping[str, str] = {
     "DATASET": "a `dataset.yaml`, or its folder",
     "MODEL|DATASET": "a network file, the name of a shipped network, a `dataset.yaml` or its folder",
     "FILE": "a measured file, or a folder of them",
-    "KIND": "which kind",
+    "KIND": "the kind, one of those above",
     "STUDY": "a study file, or the name of a shipped study",
     "JOINT": "a joint file",
     "CAMPAIGN": "a campaign file",
