@@ -235,8 +235,9 @@ def accuse(
 def _changed(solver: _Solver, key: Key, chosen: Mapping[Key, str], share: float) -> bool:
     """Whether the fault ``key`` of one run may as well be a specimen that changed between two tests.
 
-    The runs are in the order of the dataset, and at least two of them lie before and after. A kind of fault that other
-    runs have is the channel's. Of the nats a ``share`` counts.
+    The runs are in the order of the dataset, two of them at least before and after: a change with a single run on one
+    side cannot be told from a fault of that run. A kind of fault that other runs have is the channel's. Of the nats a
+    ``share`` counts.
     """
     runs, kind = list(solver.rows.residual), key[1]
     if any(other == kind for _, other in chosen):

@@ -143,7 +143,7 @@ class PriorTold:
         share = (
             f"the data leave {100.0 * self.narrowed:.2g} % of its deviation"
             if self.narrowed < 0.995
-            else ("the data add nothing to it")
+            else "the data add nothing to it"
         )
         away = f"{abs(self.pull):.2g} deviations {'above' if self.pull > 0.0 else 'below'}"
         return f"prior of {self.path}: {self.prior.told(self.unit)}; the fit is {away} it, {share}"
