@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import View
 
 ORDER = "order"
+REACHED = "reached"  # how far the specimen was deflected in the runs before
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
 CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs
@@ -31,7 +32,7 @@ def order_of(view: View) -> Mapping[str, float]:
 
 def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
     """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
-    common = sorted(set.intersection(*(set(each) for each in settings.values())) - {ORDER})
+    common = sorted(set.intersection(*(set(each) for each in settings.values())) - {ORDER, REACHED})
     moved = [
         [np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))] for run in settings
     ]

@@ -14,11 +14,11 @@ from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
 from dashpot_causes.factors import at_all_places, factors_of
-from dashpot_causes.session import ORDER
+from dashpot_causes.session import ORDER, REACHED
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
-OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", ORDER}
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", ORDER, REACHED}
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
@@ -105,7 +105,8 @@ class Number:
 
     def column(self, view: View, run: str) -> Array:
         """The change of the force (n,) when the number changes by all of its size."""
-        known = {key: value.number for key, value in self.branch.values.items()}
+        told = view.settings(run)
+        known = {key: told.get(value.setting, value.number) for key, value in self.branch.values.items()}
         known |= {key: curve.values[0].number for key, curve in self.branch.curves.items()}
         moved = [{**known, self.key: known[self.key] * (1.0 + side * NUDGE)} for side in (-1.0, 1.0)]
         less, more = view.respond(run, self.branch.element.word, moved)

@@ -15,7 +15,8 @@ class Mullins(Element):
 
     The Mullins effect as a pseudo-elastic law, reach = max |x| and d^2 = depth^2 + widening reach^2: on virgin ground
     nothing is lost, on the way there the more, the further the largest energy so far is above the present one. Every
-    record begins with a fresh specimen.
+    record begins with a fresh specimen, or with one that was deflected as far as `before` says: `{setting: reached,
+    value: 0 mm}` is the largest deflection in all runs before.
     """
 
     picture = Symbol.SPRING
@@ -31,17 +32,21 @@ class Mullins(Element):
         symbol="beta",
         default=0.0,
     )
+    before = Parameter(
+        "m", "largest deflection before the record", bounds=(0.0, 10.0), scale="linear", symbol="x_0", default=0.0
+    )
     reach = State("m", "largest deflection to either side so far")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The reach grows to the end of the step."""
         reach = np.maximum(z.reach, np.abs(x.new))
-        return Response(p.stiffness * x.new * _left(x.new, reach, p), reach=reach)
+        return Response(p.stiffness * x.new * _left(x.new, np.maximum(reach, p.before), p), reach=reach)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy that the way back to zero gives."""
-        way = np.log1p(_grip(x.new, z.reach, p)) - np.log1p(_grip(0.0, z.reach, p))
-        return 0.5 * p.stiffness * _width(z.reach, p) * way
+        reach = np.maximum(z.reach, p.before)
+        way = np.log1p(_grip(x.new, reach, p)) - np.log1p(_grip(0.0, reach, p))
+        return 0.5 * p.stiffness * _width(reach, p) * way
 
 
 def _left(x: Any, reach: Any, p: Any) -> Any:

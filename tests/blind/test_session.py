@@ -1,8 +1,9 @@
-"""What changes over a session of runs one after the other: the zero of the load cell, and a specimen that warms up.
+"""What changes over a session of runs one after the other: the zero of the load cell, a specimen that warms up or beds in.
 
 The zero follows an exponential of the clock, within and between runs; the warmth of the specimen its dissipated power
-and its cooling, sample by sample and in the rests. Neither is a straight line over the order of the runs, which is what
-the causes are made of.
+and its cooling, sample by sample and in the rests; neither is a straight line over the order of the runs, which is what
+the causes are made of. What beds in loses stiffness by an exponential of the largest deflection of the session, which
+no element has.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from truth.design import Plan
 from truth.folder import write_dataset
-from truth.motion import STEP, at_samples, sweep
+from truth.motion import STEP, Motion, at_samples, sweep
 
 from dashpot import load_registry
 from dashpot.data.dataset import read_dataset
@@ -24,39 +25,47 @@ STIFFNESS, DAMPING, NOISE = 190e3, 280.0, 8.0
 DURATION, REST = 4.0, 6.0
 TOTAL = 60.0  # N, of the zero by the end
 HEATING, COOLING = 1.0 / 1000.0, 200.0  # 1/J and s
+LOST, LENGTH = 0.3, 8e-3  # share of the stiffness, and the deflection in m that takes 63 % of it
 CONDITIONS = [(a, p) for a in (1.0, 2.0, 4.0) for p in (6.0, 9.0, 12.0)]
 MIXED = [CONDITIONS[k] for k in (3, 0, 7, 1, 8, 4, 2, 6, 5)]
 
 
-def drifting(velocity: np.ndarray, begin: float, warmth: float) -> tuple[np.ndarray, np.ndarray, float]:
-    """What is added to the force, by what stiffness and damping are multiplied, and the warmth afterwards."""
-    clock = begin + STEP * np.arange(velocity.size)
+def drifting(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """What is added to the force, by what stiffness and damping are multiplied, and the state afterwards."""
+    clock = begin + STEP * np.arange(motion.velocity.size)
     end = len(MIXED) * (DURATION + REST)
-    return TOTAL * np.expm1(-clock / end) / np.expm1(-1.0), np.ones((2, velocity.size)), 0.0
+    return TOTAL * np.expm1(-clock / end) / np.expm1(-1.0), np.ones((2, motion.velocity.size)), 0.0
 
 
-def warming(velocity: np.ndarray, begin: float, warmth: float) -> tuple[np.ndarray, np.ndarray, float]:
+def warming(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
     """The same for a specimen that is heated by its damping."""
     heat = np.exp(-STEP / COOLING)
-    course = np.empty(velocity.size)
-    for number, power in enumerate((HEATING * DAMPING * velocity**2).tolist()):
-        warmth = heat * warmth + STEP * power
-        course[number] = warmth
-    return np.zeros(velocity.size), np.exp([-0.5 * course, -course]), warmth * np.exp(-REST / COOLING)
+    course = np.empty(motion.velocity.size)
+    for number, power in enumerate((HEATING * DAMPING * motion.velocity**2).tolist()):
+        state = heat * state + STEP * power
+        course[number] = state
+    return np.zeros(course.size), np.exp([-0.5 * course, -course]), state * np.exp(-REST / COOLING)
 
 
-def steady(velocity: np.ndarray, begin: float, warmth: float) -> tuple[np.ndarray, np.ndarray, float]:
+def bedding(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """The same for a specimen that gets softer where it goes further than ever before in the session."""
+    course = np.maximum(state, np.maximum.accumulate(np.abs(motion.displacement)))
+    softened = 1.0 + LOST * np.exp(-course / LENGTH)
+    return np.zeros(course.size), np.array([softened, np.ones(course.size)]), float(course[-1])
+
+
+def steady(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
     """Nothing changes."""
-    return np.zeros(velocity.size), np.ones((2, velocity.size)), 0.0
+    return np.zeros(motion.velocity.size), np.ones((2, motion.velocity.size)), 0.0
 
 
 def measured(folder: Path, seed: int, change) -> Path:
     """Nine sweeps in mixed order, the noise that of a load cell."""
     rng = np.random.default_rng(seed)
-    runs, warmth = {}, 0.0
+    runs, state = {}, 0.0
     for number, (amplitude, preload) in enumerate(MIXED):
         motion = sweep(1e-3 * amplitude, 1e-3 * preload, 1.0, 25.0, DURATION)
-        zero, factors, warmth = change(motion.velocity, number * (DURATION + REST), warmth)
+        zero, factors, state = change(motion, number * (DURATION + REST), state)
         force = STIFFNESS * motion.displacement * factors[0] + DAMPING * motion.velocity * factors[1] + zero
         seen = at_samples(force)
         plan = Plan(f"a{amplitude:g}_p{preload:g}", 1e-3 * amplitude, 1e-3 * preload)
@@ -64,7 +73,9 @@ def measured(folder: Path, seed: int, change) -> Path:
     return write_dataset(folder, "session", runs)
 
 
-@pytest.mark.parametrize("change, expected", [(drifting, ["drift"]), (warming, ["heating"]), (steady, [])])
+@pytest.mark.parametrize(
+    "change, expected", [(drifting, ["drift"]), (warming, ["heating"]), (bedding, ["bedding_in"]), (steady, [])]
+)
 def test_what_changes_from_run_to_run_is_one_cause(tmp_path, seed, change, expected):
     registry = load_registry()
     readers = {word: reader() for word, reader in registry.formats.items()}

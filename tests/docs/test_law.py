@@ -52,9 +52,10 @@ def test_the_stated_equation_is_what_the_class_computes(word, rng):
 
 
 def test_the_stated_force_of_bedding_in_is_what_the_class_computes(rng):
-    x, numbers = rng.normal(size=100), {"stiffness": 3.0, "depth": 0.7, "exponent": 2.5}
+    x, numbers = rng.normal(size=100), {"stiffness": 3.0, "depth": 0.7, "exponent": 2.5, "before": 0.3}
     found = ELEMENTS["bedding_in"]().step(Motion(x, x, x, x, x), SimpleNamespace(reach=0.0), numbers_of(numbers), 1.0)
-    stated = evaluate(equations(ELEMENTS["bedding_in"])[0].parts[1], numbers | {"x": x, "reach": np.abs(x)})
+    reach = np.maximum(np.abs(x), numbers["before"])
+    stated = evaluate(equations(ELEMENTS["bedding_in"])[0].parts[1], numbers | {"x": x, "reach": reach})
     assert found.force == pytest.approx(stated, rel=1e-12)
 
 

@@ -226,6 +226,19 @@ def test_a_specimen_beds_in_once():
     assert later == pytest.approx(stiffness * x / (1.0 + amplitude / depth), rel=1e-12, abs=1e-9)
 
 
+def test_a_specimen_stays_as_soft_as_the_runs_before_have_left_it():
+    amplitude, depth, stiffness, before = 3e-3, 2e-3, 5e4, 7e-3
+    numbers = {"stiffness": stiffness, "depth": depth, "before": before}
+    _, x, force = last_cycle("bedding_in", amplitude, 3.0, 1, 400, **numbers)
+    assert force == pytest.approx(stiffness * x / (1.0 + before / depth), rel=1e-12, abs=1e-9)
+    _, x, force = last_cycle("mullins", amplitude, 3.0, 1, 400, **numbers)
+    left = 1.0 - np.tanh((before**2 - x**2) / depth**2)
+    assert force == pytest.approx(stiffness * x * left, rel=1e-12, abs=1e-9)
+    beyond = last_cycle("mullins", amplitude, 3.0, 1, 400, stiffness=stiffness, depth=depth, before=0.5 * amplitude)
+    virgin = last_cycle("mullins", amplitude, 3.0, 2, 400, stiffness=stiffness, depth=depth)
+    assert beyond[2][-1] == pytest.approx(virgin[2][-1], rel=1e-9, abs=1e-9)
+
+
 @pytest.mark.parametrize("widening", [0.0, 0.4])
 def test_a_specimen_is_soft_on_the_way_to_where_it_was(widening):
     amplitude, depth, stiffness = 3e-3, 2e-3, 5e4

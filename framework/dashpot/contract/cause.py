@@ -191,10 +191,12 @@ def added_branch(
     bounds: Mapping[str, Pair] = NOTHING,
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True,
     form: str = "",
+    given: Mapping[str, str] = NOTHING,
 ) -> Suspect:
     """The suspect that an element is missing; ``values(strength, place)`` are its parameters in ``units``.
 
     Those named in ``fixed`` are written as plain numbers, the others to be found, some of them within ``bounds`` (SI).
+    Further parameters are ``given`` by the setting of a run that they name, zero where a run has none.
     ``admits`` and ``form`` are those of the suspect; without a word the form is that of the element.
 
     Examples:
@@ -205,12 +207,14 @@ def added_branch(
     """
 
     def columns(view: View, run: str) -> Array:
-        return view.respond(run, element, [values(1.0, place) for place in grid])
+        told = {key: view.settings(run)[setting] for key, setting in given.items()}
+        return view.respond(run, element, [{**values(1.0, place), **told} for place in grid])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
             text = add_branch(
-                text, branch_lines(free_name(text, branch), element, values(strength, place), units, fixed, bounds)
+                text,
+                branch_lines(free_name(text, branch), element, values(strength, place), units, fixed, bounds, given),
             )
         return text
 
@@ -237,8 +241,12 @@ def branch_lines(
     units: Mapping[str, str],
     fixed: Sequence[str] = (),
     bounds: Mapping[str, Pair] = NOTHING,
+    given: Mapping[str, str] = NOTHING,
 ) -> str:
-    """A branch as lines of YAML, its parameters free, some within ``bounds`` (SI), but for those named in ``fixed``."""
+    """A branch as lines of YAML, its parameters free, some within ``bounds`` (SI), but for those named in ``fixed``.
+
+    Those that are ``given`` follow the setting of a run, and are zero where it has none.
+    """
     from dashpot.text.quantity import pretty
 
     texts = {key: pretty(value, units[key], 6) for key, value in values.items()}
@@ -247,6 +255,7 @@ def branch_lines(
         key: f"{{start: {text}{f', bounds: [{within[key]}]' if key in within else ''}}}" for key, text in texts.items()
     }
     numbers = [f"  {key}: {texts[key] if key in fixed else starts[key]}" for key in texts]
+    numbers += [f"  {key}: {{setting: {word}, value: 0 {units[key]}}}" for key, word in given.items()]
     return "\n".join([f"{name}:", f"  element: {element}", *numbers])
 
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from dashpot.data.dataset import Dataset
 from dashpot.data.declaration import ACCEPTABLE, RunDeclaration, read_declaration
 from dashpot.data.groups import group_repeats
+from dashpot.data.history import with_history
 from dashpot.data.importing.motion import find_motion
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
@@ -56,7 +57,8 @@ def join(parts: Iterable[Dataset], name: str, aside: Mapping[str, InputError] | 
     wrong = [*_same_names(runs), *_lone_repeats(runs, {*known, *gone})]
     if wrong or not runs:
         raise InputError([*told, *wrong] or [Problem(Place(), f"the dataset '{name}' has no runs", "hand in some")])
-    grouped = group_repeats([replace(_like_first(run, known), order=order) for order, run in enumerate(runs)])
+    ordered = [replace(_like_first(run, known), order=order) for order, run in enumerate(runs)]
+    grouped = group_repeats(list(with_history((run, True) for run in ordered)))
     problems = (*told, *(problem for part in parts for problem in part.problems))
     return Dataset(name, tuple(grouped), problems, faults=tuple(fault for part in parts for fault in part.faults))
 

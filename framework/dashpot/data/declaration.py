@@ -15,7 +15,15 @@ from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place, Problem
 from dashpot.text.quantity import measure
 
-SETTING_UNITS = {"amplitude": "m", "preload": "m", "start": "Hz", "stop": "Hz", "frequency": "Hz", "added_mass": "kg"}
+SETTING_UNITS = {
+    "amplitude": "m",
+    "preload": "m",
+    "start": "Hz",
+    "stop": "Hz",
+    "frequency": "Hz",
+    "added_mass": "kg",
+    "reached": "m",
+}
 
 SENSOR_KEYS = {
     "gain": "largest error of the factor",

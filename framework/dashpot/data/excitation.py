@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive, drive_from_samples
+from dashpot.data.history import REACHED
 from dashpot.data.run import Run
 from dashpot.text.problem import InputError, Place
 
@@ -30,7 +31,8 @@ class Excitation:
     """Motions (Drive) and loads (n,) in N by the name of the node, and the numbers of the test procedure, in SI.
 
     The node of a network with two ends has the name "". Among the settings are the means of all further channels that
-    were measured (temperature, pressure ...), as ``mean_of`` names them, and the ``order`` of a run in its dataset.
+    were measured (temperature, pressure ...), as ``mean_of`` names them, the ``order`` of a run in its dataset, and
+    the deflection that was ``reached`` before it.
     ``name`` is that of the run, ``source`` its file.
     """
 
@@ -84,13 +86,15 @@ class Excitation:
 
 
 def settings_of(run: Run) -> dict[str, float]:
-    """The settings of a run, its ``order`` in the dataset, and the means of its further channels."""
+    """The settings of a run, its ``order`` in the dataset, what was ``reached`` before, and the means of its further
+    channels.
+    """
     means = {
         mean_of(name): float(np.mean(samples))
         for name, samples in run.channels.items()
         if name.partition("@")[0] not in MOVING
     }
-    return {ORDER: float(run.order), **run.settings, **means}
+    return {ORDER: float(run.order), REACHED: run.reached, **run.settings, **means}
 
 
 def mean_of(channel: str) -> str:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
 from dashpot.data.excitation import ORDER, mean_of, settings_of
 from dashpot.data.groups import resolve_repeats
+from dashpot.data.history import REACHED, with_history
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
 from dashpot.data.source import Source, choose_reader, find_file, locate, measured_folder
@@ -68,12 +70,13 @@ class RunStream:
     def conditions(self) -> dict[str, dict[str, float]]:
         """The settings of every run in SI before its file is read, named as by `settings_of`.
 
-        The means of further channels are not known yet: NaN.
+        What was reached before and the means of further channels are not known yet: NaN.
         """
         resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
         return {
             each.name: {
                 ORDER: float(each.order),
+                REACHED: math.nan,
                 **each.settings,
                 **{mean_of(channel.name): math.nan for channel in each.channels},
             }
@@ -97,11 +100,9 @@ class RunStream:
             if declaration.name in troubles:
                 self._note(declaration, troubles[declaration.name])
         some = False
-        for declaration in resolved:
-            run = self._run(declaration)
-            if run:
-                some = True
-                yield run
+        for run in with_history(self._made(resolved)):
+            some = True
+            yield run
         rows, problems = self._rows()
         self._problems += problems
         yield from rows
@@ -114,10 +115,21 @@ class RunStream:
         elif all(problem.severity == "warning" for problem in self._problems):
             yield Problem(self.document.root.place, "every run of the dataset is set aside", "keep at least one")
 
+    def _made(self, declarations: Iterable[RunDeclaration]) -> Iterator[tuple[Run, bool]]:
+        """All runs that can be read, and whether they count: the specimen was moved in one that is set aside, too."""
+        for declaration in declarations:
+            counts = declaration.set_aside is None
+            run = self._run(declaration) if counts else self._aside(declaration)
+            if run:
+                yield run, counts
+
+    def _aside(self, declaration: RunDeclaration) -> Run | None:
+        self._note(declaration, _wished(declaration))
+        with suppress(Unusable, InputError):
+            return read_run(declaration, self._table(declaration))[0]
+        return None
+
     def _run(self, declaration: RunDeclaration) -> Run | None:
-        if declaration.set_aside is not None:
-            self._note(declaration, _wished(declaration))
-            return None
         try:
             run, warnings = read_run(declaration, self._table(declaration))
         except Unusable as error:

@@ -43,7 +43,7 @@ class Noise:
         if step == 1:
             return signals
         blocks = signals[..., : kept * step].reshape(*signals.shape[:-1], kept, step)
-        return blocks.sum(axis=-1) / np.sqrt(step)
+        return blocks @ np.full(step, step**-0.5)
 
     def reduce_shapes(self, run: str, shapes: Array) -> Array:
         """Shapes (k, n) of a run averaged over blocks (k, kept); zero for one beyond the band that they show."""

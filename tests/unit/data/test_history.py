@@ -1,0 +1,50 @@
+"""Runs know how far the specimen was deflected in those before them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from unit.data.test_dataset import read, write_run
+
+import dashpot as dp
+from dashpot.data.excitation import settings_of
+
+RUNS = """
+- {name: a, file: a.npz}
+- {name: b, file: b.npz}
+- {name: c, file: c.npz}
+"""
+# mm, to either side
+STROKES = {"a": 3.0, "b": -5.0, "c": 2.0}
+
+
+def reached(folder, runs=RUNS, strokes=STROKES):
+    wave = np.sin(np.linspace(0.0, 20.0 * np.pi, 400))
+    for name, stroke in strokes.items():
+        # one side only goes all the way
+        write_run(folder, f"{name}.npz", x=stroke * np.where(wave > 0.0, wave, 0.5 * wave) / wave.max())
+    return {run.name: 1e3 * settings_of(run)["reached"] for run in read(folder, runs).runs}
+
+
+def test_the_largest_deflection_to_either_side_counts_from_run_to_run(tmp_path):
+    assert reached(tmp_path) == pytest.approx({"a": 0.0, "b": 3.0, "c": 5.0})
+
+
+def test_what_a_run_states_itself_counts_from_there_on(tmp_path):
+    stated = RUNS.replace("file: a.npz", "file: a.npz, settings: {reached: 4 mm}")
+    assert reached(tmp_path, stated) == pytest.approx({"a": 4.0, "b": 4.0, "c": 5.0})
+
+
+def test_a_run_that_is_set_aside_has_moved_the_specimen_all_the_same(tmp_path):
+    aside = RUNS.replace("file: b.npz", "file: b.npz, set_aside: the clamp was loose")
+    assert reached(tmp_path, aside) == pytest.approx({"a": 0.0, "c": 5.0})
+
+
+def test_parts_of_a_dataset_in_memory_follow_one_another():
+    wave, time = np.sin(np.linspace(0.0, 20.0, 500)), 1e-3 * np.arange(500)
+    parts = [
+        dp.Data.from_arrays(time, far * wave, 1e5 * far * wave, name=name)
+        for name, far in (("first", 4e-3), ("second", 1e-3))
+    ]
+    runs = dp.Data.join(parts).runs
+    assert [run.reached for run in runs] == [0.0, pytest.approx(4e-3 * np.abs(wave).max())]
