@@ -1,4 +1,4 @@
-"""What changes over a session of runs one after the other: the zero of the load cell, a specimen that warms up or beds in.
+"""What changes over a session of runs one after the other: a zero, a specimen that warms up, and one that beds in.
 
 The zero follows an exponential of the clock, within and between runs; the warmth of the specimen its dissipated power
 and its cooling, sample by sample and in the rests; neither is a straight line over the order of the runs, which is what

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import ClassVar, Literal, Protocol
+from typing import Any, ClassVar, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from dashpot.model.patch import add_branch, branch_names
 Array = NDArray[np.float64]
 Atom = tuple[float, float]  # strength and place on the grid
 Pair = tuple[float, float]
-NOTHING: Mapping[str, Pair] = MappingProxyType({})
+NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 class View(Protocol):
