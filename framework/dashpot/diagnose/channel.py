@@ -1,7 +1,7 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
-A specimen answers the same motion alike, or changes from test to test in one way. So a run may be accused where its
-repeat disagrees as other repeats do not; without a repeat, where two pairs of repeats disagree by the same, or where
+A specimen answers the same motion alike but for a scatter from test to test, or changes in one way. So a run may be
+accused where its repeat disagrees and stands out from that scatter, as other repeats tell it; without a repeat, where two pairs of repeats disagree by the same, or where
 other, sound runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at
 a setting is not. A specimen that changed between two tests, for good, is the rival of a fault of one run: it shows in
 all tests before or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in
@@ -125,6 +125,23 @@ def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) ->
         if _contrast(*_difference(rows, *pair, kind), usual) > price + usual.size:
             found.append(pair)
     return found
+
+
+def _outlier(rows: _Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
+    """The nats that speak for a difference of a pair of its own, against a draw of the scatter of all pairs.
+
+    A specimen is never twice quite the same. With a normal scatter of unknown size the difference follows Student's t
+    of as many degrees of freedom as there are other pairs; a single pair tells nothing of a scatter.
+    """
+    squares = {}
+    for one, other in pairs:
+        shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
+        shown = _strengths(*_difference(rows, one, other, kind)) @ shapes
+        squares[one, other] = float(np.mean(shown**2))
+    scatter = sum(square for other, square in squares.items() if other != pair)
+    if len(pairs) < 2 or scatter <= 0.0:
+        return np.inf
+    return 0.5 * len(rows.shapes[pair[0], kind]) * len(pairs) * float(np.log1p(squares[pair] / scatter))
 
 
 def overdispersion(nats: Sequence[float], columns: int) -> float:
@@ -280,7 +297,7 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = _that_differ(rows, pairs, kind, price)
+    demonstrated = [pair for pair in _that_differ(rows, pairs, kind, price) if _outlier(rows, pair, pairs, kind) > price]
     if any(run in pair for pair in demonstrated):
         other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
         return f"repeats|'{other}' is the same motion, and its force differs"

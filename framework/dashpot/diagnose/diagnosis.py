@@ -24,7 +24,7 @@ from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
 from dashpot.triage.fault import Fault
 
-FAR_ABOVE = 1.1  # times the explainable error: a model is not explained
+FAR_ABOVE = 1.1  # times the error that another model comes to: a model is not explained
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +119,7 @@ class Diagnosis(Findings):
         """One of the verdict words of the result file."""
         if self.triage.faults:
             return "bad_data"
-        open_ends = (self.leftover.notable() and not self._at_floor) or self._far_above_explainable
+        open_ends = (self.leftover.notable() and not self._at_floor) or self._far_above_attainable
         if open_ends:
             return "partly_explained" if self.named else "unexplained"
         if any(named.rivals for named in self.named):
@@ -127,9 +127,8 @@ class Diagnosis(Findings):
         return "explained" if self.named else "nothing_missing"
 
     @property
-    def _far_above_explainable(self) -> bool:
-        known = self.explainable.cross_validated
-        return known is not None and self._unseen > FAR_ABOVE * max(known, self.setting.floor.value or 0.0)
+    def _far_above_attainable(self) -> bool:
+        return self._unseen > FAR_ABOVE * self._attainable
 
     # the result
 

@@ -115,12 +115,10 @@ class Findings:
     def unexplained(self) -> float:
         """The share of the square of the residual on training runs that is structure of unknown cause.
 
-        Structure that the tests find, or, farther from the noise, what a general model of the past motion explains of
-        the error on runs left out.
+        Structure that the tests find, or what a better model would explain of the error on runs left out.
         """
-        floor, known, error = self.setting.floor.value or 0.0, self.explainable.cross_validated, self._unseen
-        explainable = 1.0 - min(max(known, floor) / error, 1.0) ** 2 if known is not None and self.left_out else 0.0
-        return max(self.leftover.share, explainable)
+        within = 1.0 if self.left_out is None else min(self._attainable / self.left_out, 1.0)
+        return max(self.leftover.share, 1.0 - within**2)
 
     @property
     def fitted_name(self) -> str:
@@ -210,9 +208,7 @@ class Findings:
 
     @cached_property
     def left_out(self) -> float | None:
-        """The error in N of the final network on training runs left out in turn; None where it is near the noise."""
-        if self._near_floor:
-            return None
+        """The error in N of the final network on training runs left out in turn; None where they cannot be."""
         groups = {run.name: run.cluster for run in self.setting.dataset.runs}
         return left_out_error(self.final, self.pursuit.best.model, list(self.corrected.values()), groups, self.jobs)
 
@@ -223,8 +219,19 @@ class Findings:
 
     @property
     def _unseen(self) -> float:
-        """The RMSE in N on training runs left out in turn, or on all where it is near the noise."""
+        """The RMSE in N on training runs left out in turn, or on all where they cannot be."""
         return max(self._trained, self.left_out or 0.0)
+
+    @property
+    def _attainable(self) -> float:
+        """The RMSE in N that another model is known to come to on training runs left out in turn.
+
+        A model that is near the noise has to predict them as well as it follows those that it was fitted to; what is
+        farther from it, as well as a general model of the past motion.
+        """
+        floor = self.setting.floor.value or 0.0
+        known = self._trained if self._near_floor else self.explainable.cross_validated
+        return np.inf if known is None else max(known, floor)
 
     @property
     def _near_floor(self) -> bool:

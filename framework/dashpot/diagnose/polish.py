@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 STEPS = 60
-LEFT_OUT_STEPS = 10
+LEFT_OUT_STEPS, LEFT_OUT_TOLERANCE = 10, 1e-4
 LEVEL = 0.975
 
 
@@ -60,7 +60,7 @@ def _left_out(
     left_out = [run for run in runs if groups[run.name] == name]
     others = [run for run in runs if groups[run.name] != name]
     start = coordinates.of_values(compiled.start)
-    found = refine(Objective(compiled, others, jobs), coordinates, start, LEFT_OUT_STEPS)
+    found = refine(Objective(compiled, others, jobs), coordinates, start, LEFT_OUT_STEPS, LEFT_OUT_TOLERANCE)
     error = Objective(compiled, left_out, jobs).losses(coordinates.to_values(found.point))[0]
     return [float(error) ** 2] * len(left_out)
 

@@ -57,6 +57,17 @@ def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
     assert not [run for run, word in examined(data) if word == "gain"]
 
 
+SCATTER = {"again_1": 6.0, "again_2": -4.0, "again_3": 3.0}  # N, by which a specimen differs from one test to the next
+
+
+@pytest.mark.parametrize("offset, accused", [(30.0, set()), (900.0, {("again_4", "offset")})], ids=["scatter", "outlier"])
+def test_a_repeat_is_accused_where_it_stands_out_from_the_scatter_of_all_repeats(offset, accused):
+    differ = SCATTER | {"again_4": offset}
+    repeats = dict(zip(differ, ("a1_p5", "a3_p5", "a1_p11", "a3_p8"), strict=True))
+    fault = {name: lambda force, by=by: force + by for name, by in differ.items()}
+    assert {key for key in examined(dataset(repeats=repeats, fault=fault)) if key[1] == "offset"} == accused
+
+
 def test_a_doubted_fault_is_as_large_as_repeats_differ():
     """The difference of two that are off by one deviation each is root 2 times as large."""
     made = bench(dataset(repeats=AGAIN, fault={"again": lambda force: force + 15.0}))
