@@ -1,12 +1,12 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
 A specimen answers the same motion alike but for a scatter from test to test, or changes in one way. So a run may be
-accused where its repeat disagrees and stands out from that scatter, as other repeats tell it; without a repeat, where two pairs of repeats disagree by the same, or where
-other, sound runs cover the conditions under which it was made; one that is the fastest, the largest or the only one at
-a setting is not. A specimen that changed between two tests, for good, is the rival of a fault of one run: it shows in
-all tests before or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in
-all other runs is the error of the model: nats are divided by this overdispersion. Samples of what a fault leaves that
-follow from one another count as fewer.
+accused where its repeat disagrees and stands out from that scatter, as other repeats tell it; without a repeat, where
+two pairs of repeats disagree by the same, or where other, sound runs cover the conditions under which it was made; one
+that is the fastest, the largest or the only one at a setting is not. A specimen that changed between two tests, for
+good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds of a specimen. Where
+no repeat tells, what the same fault would explain in all other runs is the error of the model: nats are divided by this
+overdispersion. Samples of what a fault leaves that follow from one another count as fewer.
 """
 
 from __future__ import annotations
@@ -297,7 +297,8 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = [pair for pair in _that_differ(rows, pairs, kind, price) if _outlier(rows, pair, pairs, kind) > price]
+    differing = _that_differ(rows, pairs, kind, price)
+    demonstrated = [pair for pair in differing if _outlier(rows, pair, pairs, kind) > price]
     if any(run in pair for pair in demonstrated):
         other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
         return f"repeats|'{other}' is the same motion, and its force differs"

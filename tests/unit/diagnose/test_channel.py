@@ -60,7 +60,7 @@ def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
 SCATTER = {"again_1": 6.0, "again_2": -4.0, "again_3": 3.0}  # N, by which a specimen differs from one test to the next
 
 
-@pytest.mark.parametrize("offset, accused", [(30.0, set()), (900.0, {("again_4", "offset")})], ids=["scatter", "outlier"])
+@pytest.mark.parametrize("offset, accused", [(30.0, set()), (900.0, {("again_4", "offset")})], ids=["one", "far"])
 def test_a_repeat_is_accused_where_it_stands_out_from_the_scatter_of_all_repeats(offset, accused):
     differ = SCATTER | {"again_4": offset}
     repeats = dict(zip(differ, ("a1_p5", "a3_p5", "a1_p11", "a3_p8"), strict=True))
