@@ -69,4 +69,5 @@ class Drift(Cause):
             "N",
             lambda view, run: np.array([np.linspace(0.0, 1.0, view.force(run).size), np.ones(view.force(run).size)]),
             lambda strengths: Correction(drift=strengths[0], offset=strengths[1]),
+            scatters=False,
         )

@@ -123,7 +123,9 @@ class ChannelFault:
 
     ``shapes(view, run)`` answers the force (k, n) in N that it adds at unit strengths, ``correct(strengths)`` what puts
     the run right. ``evidence_of`` says what shows it: ``repeats`` where runs under the same conditions have to
-    disagree, ``at_rest`` where it acts without motion, which ``evidence`` then tells in words.
+    disagree, ``at_rest`` where it acts without motion, which ``evidence`` then tells in words. Where it ``scatters``,
+    specimens differ like that from one test to the next as well, as in stiffness and zero: then a repeat has to stand
+    out from the scatter of all repeats.
 
     Examples:
         >>> fault.quantity, fault.correct([3.0]).offset
@@ -137,6 +139,7 @@ class ChannelFault:
     correct: Callable[[Sequence[float]], Correction]
     evidence_of: Literal["repeats", "at_rest"] = "repeats"
     evidence: str = ""
+    scatters: bool = True
 
 
 class Cause(ABC):

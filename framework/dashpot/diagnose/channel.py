@@ -297,8 +297,9 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    differing = _that_differ(rows, pairs, kind, price)
-    demonstrated = [pair for pair in differing if _outlier(rows, pair, pairs, kind) > price]
+    demonstrated = _that_differ(rows, pairs, kind, price)
+    if kinds[kind].fault.scatters:
+        demonstrated = [pair for pair in demonstrated if _outlier(rows, pair, pairs, kind) > price]
     if any(run in pair for pair in demonstrated):
         other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
         return f"repeats|'{other}' is the same motion, and its force differs"

@@ -115,10 +115,11 @@ class Findings:
     def unexplained(self) -> float:
         """The share of the square of the residual on training runs that is structure of unknown cause.
 
-        Structure that the tests find, or what a better model would explain of the error on runs left out.
+        Near the noise it is what the tests find, or what is missed of runs left out; farther from it, all that is no
+        noise: any law takes up a part of that by chance.
         """
-        within = 1.0 if self.left_out is None else min(self._attainable / self.left_out, 1.0)
-        return max(self.leftover.share, 1.0 - within**2)
+        known = self._trained if self._near_floor else self.setting.floor.value or self._attainable
+        return max(self.leftover.share, 1.0 - min(known / self._unseen, 1.0) ** 2)
 
     @property
     def fitted_name(self) -> str:
