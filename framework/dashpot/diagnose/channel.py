@@ -1,7 +1,6 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
-A specimen answers the same motion alike but for a scatter from test to test, or changes in one way. So a run may be
-accused where its repeat disagrees and stands out from that scatter, as other repeats tell it; without a repeat, where
+A run may be accused where its repeat disagrees and stands out from the scatter of all repeats; without a repeat, where
 two pairs of repeats disagree by the same, or where other, sound runs cover the conditions under which it was made; one
 that is the fastest, the largest or the only one at a setting is not. A specimen that changed between two tests, for
 good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds of a specimen. Where
@@ -17,30 +16,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.data.correction import Correction
 from dashpot.data.run import Run
-from dashpot.diagnose.look import RESOLUTION, Doubt, Look
+from dashpot.diagnose.look import Doubt, Look
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.repeats import (
+    Key,
+    Kind,
+    Pair,
+    Rows,
+    beside,
+    outlier,
+    pairs_that_differ,
+    plain_noise,
+    repeats_of,
+    rows_of,
+)
 from dashpot.diagnose.score import RIG_ODDS, Odds
-from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
+from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]
 
 SLACK = 0.02  # of the range of a condition
-SAME_MOTION = 0.02  # of the deviation of the displacement
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
-Key = tuple[str, int]  # run, number of the kind
 Block = tuple[tuple[str, ...], int]  # runs with a fault of the same strengths, number of the kind
-Pair = tuple[str, str]  # runs of the same motion
-
-
-@dataclass(frozen=True, eq=False)
-class Kind:
-    """A kind of fault that a cause names."""
-
-    cause: type[Cause]
-    fault: ChannelFault
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,77 +72,6 @@ class Accused:
         return self.kind.fault.correct(self.strengths.tolist())
 
 
-@dataclass(frozen=True, eq=False)
-class _Rows:
-    """Residual, tangents (p, n) and shapes by kind (k, n) of every run, whitened or as they are.
-
-    ``smallest`` is the deviation in N of each record below which nothing is believed.
-    """
-
-    residual: Mapping[str, Array]
-    tangents: Mapping[str, Array]
-    shapes: Mapping[Key, Array]
-    smallest: Mapping[str, float]
-
-
-def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
-    """All kinds of faults that the causes name."""
-    return [Kind(cause, fault) for cause in causes for fault in cause().channel_faults(look.view)]
-
-
-def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise) -> _Rows:
-    """What the tests need under a noise."""
-    residual, tangents = refitter.linearise(look.model, noise)
-    shapes = {}
-    for run in refitter.runs:
-        for number, kind in enumerate(kinds):
-            found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
-            shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
-    smallest = {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in refitter.runs}
-    return _Rows(residual, tangents, shapes, smallest)
-
-
-def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
-    """The faults by which repeats of one run differ, and how much: the difference needs no model."""
-    rows, pairs = rows_of(refitter, look, kinds, _plain(look)), repeats_of(refitter, groups)
-    price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
-    found = []
-    for number, kind in enumerate(kinds):
-        if _that_differ(rows, pairs, number, price):
-            strengths = np.array([_strengths(*_difference(rows, *pair, number)) for pair in pairs])
-            found.append(Doubt(kind.fault, np.sqrt(np.mean(strengths**2, axis=0))))
-    return found
-
-
-def _that_differ(rows: _Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
-    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test."""
-    strengths = {pair: _strengths(*_difference(rows, *pair, kind)) for pair in pairs}
-    found = []
-    for pair in pairs:
-        others = [strengths[other] for other in pairs if other != pair]
-        usual = np.mean(others, axis=0) if others else np.zeros_like(strengths[pair])
-        if _contrast(*_difference(rows, *pair, kind), usual) > price + usual.size:
-            found.append(pair)
-    return found
-
-
-def _outlier(rows: _Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
-    """The nats that speak for a difference of a pair of its own, against a draw of the scatter of all pairs.
-
-    A specimen is never twice quite the same. With a normal scatter of unknown size the difference follows Student's t
-    of as many degrees of freedom as there are other pairs; a single pair tells nothing of a scatter.
-    """
-    squares = {}
-    for one, other in pairs:
-        shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
-        shown = _strengths(*_difference(rows, one, other, kind)) @ shapes
-        squares[one, other] = float(np.mean(shown**2))
-    scatter = sum(square for other, square in squares.items() if other != pair)
-    if len(pairs) < 2 or scatter <= 0.0:
-        return np.inf
-    return 0.5 * len(rows.shapes[pair[0], kind]) * len(pairs) * float(np.log1p(squares[pair] / scatter))
-
-
 def overdispersion(nats: Sequence[float], columns: int) -> float:
     """By how much more than noise faults with so many columns explain of sound data, at least 1.
 
@@ -152,53 +80,6 @@ def overdispersion(nats: Sequence[float], columns: int) -> float:
     from scipy.stats import chi2
 
     return max(1.0, 2.0 * float(np.median(nats)) / float(chi2.median(columns))) if nats else 1.0
-
-
-def _plain(look: Look) -> Noise:
-    """The same blocks, nothing whitened."""
-    return look.noise.with_white(dict.fromkeys(look.noise.filters, 1.0))
-
-
-def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
-    """Pairs of training runs with the same motion."""
-    found = []
-    runs = list(refitter.runs)
-    for number, one in enumerate(runs):
-        for other in runs[number + 1 :]:
-            if groups[one.name] == groups[other.name] and one.end == other.end and one.samples == other.samples:
-                difference = one.drive.displacement - other.drive.displacement
-                if np.std(difference) < SAME_MOTION * np.std(one.drive.displacement):
-                    found.append((one.name, other.name))
-    return found
-
-
-def _difference(rows: _Rows, one: str, other: str, kind: int) -> tuple[Array, Array]:
-    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault.
-
-    Whitened by what the shapes leave of the difference: the error of the model cancels in it.
-    """
-    shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
-    difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
-    coefficients = learn_filter(_beside(difference, shapes), rows.smallest[one])
-    return filtered(difference, coefficients), filtered(shapes, coefficients)
-
-
-def _contrast(difference: Array, shapes: Array, usual: Array) -> float:
-    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do."""
-    rest, changed = _beside(difference, shapes), difference - usual @ shapes
-    before = min(float(difference @ difference), float(changed @ changed))
-    explained = before / max(float(rest @ rest), 1e-300)
-    return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
-
-
-def _beside(values: Array, shapes: Array) -> Array:
-    """What the best strengths of shapes (k, n) leave of values (n,)."""
-    return values - _strengths(values, shapes) @ shapes
-
-
-def _strengths(values: Array, shapes: Array) -> Array:
-    """The strengths (k,) of shapes (k, n) that explain most of values (n,)."""
-    return np.asarray(np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0], dtype=np.float64)
 
 
 def accuse(
@@ -215,7 +96,7 @@ def accuse(
     One that is ``doubted`` is expected to be as large as repeats differ.
     """
     rows = rows_of(refitter, look, kinds, look.noise)
-    alone = rows_of(refitter, look, kinds, _plain(look))
+    alone = rows_of(refitter, look, kinds, plain_noise(look))
     solver = _Solver(
         rows,
         {
@@ -227,7 +108,7 @@ def accuse(
     )
     price = Odds(len(rows.shapes)).price("measurement")
     pairs = repeats_of(refitter, groups)
-    shares = {key: independent_share(_beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
+    shares = {key: independent_share(beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
     chosen: dict[Key, str] = {}
     while True:
         gains = {
@@ -266,9 +147,9 @@ def _changed(solver: _Solver, key: Key, chosen: Mapping[Key, str], share: float)
 
 def _overdispersion_beside(solver: _Solver, key: Key, chosen: Mapping[Key, str]) -> float:
     """By how much more than noise the fault ``key`` explains in all other runs, beside it and those chosen."""
-    beside = {**chosen, key: ""}
-    others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in beside]
-    return overdispersion([solver.gain(other, beside) for other in others], len(solver.rows.shapes[key]))
+    known = {**chosen, key: ""}
+    others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in known]
+    return overdispersion([solver.gain(other, known) for other in others], len(solver.rows.shapes[key]))
 
 
 def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
@@ -286,7 +167,7 @@ def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) 
 def _evidence(
     key: Key,
     chosen: Mapping[Key, str],
-    rows: _Rows,
+    rows: Rows,
     kinds: Sequence[Kind],
     pairs: Sequence[Pair],
     groups: Mapping[str, str],
@@ -297,9 +178,9 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = _that_differ(rows, pairs, kind, price)
+    demonstrated = pairs_that_differ(rows, pairs, kind, price)
     if kinds[kind].fault.scatters:
-        demonstrated = [pair for pair in demonstrated if _outlier(rows, pair, pairs, kind) > price]
+        demonstrated = [pair for pair in demonstrated if outlier(rows, pair, pairs, kind) > price]
     if any(run in pair for pair in demonstrated):
         other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
         return f"repeats|'{other}' is the same motion, and its force differs"
@@ -341,7 +222,7 @@ class _Solver:
     what is left of its runs: offsets of all runs would else be as good as another curve.
     """
 
-    def __init__(self, rows: _Rows, known: Mapping[int, Array]) -> None:
+    def __init__(self, rows: Rows, known: Mapping[int, Array]) -> None:
         self.rows, self.known = rows, known
         self.gram: Array = np.sum([tangents @ tangents.T for tangents in rows.tangents.values()], axis=0)
         self.right: Array = np.sum([rows.tangents[run] @ rows.residual[run] for run in rows.residual], axis=0)
@@ -383,8 +264,8 @@ class _Solver:
 
     def gain(self, key: Key | Block, chosen: Iterable[Key]) -> float:
         """The nats that a fault explains beside others that are chosen."""
-        beside = [_block(one) for one in chosen]
-        before, after = self._solved(beside)[1], self._solved([*beside, _block(key)])[1]
+        known = [_block(one) for one in chosen]
+        before, after = self._solved(known)[1], self._solved([*known, _block(key)])[1]
         return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
 
     def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:

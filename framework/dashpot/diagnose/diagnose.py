@@ -16,7 +16,7 @@ from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.steady import STEADY
-from dashpot.diagnose.channel import Accused, accuse, doubts, kinds_of, repeats_of
+from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST, folds_of
@@ -27,6 +27,7 @@ from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer, Pursuit
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra

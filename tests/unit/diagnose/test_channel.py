@@ -5,10 +5,11 @@ import pytest
 from unit.diagnose.rig import MOTIONS, Motion, bench, causes, dataset, line, plain
 
 from dashpot.contract.registry import load_registry
-from dashpot.diagnose.channel import accuse, conditions, covers, doubts, kinds_of, repeats_of
+from dashpot.diagnose.channel import accuse, conditions, covers
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
+from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 
 WORDS = ("gain", "offset", "drift", "hum")
 AGAIN = {"again": "a3_p8"}

@@ -1,0 +1,150 @@
+"""What repeats of a run tell of faults of the force channel: their difference needs no model.
+
+A specimen answers the same motion alike but for a scatter from test to test, or changes in one way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.contract.cause import Cause, ChannelFault
+from dashpot.diagnose.look import RESOLUTION, Doubt, Look
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.score import Odds
+from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
+
+Array = NDArray[np.float64]
+
+SAME_MOTION = 0.02  # of the deviation of the displacement
+Key = tuple[str, int]  # run, number of the kind
+Pair = tuple[str, str]  # runs of the same motion
+
+
+@dataclass(frozen=True, eq=False)
+class Kind:
+    """A kind of fault that a cause names."""
+
+    cause: type[Cause]
+    fault: ChannelFault
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Residual, tangents (p, n) and shapes by kind (k, n) of every run, whitened or as they are.
+
+    ``smallest`` is the deviation in N of each record below which nothing is believed.
+    """
+
+    residual: Mapping[str, Array]
+    tangents: Mapping[str, Array]
+    shapes: Mapping[Key, Array]
+    smallest: Mapping[str, float]
+
+
+def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
+    """All kinds of faults that the causes name."""
+    return [Kind(cause, fault) for cause in causes for fault in cause().channel_faults(look.view)]
+
+
+def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise) -> Rows:
+    """What the tests need under a noise."""
+    residual, tangents = refitter.linearise(look.model, noise)
+    shapes = {}
+    for run in refitter.runs:
+        for number, kind in enumerate(kinds):
+            found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
+            shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
+    smallest = {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in refitter.runs}
+    return Rows(residual, tangents, shapes, smallest)
+
+
+def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
+    """The faults by which repeats of one run differ, and how much: the difference needs no model."""
+    rows, pairs = rows_of(refitter, look, kinds, plain_noise(look)), repeats_of(refitter, groups)
+    price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
+    found = []
+    for number, kind in enumerate(kinds):
+        if pairs_that_differ(rows, pairs, number, price):
+            strengths = np.array([strengths_of(*_difference(rows, *pair, number)) for pair in pairs])
+            found.append(Doubt(kind.fault, np.sqrt(np.mean(strengths**2, axis=0))))
+    return found
+
+
+def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
+    """Pairs of training runs with the same motion."""
+    found = []
+    runs = list(refitter.runs)
+    for number, one in enumerate(runs):
+        for other in runs[number + 1 :]:
+            if groups[one.name] == groups[other.name] and one.end == other.end and one.samples == other.samples:
+                difference = one.drive.displacement - other.drive.displacement
+                if np.std(difference) < SAME_MOTION * np.std(one.drive.displacement):
+                    found.append((one.name, other.name))
+    return found
+
+
+def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
+    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test."""
+    strengths = {pair: strengths_of(*_difference(rows, *pair, kind)) for pair in pairs}
+    found = []
+    for pair in pairs:
+        others = [strengths[other] for other in pairs if other != pair]
+        usual = np.mean(others, axis=0) if others else np.zeros_like(strengths[pair])
+        if _contrast(*_difference(rows, *pair, kind), usual) > price + usual.size:
+            found.append(pair)
+    return found
+
+
+def outlier(rows: Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
+    """The nats that speak for a difference of a pair of its own, against a draw of the scatter of all pairs.
+
+    A specimen is never twice quite the same. With a normal scatter of unknown size the difference follows Student's t
+    of as many degrees of freedom as there are other pairs; a single pair tells nothing of a scatter.
+    """
+    squares = {}
+    for one, other in pairs:
+        shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
+        shown = strengths_of(*_difference(rows, one, other, kind)) @ shapes
+        squares[one, other] = float(np.mean(shown**2))
+    scatter = sum(square for other, square in squares.items() if other != pair)
+    if len(pairs) < 2 or scatter <= 0.0:
+        return np.inf
+    return 0.5 * len(rows.shapes[pair[0], kind]) * len(pairs) * float(np.log1p(squares[pair] / scatter))
+
+
+def _difference(rows: Rows, one: str, other: str, kind: int) -> tuple[Array, Array]:
+    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault.
+
+    Whitened by what the shapes leave of the difference: the error of the model cancels in it.
+    """
+    shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
+    difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
+    coefficients = learn_filter(beside(difference, shapes), rows.smallest[one])
+    return filtered(difference, coefficients), filtered(shapes, coefficients)
+
+
+def _contrast(difference: Array, shapes: Array, usual: Array) -> float:
+    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do."""
+    rest, changed = beside(difference, shapes), difference - usual @ shapes
+    before = min(float(difference @ difference), float(changed @ changed))
+    explained = before / max(float(rest @ rest), 1e-300)
+    return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
+
+
+def plain_noise(look: Look) -> Noise:
+    """The same blocks, nothing whitened."""
+    return look.noise.with_white(dict.fromkeys(look.noise.filters, 1.0))
+
+
+def beside(values: Array, shapes: Array) -> Array:
+    """What the best strengths of shapes (k, n) leave of values (n,)."""
+    return values - strengths_of(values, shapes) @ shapes
+
+
+def strengths_of(values: Array, shapes: Array) -> Array:
+    """The strengths (k,) of shapes (k, n) that explain most of values (n,)."""
+    return np.asarray(np.linalg.lstsq(shapes @ shapes.T, shapes @ values, rcond=1e-10)[0], dtype=np.float64)
