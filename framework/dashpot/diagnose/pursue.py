@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -213,12 +213,9 @@ class Pursuer:
             looks += 1
             self.watch(looks, len(look.model.terms))
             scores = Scores(look)
-            present, ranked = scored_by(scores, scores.odds), search(scores)
-            refitted = cache(partial(self.refitted, scores))
-            onward = self._next_look(self.trials(scores, ranked, refitted, promising=True), present)
-            if onward is None:
-                trials = list(self.trials(scores, ranked, refitted))
-                onward = self._next_look(trials, present)
+            present = scored_by(scores, scores.odds)
+            trials = list(self.trials(scores, search(scores)))
+            onward = self._next_look(trials, present)
             if onward is None:
                 return look, looks, True, trials
             look = onward
@@ -253,29 +250,19 @@ class Pursuer:
         known = look.candidates
         return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.doubted, known))
 
-    def trials(
-        self,
-        scores: Scores,
-        ranked: Iterable[Structure],
-        refitted: Callable[[Structure], Scored | None],
-        promising: bool = False,
-    ) -> Iterator[Scored]:
-        """The best few structures of different terms that score better than the present one, refitted.
-
-        With ``promising`` only those that to first order score better than the best one so far does after its refit.
-        """
-        best, names = scores.score(Structure()), set()
+    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
+        """The best few structures of different terms that score better than the present one, refitted."""
+        present, names = scores.score(Structure()), set()
         many, tried = {True: 0, False: 0}, {True: 0, False: 0}
         for structure in ranked:
             key, single = _key(scores, structure), structure.size == 1
             wanted = many[single] < REFITTED and tried[single] < TRIED
-            if structure.size and key not in names and wanted and scores.score(structure) < best:
+            if structure.size and key not in names and wanted and scores.score(structure) < present:
                 names.add(key)
                 tried[single] += 1
-                trial = refitted(structure)
+                trial = self.refitted(scores, structure)
                 if trial:
                     many[single] += trial.evident
-                    best = min(best, trial.score) if promising and trial.evident else best
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
