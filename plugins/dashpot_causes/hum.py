@@ -15,6 +15,7 @@ from dashpot.model.network import NetworkSpec
 Array = NDArray[np.float64]
 MAINS = (50.0, 60.0, 100.0, 120.0, 150.0, 180.0)  # Hz, with harmonics
 HIGHEST = 0.4  # of the sampling rate
+BESIDE, RESOLUTIONS = 8, 2.0  # lines to either side, and how far apart they are
 
 
 class Hum(Cause):
@@ -46,13 +47,20 @@ class Hum(Cause):
                 partial(_line, frequency),
                 partial(_corrected, frequency),
                 "at_rest",
-                f"a line at {frequency:g} Hz, where nothing was driven",
+                f"a line at {frequency:g} Hz, where nothing was driven, above all lines beside it",
+                alike=partial(_lines_beside, frequency),
             )
 
 
 def _line(frequency: float, view: View, run: str) -> Array:
     angle = 2.0 * np.pi * frequency * view.step(run) * np.arange(view.force(run).size)
     return np.array([np.cos(angle), np.sin(angle)])
+
+
+def _lines_beside(frequency: float, view: View, run: str) -> Array:
+    spacing = RESOLUTIONS / (view.step(run) * view.force(run).size)
+    places = [side * number for number in range(1, BESIDE + 1) for side in (-1.0, 1.0)]
+    return np.array([_line(frequency + place * spacing, view, run) for place in places])
 
 
 def _corrected(frequency: float, strengths: Sequence[float]) -> Correction:

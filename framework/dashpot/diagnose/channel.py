@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.contract.cause import ChannelFault
 from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 from dashpot.diagnose.look import Doubt, Look
@@ -121,7 +122,11 @@ def accuse(
             if gains[key] < least:
                 return _accused(solver, chosen, kinds)
             evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
-            needed = least * (_overdispersion_beside(solver, key, chosen) if evidence == NEIGHBOURS else 1.0)
+            needed = least
+            if evidence == NEIGHBOURS:
+                needed *= _overdispersion_beside(solver, key, chosen)
+            elif kinds[key[1]].fault.alike:
+                needed *= _overdispersion_of_alike(refitter, look, kinds[key[1]].fault, rows, key)
             changed = evidence.startswith("repeats") and _changed(solver, key, chosen, shares[key])
             if evidence and gains[key] > needed and not changed:
                 chosen[key] = evidence
@@ -150,6 +155,20 @@ def _overdispersion_beside(solver: _Solver, key: Key, chosen: Mapping[Key, str])
     known = {**chosen, key: ""}
     others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in known]
     return overdispersion([solver.gain(other, known) for other in others], len(solver.rows.shapes[key]))
+
+
+def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault, rows: Rows, key: Key) -> float:
+    """By how much more than noise faults like one, that no rig has, explain in the same run."""
+    assert fault.alike is not None
+    residual = rows.residual[key[0]]
+    (first,) = (run.first for run in refitter.runs if run.name == key[0])
+    square = float(sum(found @ found for found in rows.residual.values()))
+    samples, nats = sum(found.size for found in rows.residual.values()), []
+    for shapes in fault.alike(look.view, key[0]):
+        seen = look.noise.filter(key[0], look.noise.reduce_shapes(key[0], shapes[:, first:]))
+        rest = beside(residual, seen)
+        nats.append(-0.5 * samples * float(np.log1p((rest @ rest - residual @ residual) / square)))
+    return overdispersion(nats, len(rows.shapes[key]))
 
 
 def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:

@@ -27,6 +27,7 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 Names = tuple[tuple[str, str], ...]  # words of causes and where they are
+Form = tuple[tuple[str, str], str]  # name of a term and the form of its law
 
 REFITTED = 2  # structures with one change, and as many with more, at each look
 TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
@@ -41,7 +42,7 @@ class Scored:
 
     ``nats`` (folds,) are minus the log likelihood of each fold left out with errors of forms allowed for, ``errors``
     the nats that these errors cost, ``exact`` (folds,) the same as ``nats`` with the laws as they are, ``price`` the
-    prior of the terms. ``evident`` says that every fault of the measurement in it has its evidence.
+    prior of the terms. ``unproven`` are the faults of the measurement in it, and their forms, that lack evidence.
     """
 
     model: Model
@@ -50,7 +51,7 @@ class Scored:
     exact: Array
     samples: Array
     price: float
-    evident: bool = True
+    unproven: frozenset[Form] = frozenset()
 
     @property
     def score(self) -> float:
@@ -251,18 +252,22 @@ class Pursuer:
         return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.doubted, known))
 
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
-        """The best few structures of different terms that score better than the present one, refitted."""
-        present, names = scores.score(Structure()), set()
+        """The best few structures of different terms that score better than the present one, refitted.
+
+        A fault of the measurement that lacks its evidence in one of them is not tried in the others.
+        """
+        present, names, unproven = scores.score(Structure()), set(), set[Form]()
         many, tried = {True: 0, False: 0}, {True: 0, False: 0}
         for structure in ranked:
             key, single = _key(scores, structure), structure.size == 1
-            wanted = many[single] < REFITTED and tried[single] < TRIED
+            wanted = many[single] < REFITTED and tried[single] < TRIED and not unproven & key
             if structure.size and key not in names and wanted and scores.score(structure) < present:
                 names.add(key)
                 tried[single] += 1
                 trial = self.refitted(scores, structure)
                 if trial:
-                    many[single] += trial.evident
+                    many[single] += not trial.unproven
+                    unproven |= trial.unproven
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
@@ -281,8 +286,9 @@ class Pursuer:
         numbers = range(len(trial.terms))
         if not all(is_determined(seen, number) for number in numbers):
             return None
-        evident = all(has_evidence(self.refitter, seen, number) for number in numbers)
-        return replace(scored_by(seen, scores.odds), evident=evident)
+        lacking = [term for number, term in enumerate(trial.terms) if not has_evidence(self.refitter, seen, number)]
+        unproven = frozenset((term.name, term.suspect.form) for term in lacking)
+        return replace(scored_by(seen, scores.odds), unproven=unproven)
 
     def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
@@ -307,7 +313,7 @@ class Pursuer:
         to be more likely by the odds of a number.
         """
         least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
-        if not trial.evident or not trial.score < present.score - least:
+        if trial.unproven or not trial.score < present.score - least:
             return False
         weights = self.weights(present.exact.size)
         better = float(np.mean(trial.drawn_exactly(weights) < present.drawn_exactly(weights)))

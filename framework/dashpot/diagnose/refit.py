@@ -18,7 +18,7 @@ from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import Sizes, natural_sizes, with_ranges
-from dashpot.fit.refine import refine
+from dashpot.fit.refine import Outcome, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 STEPS, TOLERANCE = 60, 1e-5
 KEPT_BYTES = 200e6  # of columns
 TRIAL_STEPS, TRIAL_TOLERANCE = 12, 1e-3  # a trial is only compared
+FIRST_STEPS = 4  # from each of two starts, before the one that misses less goes on alone
 SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
 
 
@@ -85,9 +86,17 @@ class Refitter:
         chosen = [starts[best]]
         if fresh and model.at_bound.any():
             chosen.append(self._start(model, terms, self._freed(model)))
-        trials = [self._fitted(model.base, tuple(terms), *one, noise, TRIAL_STEPS, TRIAL_TOLERANCE) for one in chosen]
+        if len(chosen) == 1:
+            return self._fitted(model.base, tuple(terms), *chosen[0], noise, TRIAL_STEPS, TRIAL_TOLERANCE)
+        trials = [self._fitted(model.base, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
         ends = objective.losses(np.array([trial.values for trial in trials]))
-        return trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
+        ahead = trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
+        if ahead.outcome is not Outcome.STEPS_SPENT:
+            return ahead
+        rest = TRIAL_STEPS - FIRST_STEPS
+        return self._fitted(
+            model.base, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE
+        )
 
     def fit(self, model: Model, noise: Noise) -> Model:
         """The same structure, its numbers fitted under another noise."""

@@ -37,7 +37,7 @@ def test_a_rival_that_predicts_alike_takes_half_of_the_draws():
 
 
 def test_a_structure_without_evidence_is_a_rival_too():
-    fault = Scored(**{**vars(scored(-2.0, "delay")), "evident": False})
+    fault = Scored(**{**vars(scored(-2.0, "delay")), "unproven": {(("delay", ""), "delay")}})
     found = pursuit(scored(0.0, "a"), [scored(20.0)], fault)
     assert found.probability(("a", "")) == 0.0 and found.replacements(("a", "")) == (("delay", ""),)
 
