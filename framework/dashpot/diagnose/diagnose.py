@@ -66,12 +66,12 @@ def diagnose(
     """Triage the data, fit, search for the causes of what is left, and say how sure that is.
 
     A cause without which the training error grows by less than the share ``relevance`` is not named. Held-out runs take
-    no part before the end. A pool or cluster as ``jobs`` refits without runs left out in turn, when the result is read.
+    no part before the end. With a pool or a cluster as ``jobs`` it works in this process, on one thread.
     Raises InputError for a network that does not compile on these data, and where no plugin provides a cause.
     """
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
-    progress, pool, jobs = progress or silent, jobs, threads(jobs)
+    progress, jobs = progress or silent, threads(jobs)
     triage = examine(records_of(one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
@@ -107,7 +107,7 @@ def diagnose(
         causes={cause.word: cause for cause in causes},
         relevance=relevance,
         seed=seed,
-        jobs=pool,
+        jobs=jobs,
     )
 
 

@@ -40,7 +40,7 @@ from dashpot.text.name import joined_name
 from dashpot.triage.examine import Triage
 
 if TYPE_CHECKING:
-    from dashpot.kernel.workers import Jobs
+    pass
 
 Array = NDArray[np.float64]
 
@@ -78,7 +78,7 @@ class Findings:
     causes: Mapping[str, type[Cause]]
     relevance: float
     seed: int
-    jobs: Jobs = 1
+    jobs: int = 1
 
     @property
     def model(self) -> NetworkSpec:

@@ -86,6 +86,12 @@ def refine(
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
+def step(linear: Linear, coordinates: Coordinates, point: Array) -> Array:
+    """Where a Gauss-Newton step from a point (p,) leads within the bounds."""
+    found: Array = _candidates(linear, coordinates, point, 1.0)[0]
+    return found
+
+
 def _candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: float) -> Array:
     normal, downhill = linear.normal, -linear.gradient
     free = np.diag(normal) > 0.0
