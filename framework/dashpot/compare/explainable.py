@@ -42,13 +42,15 @@ class Explainable:
     """The error in N that a general model leaves on the training runs and on the held-out runs.
 
     ``by`` is "ridge" or "boosting"; all are None where there is no such model, ``reason`` says why.
-    ``cross_validated`` is its error on training runs left out in turn; ``remarks`` tell how far the numbers can be
-    trusted. ``per_run`` holds the error on every run.
+    ``cross_validated`` is its error on training runs left out in turn, ``left_out`` the same where what the others
+    hardly tell is not put to the test; ``remarks`` tell how far the numbers can be trusted. ``per_run`` holds the error
+    on every run.
     """
 
     train: float | None = None
     held_out: float | None = None
     cross_validated: float | None = None
+    left_out: float | None = None
     by: str | None = None
     per_run: Mapping[str, float] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
@@ -61,7 +63,12 @@ class Explainable:
 
     def as_dict(self) -> dict[str, Any]:
         """The entry of result files, in N."""
-        numbers = {"held_out": self.held_out, "train": self.train, "cross_validated": self.cross_validated}
+        numbers = {
+            "held_out": self.held_out,
+            "train": self.train,
+            "cross_validated": self.cross_validated,
+            "left_out": self.left_out,
+        }
         return {
             **numbers,
             "by": self.by,
@@ -143,7 +150,8 @@ def explain(train: Sequence[Record], held_out: Sequence[Record], seed: int = 0, 
     return Explainable(
         train=_pooled(errors[each.run.name] for each in train),
         held_out=_pooled(errors[each.run.name] for each in held_out) if held_out else None,
-        cross_validated=ridge.error if boosted is None else ridge.error * boosted.left,
+        cross_validated=ridge.error * (1.0 if boosted is None else boosted.left),
+        left_out=ridge.left_out * (1.0 if boosted is None else boosted.left),
         by="ridge" if boosted is None else "boosting",
         per_run=errors,
         remarks=tuple(filter(None, remarks)),

@@ -22,7 +22,9 @@ BEYOND = 0.1  # of the range of a column in training, as far as it may go on oth
 class Ridge:
     """``weights`` (p,) for columns within ``low`` and ``high`` (p,).
 
-    ``error`` is the root mean square in N on samples whose fold was left out, ``unseen`` (n,) what it predicted there.
+    ``error`` is the root mean square in N on samples whose fold was left out, ``unseen`` (n,) what it predicted there;
+    ``left_out`` the same where the fit to all samples counts as much as one fold, so that what the other folds hardly
+    tell is not put to the test.
     """
 
     weights: Array
@@ -30,6 +32,7 @@ class Ridge:
     high: Array
     error: float
     unseen: Array
+    left_out: float
 
     def predict(self, columns: Array) -> Array:
         """The force (n,) N for columns (n, p); those that go beyond the training runs stop there."""
@@ -55,9 +58,10 @@ def fit_ridge(
     unseen = np.empty(force.size)
     for fold, others in zip(numbers, _all_but_one(grams), strict=True):
         unseen[folds == fold] = columns[folds == fold] @ _solve(others, penalty)
-    slack = BEYOND * (high - low)
+    slack, fit = BEYOND * (high - low), _solve(_sum(grams), penalty)
     error = float(np.sqrt(weights @ (force - unseen) ** 2 / weights.sum()))
-    return Ridge(_solve(_sum(grams), penalty) / size, low - slack, high + slack, error, unseen)
+    left_out = float(np.sqrt(_error(grams, _all_but_one(grams, fit), penalty) / weights.sum()))
+    return Ridge(fit / size, low - slack, high + slack, error, unseen, left_out)
 
 
 def _gram(columns: Array, force: Array, weights: Array) -> Gram:
@@ -69,9 +73,14 @@ def _sum(grams: Sequence[Gram]) -> Gram:
     return sum(gram[0] for gram in grams), sum(gram[1] for gram in grams), sum(gram[2] for gram in grams)  # type: ignore[return-value]
 
 
-def _all_but_one(grams: Sequence[Gram]) -> list[Gram]:
+def _all_but_one(grams: Sequence[Gram], fit: Array | None = None) -> list[Gram]:
+    """All but each of them; what a ``fit`` (p,) predicts of all samples joins as one more if there is one."""
     whole = _sum(grams)
-    return [(whole[0] - gram[0], whole[1] - gram[1], whole[2] - gram[2]) for gram in grams]
+    others = [(whole[0] - gram[0], whole[1] - gram[1], whole[2] - gram[2]) for gram in grams]
+    if fit is None:
+        return others
+    told = whole[0] / len(grams)
+    return [(square + told, right + told @ fit, rest) for square, right, rest in others]
 
 
 def _strengths(grams: Sequence[Gram], families: Sequence[int]) -> Array:

@@ -231,7 +231,7 @@ class Findings:
         farther from it, as well as a general model of the past motion.
         """
         floor = self.setting.floor.value or 0.0
-        known = self._trained if self._near_floor else self.explainable.cross_validated
+        known = self._trained if self._near_floor else self.explainable.left_out
         return np.inf if known is None else max(known, floor)
 
     @property

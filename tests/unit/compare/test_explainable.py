@@ -87,6 +87,7 @@ def test_without_held_out_runs_training_runs_are_left_out_in_turn():
     assert told.held_out is None
     assert told.unseen == told.cross_validated
     assert NOISE < told.cross_validated < 3.0 * NOISE
+    assert told.train < told.left_out < told.cross_validated
 
 
 def test_a_single_run_says_how_little_it_tells():
