@@ -13,7 +13,7 @@ from dashpot.fit.coordinates import with_point
 from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
-from dashpot.fit.refine import refine, step
+from dashpot.fit.refine import candidates, refine
 from dashpot.fit.result import with_intervals
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import assess_uncertainty
@@ -38,9 +38,9 @@ def left_out_error(
 ) -> float | None:
     """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group.
 
-    A fit to the others is a step from that to all runs, along the products of their Jacobian. What the others hardly
-    tell, such as the force at a deflection that one run alone reaches, is not put to the test: the fit to all runs
-    counts as much as one group.
+    A fit to the others is a step from that to all runs, along the products of their Jacobian, so damped that it errs
+    least. What the others hardly tell, such as the force at a deflection that one run alone reaches, is not put to the
+    test: all runs together count as much as one group.
     """
     names = list(dict.fromkeys(groups[run.name] for run in runs))
     if len(names) < 2:
@@ -52,14 +52,18 @@ def left_out_error(
     grams = np.zeros((len(names), *linear.gram.shape))
     for number, gram in linear.each(lambda number, rows: (number, rows @ rows.T)):
         grams[names.index(groups[runs[number].name])] += gram
-    points = []
+    tries = []
     for gram in grams:
         others = linear.gram - gram
         others[1:, 1:] += linear.normal / len(names)
-        points.append(step(replace(linear, gram=others), coordinates, point))
-    errors = objective.rmse(coordinates.to_values(np.array(points)))
-    mine = [names.index(groups[run.name]) for run in runs]
-    return float(np.sqrt(np.mean(errors[np.arange(len(mine)), mine] ** 2)))
+        tries.append(np.vstack([point, candidates(replace(linear, gram=others), coordinates, point)]))
+    squares = np.square(objective.rmse(coordinates.to_values(np.concatenate(tries))))
+    group, left_out = np.array([names.index(groups[run.name]) for run in runs]), []
+    for number, found in enumerate(np.split(squares, len(names), axis=1)):
+        mine = group == number
+        best = np.argmin(found[~mine].sum(axis=0) + found.sum(axis=0) / len(names))
+        left_out += found[mine, best].tolist()
+    return float(np.sqrt(np.mean(left_out)))
 
 
 def known(

@@ -64,7 +64,7 @@ def refine(
     for _ in range(steps):
         if budget is not None and spent + 1 + point.size + len(DAMPINGS) > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
-        tries = _candidates(linearise(objective, coordinates, point), coordinates, point, slack)
+        tries = candidates(linearise(objective, coordinates, point), coordinates, point, slack)
         losses = objective.losses(coordinates.to_values(tries))
         spent += 1 + point.size + len(tries)
         best = int(np.argmin(losses))
@@ -86,13 +86,8 @@ def refine(
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
-def step(linear: Linear, coordinates: Coordinates, point: Array) -> Array:
-    """Where a Gauss-Newton step from a point (p,) leads within the bounds."""
-    found: Array = _candidates(linear, coordinates, point, 1.0)[0]
-    return found
-
-
-def _candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: float) -> Array:
+def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: float = 1.0) -> Array:
+    """Where Gauss-Newton steps from a point (p,) lead within the bounds (dampings, p), the undamped one first."""
     normal, downhill = linear.normal, -linear.gradient
     free = np.diag(normal) > 0.0
     scale = np.sqrt(np.diag(normal)[free])
