@@ -125,6 +125,16 @@ def test_hum_is_seen_where_nothing_was_driven():
         assert np.hypot(*one.strengths) == pytest.approx(12.0, rel=0.15)
 
 
+def test_a_line_among_lines_of_its_kind_is_no_hum():
+    """What a model misses of a motion of many sines has lines all over, and one of them is at that of the mains."""
+    frequencies = np.arange(30.0, 101.0, 2.0)
+    phases = np.random.default_rng(3).uniform(0.0, 2.0 * np.pi, (len(MOTIONS), frequencies.size))
+    sizes = np.where(frequencies == 50.0, 36.0, 12.0)
+    missed = [sum(map(line, frequencies, sizes, each)) for each in phases]
+    fault = {name: lambda force, more=more: force + more for name, more in zip(MOTIONS, missed, strict=True)}
+    assert not [run for run, word in examined(dataset(fault=fault)) if word == "hum"]
+
+
 def test_repeats_are_the_same_motion():
     data = dataset(repeats=AGAIN)
     made = bench(data)
