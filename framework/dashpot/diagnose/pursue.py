@@ -153,13 +153,17 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause alone explains over all that it explains and what stays unexplained, which might be its own."""
+        """What a cause alone explains over that and what stays unexplained, which might be its own.
+
+        What a fault of the measurement explains together with errors of the forms of laws counts for the laws.
+        """
+        gone = [one.term.cause.kind for one in self.without if one.term.name == name]
         explained = self.explained(name)
         # of several terms of a cause one may be an error of the form of another, and is this cause all the same
-        several = sum(one.term.name == name for one in self.without) > 1
-        alone = explained if several else self.explained(name, forms_err=True)
-        whole = max(explained, alone) + unexplained
-        return alone / whole if whole > 0.0 else 1.0
+        alone = explained if len(gone) > 1 else self.explained(name, forms_err=True)
+        laws = max(explained - alone, 0.0) if "measurement" in gone else 0.0
+        whole = alone + laws + unexplained
+        return alone / whole if whole > 0.0 else float(not gone)
 
     def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
         """By what share the square of the residual grows without a cause, all else refitted.
