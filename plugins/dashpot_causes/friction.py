@@ -19,7 +19,7 @@ SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
 MOST = 3
 ONE_CONTACT = 25.0  # longest over shortest yield travel: sliders spread wider are a filler network that softens
-HARDLY_STIFF = 0.03  # of all sliders together: the slow rise of the force of a contact that has slipped
+HARDLY = 0.03  # of the limits, or the stiffness, of all sliders together: no contact of its own
 
 
 class Friction(Cause):
@@ -76,9 +76,13 @@ def _directed(view: View) -> Suspect:
 
 
 def is_one_contact(numbers: Mapping[str, float]) -> bool:
-    """Whether the yield travels of all sliders that carry much of the stiffness lie within a decade and a half."""
-    limits = {key: limit for key, limit in numbers.items() if key.startswith("limit")}
-    stiffness = {key: numbers.get(key.replace("limit", "stiffness"), 0.0) for key in limits}
-    least = HARDLY_STIFF * sum(stiffness.values())
-    travels = [limit / stiffness[key] for key, limit in limits.items() if stiffness[key] > least]
+    """Whether the yield travels of all sliders that count lie within a decade and a half.
+
+    One of hardly any force does not count, nor the slow rise of the force of a contact that has slipped.
+    """
+    limits = [limit for key, limit in numbers.items() if key.startswith("limit")]
+    stiffness = [numbers.get(key.replace("limit", "stiffness"), 0.0) for key in numbers if key.startswith("limit")]
+    felt = [(limit, k) for limit, k in zip(limits, stiffness, strict=True) if limit > HARDLY * sum(limits)]
+    least = HARDLY * sum(k for _, k in felt)
+    travels = [limit / k for limit, k in felt if k > least]
     return len(travels) < 2 or max(travels) < ONE_CONTACT * min(travels)

@@ -20,7 +20,7 @@ from real.catalogue import SETS
 from real.pictures import pictures
 from real.run import summary, trials
 from real.sets import MeasuredSet
-from real.trial import Outcome, Trial, kept_outcome
+from real.trial import Outcome, Trial, engine_digest, kept_outcome
 
 import dashpot
 
@@ -167,8 +167,8 @@ def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
     )
 
 
-def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
-    """The page that leads to the others."""
+def index(found: dict[str, list[Outcome]], older: int) -> Iterator[str]:
+    """The page that leads to the others; ``older`` trials were run by an earlier engine than the present one."""
     yield "# Measured by others"
     yield (
         "What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
@@ -188,6 +188,11 @@ def index(found: dict[str, list[Outcome]]) -> Iterator[str]:
     head = ("set", "diagnoses", "near the explainable error, or admitted", "same names", "accuse the rig")
     yield table(head, rows)
     yield "\n".join(f"- {line}" for line in summary([one for each in found.values() for one in each]))
+    if older:
+        yield (
+            f"{older} of them were run by an earlier state of dashpot than the present one: "
+            "names and probabilities can differ."
+        )
     yield "```{toctree}\n:hidden:\n\n" + "\n".join(found) + "\n```"
     yield (
         "Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, "
@@ -201,6 +206,12 @@ def kept_trials(one: MeasuredSet, keep: Path) -> list[tuple[Trial, Outcome]]:
     return [(trial, known[1]) for trial, folder in folders if (known := kept_outcome(folder))]
 
 
+def older_trials(one: MeasuredSet, keep: Path) -> int:
+    """How many kept trials of a set were run by another engine than the present one."""
+    kept = [kept_outcome(keep / one.name / trial.word) for trial in trials(one)]
+    return sum(known is not None and known[0] != engine_digest() for known in kept)
+
+
 def main() -> None:
     """Write the pages of all sets with kept trials, and the index over every page that there is."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -208,15 +219,16 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=PAGES)
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
-    found = {}
+    found, older = {}, 0
     for name, one in SETS.items():
         kept = kept_trials(one, options.keep.resolve())
         if kept and one.present:
             parts = page(one, kept, options.keep.resolve(), options.output)
             (options.output / f"{name}.md").write_text("\n\n".join(parts) + "\n", encoding="utf-8")
             found[name] = [outcome for _, outcome in kept]
+            older += older_trials(one, options.keep.resolve())
             print(options.output / f"{name}.md")
-    (options.output / "index.md").write_text("\n\n".join(index(found)) + "\n", encoding="utf-8")
+    (options.output / "index.md").write_text("\n\n".join(index(found, older)) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -92,6 +92,14 @@ def test_the_slow_rise_of_a_contact_that_has_slipped_is_still_that_contact():
     assert suspect("friction", "prandtl").admits(found)
 
 
+@pytest.mark.parametrize(("third", "admitted"), [(1.0, True), (20.0, False)])
+def test_a_slider_of_hardly_any_force_is_no_contact_of_its_own(third, admitted):
+    """However short the travel after which it slips."""
+    found = {"limit": 70.0, "stiffness": 6e5, "limit_2": 45.0, "stiffness_2": 4e5, "limit_3": third}
+    found["stiffness_3"] = third / 4e-6
+    assert suspect("friction", "prandtl").admits(found) is admitted
+
+
 @pytest.mark.parametrize(
     ("exponent", "admitted"),
     [
