@@ -80,9 +80,11 @@ def is_one_contact(numbers: Mapping[str, float]) -> bool:
 
     One of hardly any force does not count, nor the slow rise of the force of a contact that has slipped.
     """
-    limits = [limit for key, limit in numbers.items() if key.startswith("limit")]
-    stiffness = [numbers.get(key.replace("limit", "stiffness"), 0.0) for key in numbers if key.startswith("limit")]
-    felt = [(limit, k) for limit, k in zip(limits, stiffness, strict=True) if limit > HARDLY * sum(limits)]
-    least = HARDLY * sum(k for _, k in felt)
-    travels = [limit / k for limit, k in felt if k > least]
+    sliders = [
+        (limit, numbers.get(key.replace("limit", "stiffness"), 0.0))
+        for key, limit in numbers.items()
+        if key.startswith("limit")
+    ]
+    felt = [(limit, k) for limit, k in sliders if limit > HARDLY * sum(limit for limit, _ in sliders)]
+    travels = [limit / k for limit, k in felt if k > HARDLY * sum(k for _, k in felt)]
     return len(travels) < 2 or max(travels) < ONE_CONTACT * min(travels)

@@ -38,9 +38,9 @@ def left_out_error(
 ) -> float | None:
     """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group.
 
-    A fit to the others is a step from that to all runs, along the products of their Jacobian, so damped that it errs
-    least. What the others hardly tell, such as the force at a deflection that one run alone reaches, is not put to the
-    test: all runs together count as much as one group.
+    A fit to the others is a step from that to all runs, along the products of their Jacobian, with the damping that
+    gives the lowest error on them. What the others hardly tell, such as the force at a deflection that one run alone
+    reaches, is not put to the test: all runs together count as much as one group.
     """
     names = list(dict.fromkeys(groups[run.name] for run in runs))
     if len(names) < 2:
