@@ -30,6 +30,7 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
+from dashpot.diagnose.thinned import thinned
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.grounding import free_curves
@@ -81,7 +82,8 @@ def diagnose(
     causes = [registry.causes[word] for word in sorted(registry.causes)]
     groups = {run.name: run.cluster for run in triage.dataset.runs}
     sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
-    refitter = Refitter(setting.train, registry.elements, sensors, jobs)
+    searched = setting.train if spec.joints else thinned(setting.train)
+    refitter = Refitter(searched, registry.elements, sensors, jobs)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     corrected = {one.name: _corrected(one, accused) for one in setting.train}
@@ -89,9 +91,9 @@ def diagnose(
     model = pursuit.best.model
     final = known(polished(model, runs, jobs), model, runs, groups, jobs, setting.floor.value)
     removals = [Removal(one.term.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
-    last = replace(refitter, runs=runs)
+    last = _put_right(refitter, accused)
     spare = spare_branches(last, pursuit.look, pursuit.best.model)
-    leftover = look_for_leftover(last, pursuit.look, repeats_of(last, groups))
+    leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
     return Diagnosis(
         setting=setting,
         triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec), *remarks_on(pursuit))),
@@ -158,7 +160,8 @@ def find_causes(
         accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
     if accused:
         again = _put_right(refitter, accused)
-        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(pursuit.best.model)
+        refitted = again.fit(pursuit.best.model, pursuit.look.noise)
+        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(refitted)
     return pursuit, accused
 
 
