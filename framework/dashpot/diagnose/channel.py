@@ -47,7 +47,7 @@ Block = tuple[tuple[str, ...], int]  # runs with a fault of the same strengths, 
 class Accused:
     """A fault of one run: its ``strengths``, the nats that it explains, and its evidence.
 
-    ``explained`` is the share by which the square of the residual of all runs grows without it.
+    ``explained`` is the share by which the square of the residual of its run grows without it.
     """
 
     run: str
@@ -177,8 +177,9 @@ def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) 
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
         evidence, _, told = words.partition("|")
-        nats = solver.gain(key, rest)
-        explained = float(np.expm1(2.0 * nats / solver.samples))
+        nats, residual = solver.gain(key, rest), solver.rows.residual[key[0]]
+        taken = min(solver.taken(key, rest), float(residual @ residual))
+        explained = taken / max(float(residual @ residual) - taken, 1e-300)
         found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, explained, evidence, told))
     return found
 
@@ -283,9 +284,18 @@ class _Solver:
 
     def gain(self, key: Key | Block, chosen: Iterable[Key]) -> float:
         """The nats that a fault explains beside others that are chosen."""
-        known = [_block(one) for one in chosen]
-        before, after = self._solved(known)[1], self._solved([*known, _block(key)])[1]
+        before, after = self._squares(key, chosen)
         return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
+
+    def taken(self, key: Key, chosen: Iterable[Key]) -> float:
+        """What a fault takes of the square of the residual beside others that are chosen."""
+        before, after = self._squares(key, chosen)
+        return before - after
+
+    def _squares(self, key: Key | Block, chosen: Iterable[Key]) -> tuple[float, float]:
+        """The square of the residual without and with a fault."""
+        known = [_block(one) for one in chosen]
+        return self._solved(known)[1], self._solved([*known, _block(key)])[1]
 
     def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:
         """The strengths of faults found together."""

@@ -153,16 +153,11 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause alone explains over that and what stays unexplained, which might be its own.
-
-        What a fault of the measurement explains together with errors of the forms of laws counts for the laws.
-        """
-        gone = [one.term.cause.kind for one in self.without if one.term.name == name]
-        explained = self.explained(name)
+        """What a cause alone explains over that and what stays unexplained, which might be its own."""
+        gone = [one for one in self.without if one.term.name == name]
         # of several terms of a cause one may be an error of the form of another, and is this cause all the same
-        alone = explained if len(gone) > 1 else self.explained(name, forms_err=True)
-        laws = max(explained - alone, 0.0) if "measurement" in gone else 0.0
-        whole = alone + laws + unexplained
+        alone = self.explained(name, forms_err=len(gone) == 1)
+        whole = alone + unexplained
         return alone / whole if whole > 0.0 else float(not gone)
 
     def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
@@ -275,16 +270,15 @@ class Pursuer:
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
-        """A structure refitted; None for one that cannot be written, or whose numbers are not what it is called."""
+        """A structure refitted; None for one that cannot be written, or that the data do not tell."""
         terms, look = terms_of(scores, structure), scores.look
         try:
-            trial = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
+            fitted = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
+            trial = self._within_borders(look, terms, fitted)
         except InputError as error:
             self.refused += [(term, str(error)) for term in terms if term not in look.model.terms]
             return None
-        if trial.outcome is Outcome.FAILED or not trial.keeps_all:
-            return None
-        if not all(term.suspect.admits(trial.numbers_of(k)) for k, term in enumerate(trial.terms)):
+        if trial is None:
             return None
         seen = self.scores_of(look, trial)
         numbers = range(len(trial.terms))
@@ -293,6 +287,19 @@ class Pursuer:
         lacking = [term for number, term in enumerate(trial.terms) if not has_evidence(self.refitter, seen, number)]
         unproven = frozenset((term.name, term.suspect.form) for term in lacking)
         return replace(scored_by(seen, scores.odds), unproven=unproven)
+
+    def _within_borders(self, look: Look, terms: Sequence[Term], trial: Model) -> Model | None:
+        """A refitted structure without those of its former terms whose numbers are no longer what they are called.
+
+        None where those of a new term are not, or a refit fails.
+        """
+        new = {term for term in terms if term not in look.model.terms}
+        while trial.outcome is not Outcome.FAILED and trial.keeps_all and new <= set(trial.terms):
+            named = [term for k, term in enumerate(trial.terms) if term.suspect.admits(trial.numbers_of(k))]
+            if len(named) == len(trial.terms):
+                return trial
+            trial = self.refitter.refit(trial, self.refitter.writable(trial, named), look.noise)
+        return None
 
     def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
