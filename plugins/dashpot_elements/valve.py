@@ -97,14 +97,12 @@ def _gentle(size: Any, straight: Any, closing: Any) -> Any:
 
 def _between(kinked: Any, gentle: Any, size: Any, straight: Any, closing: Any, sharpness: Any) -> Any:
     low, high = np.log(np.maximum(kinked, TINY)), np.log(np.maximum(gentle, TINY))
-    ratio = np.exp(low + (high - low) / sharpness)
+    place = low + (high - low) / sharpness  # the logarithm of the ratio
     for _ in range(STEPS):
-        ratio = np.maximum(ratio, TINY)
-        power = np.exp(sharpness * np.log(ratio))
-        carried = closing * np.exp(-np.log(1.0 + power) / sharpness)
+        power = np.exp(sharpness * place)
         part = 1.0 / (1.0 + power)
-        excess, slope = (straight + carried) * ratio - size, straight + carried * part
-        # times the ratio, minus half of the second derivative
-        bend = 0.5 * (1.0 + sharpness) * carried * power * part * part
-        ratio = ratio * (1.0 - excess * slope / (ratio * slope * slope + excess * bend))
-    return ratio
+        free, carried = straight * np.exp(place), closing * np.exp(place - np.log(1.0 + power) / sharpness)
+        excess, slope = free + carried - size, free + carried * part
+        bend = slope - (1.0 + sharpness) * carried * power * part * part
+        place = place - excess * slope / (slope * slope - 0.5 * excess * bend)
+    return np.exp(place)

@@ -177,10 +177,9 @@ def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) 
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
         evidence, _, told = words.partition("|")
-        nats, residual = solver.gain(key, rest), solver.rows.residual[key[0]]
-        taken = min(solver.taken(key, rest), float(residual @ residual))
-        explained = taken / max(float(residual @ residual) - taken, 1e-300)
-        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, explained, evidence, told))
+        explained = solver.square_of(key[0], rest) / solver.square_of(key[0], chosen) - 1.0
+        nats = solver.gain(key, rest)
+        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, max(explained, 0.0), evidence, told))
     return found
 
 
@@ -284,27 +283,31 @@ class _Solver:
 
     def gain(self, key: Key | Block, chosen: Iterable[Key]) -> float:
         """The nats that a fault explains beside others that are chosen."""
-        before, after = self._squares(key, chosen)
+        known = [_block(one) for one in chosen]
+        before, after = self._solved(known)[1], self._solved([*known, _block(key)])[1]
         return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
 
-    def taken(self, key: Key, chosen: Iterable[Key]) -> float:
-        """What a fault takes of the square of the residual beside others that are chosen."""
-        before, after = self._squares(key, chosen)
-        return before - after
-
-    def _squares(self, key: Key | Block, chosen: Iterable[Key]) -> tuple[float, float]:
-        """The square of the residual without and with a fault."""
-        known = [_block(one) for one in chosen]
-        return self._solved(known)[1], self._solved([*known, _block(key)])[1]
+    def square_of(self, run: str, keys: Iterable[Key]) -> float:
+        """The square of what the model and faults, found together, leave of the residual of a run."""
+        keys = list(keys)
+        rest = self.rows.residual[run] - self._solution(keys)[: len(self.right)] @ self.rows.tangents[run]
+        for key, strengths in self.strengths(keys).items():
+            if key[0] == run:
+                rest = rest - strengths @ self.rows.shapes[key]
+        return max(float(rest @ rest), 1e-300)
 
     def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:
         """The strengths of faults found together."""
-        solution, first, found = self._solved([_block(key) for key in keys])[0], len(self.right), dict[Key, Array]()
+        solution, first, found = self._solution(keys), len(self.right), dict[Key, Array]()
         for key in keys:
             count = len(self.rows.shapes[key])
             found[key] = solution[first : first + count]
             first += count
         return found
+
+    def _solution(self, keys: Sequence[Key]) -> Array:
+        """How the parameters of the model move, then the strengths of faults found together."""
+        return self._solved([_block(key) for key in keys])[0]
 
 
 def _block(key: Key | Block) -> Block:

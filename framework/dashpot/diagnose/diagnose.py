@@ -25,7 +25,8 @@ from dashpot.diagnose.look import look_at
 from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
-from dashpot.diagnose.pursue import Pursuer, Pursuit
+from dashpot.diagnose.pursue import Pursuer
+from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
@@ -90,7 +91,7 @@ def diagnose(
     runs = list(corrected.values())
     model = pursuit.best.model
     final = known(polished(model, runs, jobs), model, runs, groups, jobs, setting.floor.value)
-    removals = [Removal(one.term.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
+    removals = [Removal(one.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
     last = _put_right(refitter, accused)
     spare = spare_branches(last, pursuit.look, pursuit.best.model)
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
@@ -160,8 +161,8 @@ def find_causes(
         accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
     if accused:
         again = _put_right(refitter, accused)
-        refitted = again.fit(pursuit.best.model, pursuit.look.noise)
-        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(refitted)
+        start = again.fit(pursuit.best.model, pursuit.look.noise)
+        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
     return pursuit, accused
 
 

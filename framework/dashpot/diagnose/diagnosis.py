@@ -19,7 +19,6 @@ from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
 from dashpot.diagnose.named import NamedCause, slots_of
 from dashpot.diagnose.next_run import measurement_between
-from dashpot.fit.api import measure_errors
 from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
 from dashpot.triage.fault import Fault
@@ -46,12 +45,11 @@ class Diagnosis(Findings):
     def _named(self, name: tuple[str, str]) -> NamedCause:
         pursuit, model = self.pursuit, self.pursuit.best.model
         mine = [number for number, term in enumerate(model.terms) if term.name == name]
-        without = [one for one in pursuit.without if one.term.name == name]
-        cost = sum((one.scored.exact - pursuit.best.exact for one in without), np.zeros(pursuit.best.exact.size))
+        without = pursuit.without_cause(name)
+        cost = without.exact - pursuit.best.exact if without else np.zeros(pursuit.best.exact.size)
         cause, probability = model.terms[mine[0]].cause, self.probability(name)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
-        removals = [one.network for one in self.removals if one.name == name]
-        gain, removal = self._worth(removals)
+        gain, removal = self._worth(next((one.network for one in self.removals if one.name == name), None))
         rivals = tuple(word for word, _ in pursuit.replacements(name))
         return NamedCause(
             cause,
@@ -69,11 +67,10 @@ class Diagnosis(Findings):
             told(model.terms[mine[0]]) if evidence_of else "",
         )
 
-    def _worth(self, removals: Sequence[NetworkSpec]) -> tuple[Any, float | None]:
-        """What the final network gains by a cause, and by how much the error grows without it."""
+    def _worth(self, without: NetworkSpec | None) -> tuple[Any, float | None]:
+        """What the final network gains by a cause over one ``without``, and by how much the error grows there."""
         held_out = self.setting.split.held_out
-        best = min(removals, key=lambda one: measure_errors(one, self.after_setting, self.jobs).train, default=None)
-        if best is None:
+        if without is None:
             return None, None
         cut = {run.name: run.first for run in self.after_setting.scored.values()}
         before, after = (
@@ -82,7 +79,7 @@ class Diagnosis(Findings):
                 for run, values in self.residuals(network, self.after_setting).items()
                 if run in held_out
             }
-            for network in (best, self.written)
+            for network in (without, self.written)
         )
         paths = {run: self.setting.scored[run].drive.displacement[cut[run] :] for run in held_out}
         groups = {run.name: run.cluster for run in self.setting.dataset.runs}

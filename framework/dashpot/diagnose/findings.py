@@ -25,7 +25,7 @@ from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
-from dashpot.diagnose.pursue import Pursuit
+from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
 from dashpot.fit.objective import Objective

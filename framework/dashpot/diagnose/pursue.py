@@ -6,10 +6,8 @@ structure without it is refitted, and so are those with another cause in its pla
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +16,7 @@ from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.look import Doubt, Look, look_at
+from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
@@ -26,149 +25,11 @@ from dashpot.fit.refine import Outcome
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
-Names = tuple[tuple[str, str], ...]  # words of causes and where they are
-Form = tuple[tuple[str, str], str]  # name of a term and the form of its law
 
 REFITTED = 2  # structures with one change, and as many with more, at each look
 TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
 MOST_LOOKS = 12
 DRAWS = 200
-NAMED = 0.9  # of the draws: probability from which on a cause is named
-
-
-@dataclass(frozen=True, eq=False)
-class Scored:
-    """A refitted structure and what it predicts.
-
-    ``nats`` (folds,) are minus the log likelihood of each fold left out with errors of forms allowed for, ``errors``
-    the nats that these errors cost, ``exact`` (folds,) the same as ``nats`` with the laws as they are, ``price`` the
-    prior of the terms. ``unproven`` are the faults of the measurement in it, and their forms, that lack evidence.
-    """
-
-    model: Model
-    nats: Array
-    errors: float
-    exact: Array
-    samples: Array
-    price: float
-    unproven: frozenset[Form] = frozenset()
-
-    @property
-    def score(self) -> float:
-        """Minus the log of likelihood and prior."""
-        return self.likelihood(forms_err=True) + self.price
-
-    def likelihood(self, forms_err: bool) -> float:
-        """Minus its log, with errors of forms allowed for or with the laws as they are."""
-        return float(self.nats.sum()) + self.errors if forms_err else float(self.exact.sum())
-
-    def drawn(self, weights: Array) -> Array:
-        """The score (draws,) under weights (draws, folds) of the folds."""
-        return weights @ self.nats + self.errors + self.price
-
-    def drawn_exactly(self, weights: Array) -> Array:
-        """The score (draws,) with the laws as they are."""
-        return weights @ self.exact + self.price
-
-    def ahead(self, other: Scored, weights: Array) -> NDArray[np.bool_]:
-        """In which draws (draws,) it is more likely than another one, and better with the laws as they are."""
-        likely = self.drawn(weights) < other.drawn(weights)
-        return likely & (self.drawn_exactly(weights) < other.drawn_exactly(weights))
-
-
-@dataclass(frozen=True, eq=False)
-class Without:
-    """The structure without one term, refitted, and the share of draws in which it is the worse one."""
-
-    term: Term
-    scored: Scored
-    share: float
-
-
-@dataclass(frozen=True, eq=False)
-class Pursuit:
-    """The best structure, the last look at it, and what was refitted beside it at the end.
-
-    ``without`` has the structures without each term, ``rivals`` those with another cause in its place, ``others`` what
-    else was refitted at the last look. ``first`` is the model that was diagnosed, ``ended`` whether the search came to
-    its end, ``refused`` what could not be written.
-    """
-
-    best: Scored
-    look: Look
-    first: Model
-    without: tuple[Without, ...]
-    rivals: tuple[tuple[Term, Scored], ...]
-    others: tuple[Scored, ...]
-    weights: Array
-    looks: int
-    ended: bool
-    refused: tuple[tuple[Term, str], ...] = ()
-
-    @cached_property
-    def winners(self) -> Counter[Names]:
-        """The names of the structure that the search would take in each draw, and in how many.
-
-        That is the best one, or the likeliest of those that are ahead of it.
-        """
-        found = [*(one.scored for one in self.without), *(one for _, one in self.rivals), *self.others]
-        scores = [np.where(one.ahead(self.best, self.weights), one.drawn(self.weights), np.inf) for one in found]
-        taken = np.argmin([self.best.drawn(self.weights), *scores], axis=0)
-        return Counter([self.best, *found][number].model.names for number in taken)
-
-    def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
-        """How sure a cause is: the share of draws in which the best structure has it.
-
-        Times its own part of what it explains and of what stays ``unexplained``, which might be its own.
-        """
-        return self._share(lambda names: name in names) * self._own(name, unexplained)
-
-    def presence(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
-        """How sure it is that there is something in the place of a cause: it or one that replaces it, if it leads."""
-        if not self.leads(name):
-            return self.probability(name, unexplained)
-        known = set(self.best.model.names)
-        return self._share(lambda names: name in names or bool(set(names) - known)) * self._own(name, unexplained)
-
-    def leads(self, name: tuple[str, str]) -> bool:
-        """Whether no other cause stands in the place of one in more draws than it does itself."""
-        own = self._share(lambda names: name in names)
-        return max(self._in_place_of(name).values(), default=0) <= own * self.winners.total()
-
-    def replacements(self, name: tuple[str, str]) -> tuple[tuple[str, str], ...]:
-        """The causes that stand in the place of one in more than one of ten draws."""
-        least = (1.0 - NAMED) * self.winners.total()
-        return tuple(sorted(new for new, count in self._in_place_of(name).items() if count > least))
-
-    def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
-        """In how many draws which causes stand in the place of one."""
-        found = Counter[tuple[str, str]]()
-        for names, count in self.winners.items():
-            if name not in names:
-                found.update({new: count for new in names if new not in self.best.model.names})
-        return found
-
-    def _share(self, held: Callable[[Names], bool]) -> float:
-        """The share of draws whose structure has names of which something holds."""
-        return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
-
-    def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause alone explains over that and what stays unexplained, which might be its own."""
-        gone = [one for one in self.without if one.term.name == name]
-        # of several terms of a cause one may be an error of the form of another, and is this cause all the same
-        alone = self.explained(name, forms_err=len(gone) == 1)
-        whole = alone + unexplained
-        return alone / whole if whole > 0.0 else float(not gone)
-
-    def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
-        """By what share the square of the residual grows without a cause, all else refitted.
-
-        Where the forms of the other terms may err, they take up a part of it.
-        """
-        gone = [one.scored for one in self.without if one.term.name == name]
-        best = self.best.likelihood(forms_err)
-        cost = sum(scored.likelihood(forms_err) - best for scored in gone)
-        return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
 
 
 @dataclass(eq=False)
@@ -302,20 +163,33 @@ class Pursuer:
         return None
 
     def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
-        """The structure without the terms that are not worth their place, the weakest first, and what each is worth."""
-        weights = self.weights(present.nats.size)
+        """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
         while True:
-            found, seen = [], self.scores_of(look, present.model)
-            for number, term in enumerate(present.model.terms):
-                rest = self.refitter.writable(present.model, [one for one in present.model.terms if one is not term])
-                scored = self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds)
-                share = float(np.mean(scored.drawn_exactly(weights) > present.drawn_exactly(weights)))
-                certain = is_determined(seen, number) and has_evidence(self.refitter, seen, number)
-                found.append(Without(term, scored, share if certain and self._matters(present, scored) else 0.0))
-            weakest = min(found, key=lambda one: (one.share, one.scored.score), default=None)
-            if weakest is None or weakest.share >= NAMED:
-                return present, tuple(found)
-            present = weakest.scored
+            seen = self.scores_of(look, present.model)
+            found = [self._without(look, present, (term,), odds) for term in present.model.terms]
+            worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
+            weakest = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness, default=None)
+            if weakest is None or weakest[0] >= NAMED:
+                return present, tuple(self._without_causes(look, present, found, odds))
+            present = weakest[1]
+
+    def _without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
+        rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
+        return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
+
+    def _without_causes(self, look: Look, present: Scored, found: Sequence[Without], odds: Odds) -> Iterator[Without]:
+        for name in dict.fromkeys(one.name for one in found):
+            mine = [one for one in found if one.name == name]
+            every = tuple(term for one in mine for term in one.terms)
+            yield mine[0] if len(mine) == 1 else self._without(look, present, every, odds)
+
+    def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
+        """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
+        if not (is_determined(seen, number) and has_evidence(self.refitter, seen, number)):
+            return 0.0
+        weights = self.weights(present.nats.size)
+        worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
+        return float(np.mean(worse)) if self._matters(present, without) else 0.0
 
     def _better(self, trial: Scored, present: Scored) -> bool:
         """Whether a structure is more likely than the present one, and predicts better with the laws as they are.
@@ -348,6 +222,10 @@ class Pursuer:
                     wanted[number] = 0 if trial else wanted[number] - 1
                     if trial:
                         yield look.model.terms[number], trial
+
+
+def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:
+    return removal[0], removal[1].score
 
 
 def scored_by(scores: Scores, odds: Odds) -> Scored:

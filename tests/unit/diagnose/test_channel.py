@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from unit.diagnose.rig import MOTIONS, Motion, bench, causes, dataset, line, plain
+from unit.diagnose.rig import MOTIONS, NOISE, STEP, Motion, bench, causes, dataset, line, plain
 
 from dashpot.contract.registry import load_registry
 from dashpot.diagnose.channel import accuse, conditions, covers
@@ -10,6 +10,7 @@ from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
+from dashpot.diagnose.whitening import reduction
 
 WORDS = ("gain", "offset", "drift", "hum")
 AGAIN = {"again": "a3_p8"}
@@ -88,6 +89,14 @@ def test_a_run_within_what_others_cover_is_accused():
     found = examined(dataset(fault={"a3_p8": lambda force: 1.03 * force}))
     assert set(found) == {("a3_p8", "gain")}
     assert "other runs under the same conditions" in found["a3_p8", "gain"].words
+
+
+def test_what_a_fault_explains_counts_in_its_run():
+    """Without it that run has 3 % of its force beside the noise of block means; the model may take up half of this."""
+    one = examined(dataset(fault={"a3_p8": lambda force: 1.03 * force}))["a3_p8", "gain"]
+    noise = NOISE**2 / reduction(STEP, MOTIONS["a3_p8"].fastest)
+    whole = np.mean((0.03 * plain(MOTIONS["a3_p8"])) ** 2) / noise
+    assert 0.5 * whole < one.explained < 1.1 * whole
 
 
 def test_a_run_that_pulled_the_fit_to_itself_is_named():

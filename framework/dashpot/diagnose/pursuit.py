@@ -1,0 +1,160 @@
+"""What a pursuit ends with: the best structure, those beside it, and how sure its causes are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.diagnose.look import Look
+from dashpot.diagnose.term import Model, Term
+
+Array = NDArray[np.float64]
+Names = tuple[tuple[str, str], ...]  # words of causes and where they are
+Form = tuple[tuple[str, str], str]  # name of a term and the form of its law
+
+NAMED = 0.9  # of the draws: probability from which on a cause is named
+
+
+@dataclass(frozen=True, eq=False)
+class Scored:
+    """A refitted structure and what it predicts.
+
+    ``nats`` (folds,) are minus the log likelihood of each fold left out with errors of forms allowed for, ``errors``
+    the nats that these errors cost, ``exact`` (folds,) the same as ``nats`` with the laws as they are, ``price`` the
+    prior of the terms. ``unproven`` are the faults of the measurement in it, and their forms, that lack evidence.
+    """
+
+    model: Model
+    nats: Array
+    errors: float
+    exact: Array
+    samples: Array
+    price: float
+    unproven: frozenset[Form] = frozenset()
+
+    @property
+    def score(self) -> float:
+        """Minus the log of likelihood and prior."""
+        return self.likelihood(forms_err=True) + self.price
+
+    def likelihood(self, forms_err: bool) -> float:
+        """Minus its log, with errors of forms allowed for or with the laws as they are."""
+        return float(self.nats.sum()) + self.errors if forms_err else float(self.exact.sum())
+
+    def drawn(self, weights: Array) -> Array:
+        """The score (draws,) under weights (draws, folds) of the folds."""
+        return weights @ self.nats + self.errors + self.price
+
+    def drawn_exactly(self, weights: Array) -> Array:
+        """The score (draws,) with the laws as they are."""
+        return weights @ self.exact + self.price
+
+    def ahead(self, other: Scored, weights: Array) -> NDArray[np.bool_]:
+        """In which draws (draws,) it is more likely than another one, and better with the laws as they are."""
+        likely = self.drawn(weights) < other.drawn(weights)
+        return likely & (self.drawn_exactly(weights) < other.drawn_exactly(weights))
+
+
+@dataclass(frozen=True, eq=False)
+class Without:
+    """The structure without some terms of a cause, refitted."""
+
+    terms: tuple[Term, ...]
+    scored: Scored
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """The word of the cause and where it is."""
+        return self.terms[0].name
+
+
+@dataclass(frozen=True, eq=False)
+class Pursuit:
+    """The best structure, the last look at it, and what was refitted beside it at the end.
+
+    ``without`` has the structures without each cause, all terms of it, ``rivals`` those with another cause in the place
+    of a term, ``others`` what else was refitted at the last look. ``first`` is the model that was diagnosed, ``ended``
+    whether the search came to its end, ``refused`` what could not be written.
+    """
+
+    best: Scored
+    look: Look
+    first: Model
+    without: tuple[Without, ...]
+    rivals: tuple[tuple[Term, Scored], ...]
+    others: tuple[Scored, ...]
+    weights: Array
+    looks: int
+    ended: bool
+    refused: tuple[tuple[Term, str], ...] = ()
+
+    @cached_property
+    def winners(self) -> Counter[Names]:
+        """The names of the structure that the search would take in each draw, and in how many.
+
+        That is the best one, or the likeliest of those that are ahead of it.
+        """
+        found = [*(one.scored for one in self.without), *(one for _, one in self.rivals), *self.others]
+        scores = [np.where(one.ahead(self.best, self.weights), one.drawn(self.weights), np.inf) for one in found]
+        taken = np.argmin([self.best.drawn(self.weights), *scores], axis=0)
+        return Counter([self.best, *found][number].model.names for number in taken)
+
+    def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
+        """How sure a cause is: the share of draws in which the best structure has it.
+
+        Times its own part of what it explains and of what stays ``unexplained``, which might be its own.
+        """
+        return self._share(lambda names: name in names) * self._own(name, unexplained)
+
+    def presence(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
+        """How sure it is that there is something in the place of a cause: it or one that replaces it, if it leads."""
+        if not self.leads(name):
+            return self.probability(name, unexplained)
+        known = set(self.best.model.names)
+        return self._share(lambda names: name in names or bool(set(names) - known)) * self._own(name, unexplained)
+
+    def leads(self, name: tuple[str, str]) -> bool:
+        """Whether no other cause stands in the place of one in more draws than it does itself."""
+        own = self._share(lambda names: name in names)
+        return max(self._in_place_of(name).values(), default=0) <= own * self.winners.total()
+
+    def replacements(self, name: tuple[str, str]) -> tuple[tuple[str, str], ...]:
+        """The causes that stand in the place of one in more than one of ten draws."""
+        least = (1.0 - NAMED) * self.winners.total()
+        return tuple(sorted(new for new, count in self._in_place_of(name).items() if count > least))
+
+    def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
+        """In how many draws which causes stand in the place of one."""
+        found = Counter[tuple[str, str]]()
+        for names, count in self.winners.items():
+            if name not in names:
+                found.update({new: count for new in names if new not in self.best.model.names})
+        return found
+
+    def _share(self, held: Callable[[Names], bool]) -> float:
+        """The share of draws whose structure has names of which something holds."""
+        return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
+
+    def _own(self, name: tuple[str, str], unexplained: float) -> float:
+        """What a cause alone explains over that and what stays unexplained, which might be its own."""
+        alone = self.explained(name, forms_err=True)
+        whole = alone + unexplained
+        return alone / whole if whole > 0.0 else float(self.without_cause(name) is None)
+
+    def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
+        """By what share the square of the residual grows without a cause, all else refitted.
+
+        Where the forms of the other terms may err, they take up a part of it.
+        """
+        gone = self.without_cause(name)
+        cost = gone.likelihood(forms_err) - self.best.likelihood(forms_err) if gone else 0.0
+        return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
+
+    def without_cause(self, name: tuple[str, str]) -> Scored | None:
+        """The structure without all terms of a cause, refitted; None where it has none."""
+        return next((one.scored for one in self.without if one.name == name), None)

@@ -1,0 +1,75 @@
+"""Decimated records: fewer samples of the same motion, the same forces, no noise folded back."""
+
+import numpy as np
+import pytest
+
+from dashpot.data.drive import drive_from_path
+from dashpot.diagnose.thinned import SAMPLES, thinned
+from dashpot.fit.objective import Objective
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import compile_network
+from dashpot.model.reading import parse_network
+
+STEP, FASTEST, LENGTH = 2e-4, 12.0, 4.0
+TIME = STEP * np.arange(int(LENGTH / STEP))
+STIFFNESS, LIMIT = 4e5, 150.0
+SLIDER = f"""\
+format: dashpot-network/1
+name: slider
+branches:
+  slider: {{element: dahl, stiffness: {STIFFNESS} N/m, limit: {LIMIT} N, exponent: 0}}
+"""
+
+
+def motion(time):
+    """Deflection, velocity and acceleration (n,) of a sweep of 3 mm from 1 Hz up."""
+    rate = 2.0 * np.pi * (1.0 + (FASTEST - 1.0) * time / LENGTH)
+    bend = 2.0 * np.pi * (FASTEST - 1.0) / LENGTH
+    phase = 2.0 * np.pi * (time + 0.5 * (FASTEST - 1.0) * time**2 / LENGTH)
+    x, v = 3e-3 * np.sin(phase), 3e-3 * rate * np.cos(phase)
+    return x, v, 3e-3 * bend * np.cos(phase) - rate**2 * x
+
+
+def slid(path):
+    """The force (n,) of an elastic, ideally plastic slider along a path of small steps."""
+    force, found = 0.0, np.zeros(path.size)
+    for place, travel in enumerate(np.diff(path), 1):
+        force = found[place] = np.clip(force + STIFFNESS * travel, -LIMIT, LIMIT)
+    return found
+
+
+def run_of(force):
+    """A run of the sweep with a force (n,)."""
+    return ScoredRun("run", "sweep", drive_from_path(STEP, *motion(TIME)), force, 100)
+
+
+def test_samples_stay_where_the_motion_asks_for_them():
+    (run,) = thinned([run_of(np.zeros(TIME.size))])
+    assert SAMPLES <= 1.0 / (FASTEST * run.drive.dt) < 1.2 * SAMPLES
+    step = round(run.drive.dt / STEP)
+    assert run.drive.displacement == pytest.approx(motion(TIME[::step])[0]) and run.first * step >= 100
+    assert run.force.size == run.drive.samples
+    (again,) = thinned([run])
+    assert again is run
+
+
+def test_forces_along_the_decimated_path_are_those_of_the_whole():
+    """Against return mapping along a path of twenty times as many steps."""
+    (run,) = thinned([run_of(np.zeros(TIME.size))])
+    network = compile_network(parse_network(SLIDER, _elements()))
+    force = Objective(network, [run]).forces(network.start)[0][0]
+    fine = slid(motion(STEP / 20.0 * np.arange(20 * TIME.size))[0])
+    assert np.max(np.abs(force - fine[:: 20 * round(run.drive.dt / STEP)])) < 1e-3 * LIMIT
+
+
+def test_a_slow_force_stays_and_a_fast_line_is_not_folded_back():
+    slow, fast = 40.0 * np.sin(2.0 * np.pi * 30.0 * TIME), 10.0 * np.sin(2.0 * np.pi * 1900.0 * TIME)
+    (run,) = thinned([run_of(slow + fast)])
+    inside = slice(40, -40)
+    assert np.abs(run.force - slow[:: round(run.drive.dt / STEP)])[inside].max() < 0.02
+
+
+def _elements():
+    from dashpot.contract.registry import load_registry
+
+    return load_registry().elements
