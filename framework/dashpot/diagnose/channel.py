@@ -200,16 +200,17 @@ def _evidence(
     demonstrated = pairs_that_differ(rows, pairs, kind, price)
     if kinds[kind].fault.scatters:
         demonstrated = [pair for pair in demonstrated if outlier(rows, pair, pairs, kind) > price]
-    if any(run in pair for pair in demonstrated):
-        other = next(name for pair in demonstrated if run in pair for name in pair if name != run)
-        return f"repeats|'{other}' is the same motion, and its force differs"
+    differ = [name for pair in demonstrated if run in pair for name in pair if name != run]
+    sound = [name for name in differ if all(name != other for other, _ in chosen)]
+    if sound:  # a difference is evidence against one of two
+        return f"repeats|'{sound[0]}' is the same motion, and its force differs"
     if any(run in pair for pair in pairs):
         return ""  # its repeat agrees
     if len(demonstrated) > 1:
         return "repeats|repeats of other runs differ by the same"
     accused = {groups[name] for name, _ in chosen} | {groups[run]}
-    sound = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
-    return NEIGHBOURS if covers(sound, measured[run]) else ""
+    others = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
+    return NEIGHBOURS if covers(others, measured[run]) else ""
 
 
 def covers(others: Sequence[Run], run: Run) -> bool:

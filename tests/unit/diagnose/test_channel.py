@@ -70,6 +70,12 @@ def test_a_repeat_is_accused_where_it_stands_out_from_the_scatter_of_all_repeats
     assert {key for key in examined(dataset(repeats=repeats, fault=fault)) if key[1] == "offset"} == accused
 
 
+def test_a_difference_of_two_repeats_accuses_one_of_them():
+    """What both of them have beside, here 20 N at that preload, is no fault of the other one."""
+    fault = {"again": lambda force: 1.03 * force + 20.0, "a3_p8": lambda force: force + 20.0}
+    assert len({run for run, _ in examined(dataset(repeats=AGAIN, fault=fault))}) == 1
+
+
 def test_a_doubted_fault_is_as_large_as_repeats_differ():
     """The difference of two that are off by one deviation each is root 2 times as large."""
     made = bench(dataset(repeats=AGAIN, fault={"again": lambda force: force + 15.0}))
