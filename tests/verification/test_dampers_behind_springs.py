@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from verification.alone import circling, network_of
 from verification.test_elements_with_memory import march, orders, relative, speed
+
+from dashpot_elements.valve import _flow
 
 VALVE = {
     "stiffness": 3e5,
@@ -81,6 +86,36 @@ def test_a_damper_behind_a_spring_is_of_second_order_in_the_step(element, curve,
     # where turbulent flow turns, its slope is next to nothing: the square root of the force that is left there has none
     assert errors[0] < 1e-3
     assert np.all(orders(errors) > 1.6) or (numbers.get("exponent") == 2.0 and errors[2] < 0.3 * errors[0])
+
+
+def power_of_ten(low, high):
+    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
+
+
+@given(
+    lag=power_of_ten(-3, 5),
+    damping=power_of_ten(-1, 6),
+    share=st.floats(0.0, 0.99),
+    knee=power_of_ten(-3, 1),
+    sharpness=st.floats(1.0, 8.0),
+    force=power_of_ten(-3, 5),
+)
+@example(lag=1e5, damping=1e3, share=0.0, knee=0.1, sharpness=1.05, force=99.0)  # soft spring, gentle knee
+@example(lag=1e5, damping=1e3, share=0.0, knee=0.1, sharpness=8.0, force=100.0)
+def test_the_velocity_through_a_valve_is_the_root_whatever_its_knee(lag, damping, share, knee, sharpness, force):
+    """Against bracketing in the logarithm of the velocity: what a step of a spring that lags by some steps asks for."""
+    opened, rate = share * damping, damping / lag
+    numbers = {"compression": damping, "compression_opened": opened, "compression_knee": knee, "sharpness": sharpness}
+    lowest, highest = force / (rate + damping), (force + damping * knee) / rate
+
+    def missing(place):
+        w = np.exp(place)
+        return rate * w + valve_curve(w, numbers) - force
+
+    root = np.exp(brentq(missing, np.log(0.5 * lowest), np.log(2.0 * highest), xtol=1e-13, rtol=1e-13))
+    carried, speed = (float(each) for each in _flow(force, rate, damping - opened, knee, opened, sharpness))
+    assert speed == pytest.approx(root, rel=5e-6)
+    assert carried == pytest.approx(force - rate * root, abs=1e-9 * force)
 
 
 def test_a_linear_damper_behind_a_spring_is_a_maxwell_element():
