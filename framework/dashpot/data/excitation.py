@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,9 @@ Array = NDArray[np.float64]
 MOVING = ("time", "displacement", "velocity", "acceleration", "force")
 # the setting that every run of a dataset has: its number there, from 0, as it was measured
 ORDER = "order"
+
+
+_known: WeakKeyDictionary[Run, Excitation] = WeakKeyDictionary()
 
 
 def channel_at(quantity: str, node: str) -> str:
@@ -51,7 +55,13 @@ class Excitation:
 
     @classmethod
     def of_run(cls, run: Run) -> Excitation:
-        """The measured motions of a run, and the forces at nodes whose motion is not measured."""
+        """The measured motions of a run, and the forces at nodes whose motion is not measured; made once for each."""
+        if run not in _known:
+            _known[run] = cls._of_run(run)
+        return _known[run]
+
+    @classmethod
+    def _of_run(cls, run: Run) -> Excitation:
         motions = {
             _node(name): drive_from_samples(run.sample_time, samples)
             for name, samples in run.channels.items()

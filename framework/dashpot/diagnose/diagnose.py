@@ -31,7 +31,6 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
-from dashpot.diagnose.thinned import thinned
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.grounding import free_curves
@@ -39,6 +38,7 @@ from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.thinned import thinned
 from dashpot.kernel.workers import threads
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place

@@ -9,10 +9,10 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.compare.band import end_of_band
 from dashpot.data.drive import moved_drive
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.thinned import highest_frequency, largest_stroke
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.system import CompiledSystem
 from dashpot.model.element import Element
@@ -50,13 +50,12 @@ class ModelView:
     @cached_property
     def stroke(self) -> float:
         """The largest stroke of a single dynamic run in m, of any run if there is no dynamic one."""
-        dynamic = [run for run in self.scored.values() if run.kind not in ("quasi_static", "hold")]
-        return float(max(np.ptp(run.drive.displacement) for run in dynamic or self.scored.values()))
+        return largest_stroke(self.scored.values())
 
     @cached_property
     def highest_frequency(self) -> float:
         """The highest frequency in Hz that was driven, in any run."""
-        return end_of_band([run.drive for run in self.scored.values()], self.stroke)
+        return highest_frequency(self.scored.values())
 
     @cached_property
     def duration(self) -> float:

@@ -44,6 +44,7 @@ from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
 from dashpot.fit.seen_range import seen_range
 from dashpot.fit.starts import Best, refine_from_starts
+from dashpot.fit.thinned import thinned
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
@@ -191,7 +192,7 @@ def fit_prepared(
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
     staged, best = _search(
         grounded,
-        fast,
+        fast if grounded.joints else thinned(fast),
         lambda slot: _curve_of(slot) not in curves,
         method,
         seed,

@@ -13,11 +13,10 @@ from dashpot.data.noise import (
     noise_from_repeats,
     pool_noise,
 )
-from dashpot.data.order_tracking import follow
-from dashpot.data.phase import NotOscillatingError
 from dashpot.data.repeats import NotRepeatsError
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
+from dashpot.data.tracking import track
 
 
 def noise_floor(dataset: Dataset) -> NoiseFloor:
@@ -61,9 +60,7 @@ def _stated(run: Run) -> NoiseFloor:
 
 
 def _single(run: Run) -> NoiseFloor:
-    if run.kind in ("sweep", "harmonic"):
-        try:
-            return noise_from_orders(run.force, follow(run.displacement, run.sample_time))
-        except NotOscillatingError:
-            pass
+    oscillation = track(run) if run.kind in ("sweep", "harmonic") else None
+    if oscillation:
+        return noise_from_orders(run.force, oscillation)
     return noise_above_motion(run.displacement, run.force, run.sample_time)

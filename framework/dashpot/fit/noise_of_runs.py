@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -11,10 +10,10 @@ from numpy.typing import NDArray
 
 from dashpot.data.noise import NoiseFloor, spectrum_above_motion
 from dashpot.data.noise_spectrum import NoiseSpectrum
-from dashpot.data.order_tracking import follow, read_noise
-from dashpot.data.phase import NotOscillatingError
+from dashpot.data.order_tracking import read_noise
 from dashpot.data.run import Run
 from dashpot.data.steady import SAMPLES, STEADY
+from dashpot.data.tracking import track
 
 Array = NDArray[np.float64]
 
@@ -58,10 +57,8 @@ def variance_of(columns: Array, noise: NoiseSpectrum) -> Array:
 
 
 def _read(run: Run) -> NoiseSpectrum | None:
-    found = None
-    if run.kind in ("sweep", "harmonic"):
-        with suppress(NotOscillatingError):
-            found = read_noise(run.force, follow(run.displacement, run.sample_time))
+    oscillation = track(run) if run.kind in ("sweep", "harmonic") else None
+    found = read_noise(run.force, oscillation) if oscillation else None
     return found or spectrum_above_motion(run.displacement, run.force, run.sample_time)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from seeds import seed_of
 
-from dashpot.compare.band import end_of_band
+from dashpot.data.band import end_of_band
 from dashpot.data.drive import drive_from_samples
 from dashpot.diagnose.proposals import Sweep, runs_to_choose_from
 from dashpot.diagnose.view import ModelView

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from dashpot.data.drive import drive_from_path
-from dashpot.diagnose.thinned import SAMPLES, thinned
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.thinned import SAMPLES, thinned
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
 
