@@ -114,13 +114,13 @@ class Pursuer:
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted.
 
-        A fault of the measurement that lacks its evidence in one of them is not tried in the others.
+        A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
         """
         present, names, unproven = scores.score(Structure()), set(), set[Form]()
         many, tried = {True: 0, False: 0}, {True: 0, False: 0}
         for structure in ranked:
             key, single = _key(scores, structure), structure.size == 1
-            wanted = many[single] < REFITTED and tried[single] < TRIED and not unproven & key
+            wanted = many[single] < REFITTED and tried[single] < TRIED and (single or not unproven & key)
             if structure.size and key not in names and wanted and scores.score(structure) < present:
                 names.add(key)
                 tried[single] += 1

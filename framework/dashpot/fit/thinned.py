@@ -19,6 +19,8 @@ from dashpot.data.steady import STEADY
 from dashpot.fit.scored import ScoredRun
 
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
+END = 15  # samples at the end, over which the low-pass has to guess what comes after: left out
+FEWEST = 10 * END  # samples of a run that is decimated
 
 
 def largest_stroke(runs: Collection[ScoredRun]) -> float:
@@ -39,18 +41,21 @@ def thinned(runs: Sequence[ScoredRun]) -> list[ScoredRun]:
 
 
 def _every(run: ScoredRun, step: int) -> ScoredRun:
-    if step < 2 or run.kind == STEADY:
+    kept = -(-run.force.size // max(step, 1))
+    if step < 2 or kept < FEWEST or run.kind == STEADY:
         return run
-    drive, whole = _path(run.drive, step), run.whole and _excitation(run.whole, step)
-    return replace(run, drive=drive, force=decimate(run.force, step), first=-(-run.first // step), whole=whole)
+    cut = slice(kept - END)
+    whole = run.whole and _excitation(run.whole, step, cut)
+    drive, force = _path(run.drive, step, cut), decimate(run.force, step)[cut]
+    return replace(run, drive=drive, force=force, first=-(-run.first // step), whole=whole)
 
 
-def _excitation(whole: Excitation, step: int) -> Excitation:
-    motions = {name: _path(drive, step) for name, drive in whole.motions.items()}
-    loads = {name: decimate(load, step) for name, load in whole.loads.items()}
-    return replace(whole, motions=motions, loads=loads, dt=whole.dt * step, samples=-(-whole.samples // step))
+def _excitation(whole: Excitation, step: int, cut: slice) -> Excitation:
+    motions = {name: _path(drive, step, cut) for name, drive in whole.motions.items()}
+    loads = {name: decimate(load, step)[cut] for name, load in whole.loads.items()}
+    return replace(whole, motions=motions, loads=loads, dt=whole.dt * step, samples=cut.stop)
 
 
-def _path(drive: Drive, step: int) -> Drive:
-    kept = (signal[::step].copy() for signal in (drive.displacement, drive.velocity, drive.acceleration))
+def _path(drive: Drive, step: int, cut: slice) -> Drive:
+    kept = (signal[::step][cut].copy() for signal in (drive.displacement, drive.velocity, drive.acceleration))
     return drive_from_path(drive.dt * step, *kept)

@@ -47,10 +47,26 @@ def test_samples_stay_where_the_motion_asks_for_them():
     (run,) = thinned([run_of(np.zeros(TIME.size))])
     assert SAMPLES <= 1.0 / (FASTEST * run.drive.dt) < 1.2 * SAMPLES
     step = round(run.drive.dt / STEP)
-    assert run.drive.displacement == pytest.approx(motion(TIME[::step])[0]) and run.first * step >= 100
+    assert (
+        run.drive.displacement == pytest.approx(motion(TIME[::step])[0][: run.force.size]) and run.first * step >= 100
+    )
     assert run.force.size == run.drive.samples
     (again,) = thinned([run])
     assert again is run
+
+
+def test_a_short_run_stays_as_it_is():
+    short = drive_from_path(STEP, *(each[:1000] for each in motion(TIME)))
+    run = ScoredRun("run", "sweep", short, np.zeros(1000), 100)
+    assert thinned([run]) == [run]
+
+
+def test_the_force_is_right_to_its_last_sample():
+    """The sweep ends at its fastest, with the largest slope of the force: nothing of it is guessed."""
+    slow = 1000.0 * np.cos(2.0 * np.pi * FASTEST * (TIME - TIME[-1]))
+    (run,) = thinned([run_of(slow)])
+    kept = slow[:: round(run.drive.dt / STEP)][: run.force.size]
+    assert np.abs(run.force - kept)[20:].max() < 5.0
 
 
 def test_forces_along_the_decimated_path_are_those_of_the_whole():
@@ -59,14 +75,14 @@ def test_forces_along_the_decimated_path_are_those_of_the_whole():
     network = compile_network(parse_network(SLIDER, _elements()))
     force = Objective(network, [run]).forces(network.start)[0][0]
     fine = slid(motion(STEP / 20.0 * np.arange(20 * TIME.size))[0])
-    assert np.max(np.abs(force - fine[:: 20 * round(run.drive.dt / STEP)])) < 1e-3 * LIMIT
+    assert np.max(np.abs(force - fine[:: 20 * round(run.drive.dt / STEP)][: force.size])) < 1e-3 * LIMIT
 
 
 def test_a_slow_force_stays_and_a_fast_line_is_not_folded_back():
     slow, fast = 40.0 * np.sin(2.0 * np.pi * 30.0 * TIME), 10.0 * np.sin(2.0 * np.pi * 1900.0 * TIME)
     (run,) = thinned([run_of(slow + fast)])
     inside = slice(40, -40)
-    assert np.abs(run.force - slow[:: round(run.drive.dt / STEP)])[inside].max() < 0.02
+    assert np.abs(run.force - slow[:: round(run.drive.dt / STEP)][: run.force.size])[inside].max() < 0.02
 
 
 def _elements():
