@@ -204,10 +204,13 @@ def _evidence(
     sound = [name for name in differ if all(name != other for other, _ in chosen)]
     if sound:  # a difference is evidence against one of two
         return f"repeats|'{sound[0]}' is the same motion, and its force differs"
-    if any(run in pair for pair in pairs):
+    repeated = any(run in pair for pair in pairs)
+    if repeated and not differ:
         return ""  # its repeat agrees
-    if len(demonstrated) > 1:
+    if sum(run not in pair for pair in demonstrated) > 1:
         return "repeats|repeats of other runs differ by the same"
+    if repeated:
+        return ""  # its repeat is accused
     accused = {groups[name] for name, _ in chosen} | {groups[run]}
     others = [one for name, one in measured.items() if groups.get(name) not in accused and name in groups]
     return NEIGHBOURS if covers(others, measured[run]) else ""
