@@ -21,7 +21,6 @@ MOVING = ("time", "displacement", "velocity", "acceleration", "force")
 # the setting that every run of a dataset has: its number there, from 0, as it was measured
 ORDER = "order"
 
-
 _known: WeakKeyDictionary[Run, Excitation] = WeakKeyDictionary()
 
 

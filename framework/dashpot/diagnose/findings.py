@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,9 +37,6 @@ from dashpot.model.patch import fill_numbers, rename
 from dashpot.model.reading import parse_network
 from dashpot.text.name import joined_name
 from dashpot.triage.examine import Triage
-
-if TYPE_CHECKING:
-    pass
 
 Array = NDArray[np.float64]
 

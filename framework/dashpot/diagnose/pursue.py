@@ -168,10 +168,9 @@ class Pursuer:
             seen = self.scores_of(look, present.model)
             found = [self._without(look, present, (term,), odds) for term in present.model.terms]
             worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
-            weakest = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness, default=None)
-            if weakest is None or weakest[0] >= NAMED:
+            if min(worth, default=1.0) >= NAMED:
                 return present, tuple(self._without_causes(look, present, found, odds))
-            present = weakest[1]
+            present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
     def _without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
         rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
