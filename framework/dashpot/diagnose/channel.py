@@ -47,7 +47,8 @@ Block = tuple[tuple[str, ...], int]  # runs with a fault of the same strengths, 
 class Accused:
     """A fault of one run: its ``strengths``, the nats that it explains, and its evidence.
 
-    ``explained`` is the share by which the square of the residual of its run grows without it.
+    ``explained`` is the share by which the square of the residual of all runs grows without it, each run in units of
+    what is left of it beside the fault.
     """
 
     run: str
@@ -177,9 +178,10 @@ def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) 
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
         evidence, _, told = words.partition("|")
-        explained = solver.square_of(key[0], rest) / solver.square_of(key[0], chosen) - 1.0
+        growth = max(solver.square_of(key[0], rest) / solver.square_of(key[0], chosen) - 1.0, 0.0)
+        explained = growth * solver.rows.residual[key[0]].size / solver.samples
         nats = solver.gain(key, rest)
-        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, max(explained, 0.0), evidence, told))
+        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, explained, evidence, told))
     return found
 
 

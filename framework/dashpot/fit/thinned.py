@@ -19,7 +19,7 @@ from dashpot.data.steady import STEADY
 from dashpot.fit.scored import ScoredRun
 
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
-END = 15  # samples at the end, over which the low-pass has to guess what comes after: left out
+END = 15  # samples at either end, over which the low-pass has to guess what is beyond: they do not count
 FEWEST = 10 * END  # samples of a run that is decimated
 
 
@@ -47,7 +47,7 @@ def _every(run: ScoredRun, step: int) -> ScoredRun:
     cut = slice(kept - END)
     whole = run.whole and _excitation(run.whole, step, cut)
     drive, force = _path(run.drive, step, cut), decimate(run.force, step)[cut]
-    return replace(run, drive=drive, force=force, first=-(-run.first // step), whole=whole)
+    return replace(run, drive=drive, force=force, first=max(-(-run.first // step), END), whole=whole)
 
 
 def _excitation(whole: Excitation, step: int, cut: slice) -> Excitation:
