@@ -39,7 +39,8 @@ def is_determined(scores: Scores, number: int) -> bool:
     if any(at and path in model.owned[number] for at, path in zip(model.at_bound, paths, strict=True)):
         return False
     columns = scores.columns(Structure())
-    errors = np.sqrt(np.diag(np.linalg.pinv(scores.gram[np.ix_(columns, columns)], rcond=1e-12, hermitian=True)))
+    gram = scores.gram()[np.ix_(columns, columns)]
+    errors = np.sqrt(np.diag(np.linalg.pinv(gram, rcond=1e-12, hermitian=True)))
     for column, error in zip(columns, errors, strict=True):
         k = look.own[column - 1]
         if paths[k] in model.owned[number] and model.coordinates.log[k]:

@@ -36,8 +36,8 @@ def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | N
     """
     found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
     odds, first = Odds(look.layout.bank), look.layout.first_candidate
-    left = np.diag(look.total)
-    noise = np.sqrt(float(look.total[0, 0]) / float(look.samples.sum()))
+    left = np.diag(look.front.beside().total)
+    noise = np.sqrt(float(left[0]) / float(look.samples.sum()))
     for candidate in look.candidates:
         _, best = found.setdefault(candidate.name, (candidate, None))
         for place in range(candidate.columns.start, candidate.columns.stop):

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +16,7 @@ from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.columns import Layout, Rows, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
+from dashpot.diagnose.front import RIDGE, Front, beside_base, front_of
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
@@ -28,10 +28,7 @@ from dashpot.fit.scored import ScoredRun
 Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
-RIDGE = 1e-9
 LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
-REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
-FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,13 +41,12 @@ class Doubt:
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """``grams`` (groups, c, c) of whitened columns, beside which the base is refitted, ``samples`` (groups,) of them.
+    """The whitened columns behind the ``front``, ``samples`` (groups,) of them.
 
-    ``base_moves`` (p, c) are the natural steps of the base's numbers that take up one of each column, ``own`` (t,) the
-    coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all columns together leave, N.
-    ``measured_noise`` is that of the records alone, without the error of the model, ``sizes`` (c,) the RMS of columns
-    in N. ``prior`` (c, c) is how unlikely the errors of forms are that take part in the refit, ``occam`` what they cost
-    in nats; ``exact`` (groups, 1 + t, 1 + t) are the matrices of residual and tangents without errors of forms.
+    ``own`` (t,) are the coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all
+    columns together leave, N. ``measured_noise`` is that of the records alone, without the error of the model,
+    ``sizes`` (c,) the RMS of columns in N. ``exact`` (groups, 1 + t, 1 + t) are the Gram matrices of residual and
+    tangents without errors of forms.
     """
 
     model: Model
@@ -58,10 +54,8 @@ class Look:
     view: ModelView
     candidates: tuple[Candidate, ...]
     layout: Layout
-    grams: Array
+    front: Front
     exact: Array
-    prior: Array
-    occam: float
     samples: Array
     folds: Folds
     sizes: Array
@@ -70,12 +64,6 @@ class Look:
     rich: float
     own: NDArray[np.intp]
     base: NDArray[np.intp]
-    base_moves: Array
-
-    @cached_property
-    def total(self) -> Array:
-        """The Gram matrix (c, c) of all runs."""
-        return self.grams.sum(axis=0)
 
 
 def look_at(
@@ -111,19 +99,15 @@ def look_at(
     del rows
     terms = 1 + layout.tangents
     exact = beside_base(grams[:, : first + terms, : first + terms], precision, free)[0]
-    grams, errors = with_form_errors(grams, first, layout, model, candidates)
-    projected, moves, prior, occam = beside_base(grams, np.concatenate([precision, errors]), free)
-    prior[range(1, terms), range(1, terms)] += REACH**-2.0
+    front = front_of(grams, precision[free:], free, layout, model, candidates)
     return Look(
         model=model,
         noise=noise,
         view=view,
         candidates=tuple(candidates),
         layout=layout,
-        grams=projected,
+        front=front,
         exact=exact,
-        prior=prior,
-        occam=occam,
         samples=samples,
         folds=folds,
         sizes=np.sqrt(squares[first:]),
@@ -132,7 +116,6 @@ def look_at(
         rich=rich,
         own=columns.own,
         base=columns.base,
-        base_moves=moves[: columns.base.size],
     )
 
 
@@ -164,64 +147,6 @@ def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array
             grams[fold] += share * (white[:, part] @ white[:, part].T)
             samples[fold] += share * (part.stop - part.start)
     return grams, samples, squares
-
-
-def with_form_errors(
-    grams: Array, first: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
-) -> tuple[Array, Array]:
-    """Gram matrices with the errors of the forms of the terms behind the first columns, and their precision (k,).
-
-    The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
-    cause, normal, together ``FORM_ERROR`` of the force of the term.
-    """
-    total = np.einsum("gii->i", grams)
-    places, precision = [], []
-    for number, term in enumerate(model.terms[: layout.terms]):
-        size = total[first + layout.term(number)]
-        if size < RIDGE * total[first]:
-            continue  # a term without a force has no form that could err
-        alike = [at for one in candidates if one.name == term.name for at in range(one.columns.start, one.columns.stop)]
-        columns = first + layout.first_candidate + np.array(alike, dtype=np.intp)
-        columns = columns[total[columns] > 0.0]
-        places += columns.tolist()
-        precision += (columns.size * total[columns] / (FORM_ERROR**2 * size)).tolist()
-    order = [*range(first), *places, *range(first, grams.shape[1])]
-    return grams[:, order][:, :, order] if places else grams, np.array(precision)
-
-
-def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array, Array, float]:
-    """Gram matrices (groups, c, c) of all columns behind the first ones, with these fitted to each on all runs.
-
-    ``precision`` (f,) is what is known of the strengths of the first columns beforehand, nothing of the ``free`` ones.
-    Also the strengths (f, c) of that fit, their prior (c, c), and the nats by which the marginal likelihood is below
-    that of the best strengths. The base itself is not left out with a group: where a run alone reaches a deflection,
-    its curve there is not to be foretold by others, and says nothing of the terms.
-    """
-    first = precision.size
-    total = grams.sum(axis=0)
-    inner = total[:first, :first] + np.diag(precision)
-    scale = np.sqrt(np.maximum(np.diag(inner), 1e-300))
-    unit = inner / np.outer(scale, scale)
-    moves = np.linalg.pinv(unit, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None])
-    moves /= scale[:, None]
-    left = np.array([_beside(gram, moves) for gram in grams])
-    prior = moves[free:].T @ (precision[free:, None] * moves[free:])
-    outside = np.linalg.pinv(unit[:free, :free], rcond=1e-11, hermitian=True)
-    beside = unit[free:, free:] - unit[free:, :free] @ outside @ unit[:free, free:]
-    sizes = np.linalg.eigvalsh(
-        beside * np.outer(scale[free:], scale[free:]) / np.sqrt(np.outer(precision[free:], precision[free:]))
-    )
-    return left, moves, prior, 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
-
-
-def _beside(gram: Array, moves: Array) -> Array:
-    """The Gram matrix (c, c) of columns after the first ones take up ``moves`` (f, c) of each."""
-    first = len(moves)
-    cross = gram[first:, :first] @ moves
-    left = gram[first:, first:] + moves.T @ gram[:first, :first] @ moves
-    left -= cross
-    left -= cross.T
-    return left
 
 
 def learn_noise(

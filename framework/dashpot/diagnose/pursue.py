@@ -131,36 +131,38 @@ class Pursuer:
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
-        """A structure refitted; None for one that cannot be written, or that the data do not tell."""
-        terms, look = terms_of(scores, structure), scores.look
-        try:
-            fitted = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
-            trial = self._within_borders(look, terms, fitted)
-        except InputError as error:
-            self.refused += [(term, str(error)) for term in terms if term not in look.model.terms]
-            return None
-        if trial is None:
-            return None
-        seen = self.scores_of(look, trial)
-        numbers = range(len(trial.terms))
-        if not all(is_determined(seen, number) for number in numbers):
-            return None
-        lacking = [term for number, term in enumerate(trial.terms) if not has_evidence(self.refitter, seen, number)]
-        unproven = frozenset((term.name, term.suspect.form) for term in lacking)
-        return replace(scored_by(seen, scores.odds), unproven=unproven)
+        """A structure refitted; None for one that cannot be written, or that the data do not tell.
 
-    def _within_borders(self, look: Look, terms: Sequence[Term], trial: Model) -> Model | None:
-        """A refitted structure without those of its former terms whose numbers are no longer what they are called.
-
-        None where those of a new term are not, or a refit fails.
+        Its former terms go that are no longer what they are called or have lost their evidence, as a moving mass does
+        where a delay has come in; for a new term that is a reason to refuse the structure.
         """
+        terms, look = terms_of(scores, structure), scores.look
         new = {term for term in terms if term not in look.model.terms}
-        while trial.outcome is not Outcome.FAILED and trial.keeps_all and new <= set(trial.terms):
-            named = [term for k, term in enumerate(trial.terms) if term.suspect.admits(trial.numbers_of(k))]
-            if len(named) == len(trial.terms):
-                return trial
-            trial = self.refitter.refit(trial, self.refitter.writable(trial, named), look.noise)
+        try:
+            model = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
+            while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
+                gone = {term for k, term in enumerate(model.terms) if not term.suspect.admits(model.numbers_of(k))}
+                if not gone:
+                    seen = self.scores_of(look, model)
+                    untold, unproven = self._lacking(seen)
+                    if untold & new:
+                        return None
+                    if not (gone := (untold | unproven) - new):
+                        lacking = frozenset((term.name, term.suspect.form) for term in unproven)
+                        return replace(scored_by(seen, scores.odds), unproven=lacking)
+                if gone & new:
+                    return None
+                kept = self.refitter.writable(model, [term for term in model.terms if term not in gone])
+                model = self.refitter.refit(model, kept, look.noise)
+        except InputError as error:
+            self.refused += [(term, str(error)) for term in terms if term in new]
         return None
+
+    def _lacking(self, seen: Scores) -> tuple[set[Term], set[Term]]:
+        """The terms of a refitted model that the data do not tell, and those that have no evidence."""
+        terms = list(enumerate(seen.look.model.terms))
+        untold = {term for number, term in terms if not is_determined(seen, number)}
+        return untold, {term for number, term in terms if not has_evidence(self.refitter, seen, number)}
 
     def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
@@ -231,8 +233,7 @@ def scored_by(scores: Scores, odds: Odds) -> Scored:
     """What the model of a look predicts, as it is."""
     nats, found, model = scores.nats(Structure()), scores.predicted(Structure()), scores.look.model
     assert nats is not None and found is not None
-    errors = found[1] + scores.look.occam
-    return Scored(model, nats, errors, scores.exact_nats(), scores.look.samples, odds.of_model(model))
+    return Scored(model, nats, found[1], scores.exact_nats(), scores.look.samples, odds.of_model(model))
 
 
 def _key(scores: Scores, structure: Structure) -> frozenset[tuple[object, ...]]:

@@ -17,7 +17,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.look import REACH, Look
+from dashpot.diagnose.front import NONE, REACH
+from dashpot.diagnose.look import Look
 from dashpot.diagnose.term import Model
 
 Array = NDArray[np.float64]
@@ -69,23 +70,30 @@ class Scores:
 
     look: Look
     odds: Odds = field(init=False)
+    grams: dict[frozenset[int], Array] = field(default_factory=dict)
     known: dict[Structure, tuple[Array, float] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.odds = Odds(self.look.layout.bank)
-        total = self.look.total
-        self.scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
-        unit = np.outer(self.scale, self.scale)
-        self.prior = self.look.prior / unit
-        self.gram = total / unit + self.prior
+        self.scale = np.sqrt(np.maximum(np.diag(self.look.front.beside().total), 1e-300))
         self.kinds = [term.cause.kind for term in self.look.model.terms]
+
+    def gram(self, gone: frozenset[int] = NONE) -> Array:
+        """The Gram matrix (c, c) of the scaled columns beside what is refitted where some terms are ``gone``.
+
+        With what is known of the strengths beforehand.
+        """
+        if gone not in self.grams:
+            found = self.look.front.beside(gone)
+            self.grams[gone] = (found.total + found.prior) / np.outer(self.scale, self.scale)
+        return self.grams[gone]
 
     def columns(self, structure: Structure) -> NDArray[np.intp]:
         """The columns that a structure fits: the tangents of the terms that stay, then what joins."""
         paths = self.look.model.coordinates.paths
         gone = {path for number in structure.dropped for path in self.look.model.owned[number]}
         kept = [1 + k for k, at in enumerate(self.look.own) if paths[at] not in gone]
-        alive = [at for at in kept if self.look.total[at, at] > 0.0]
+        alive = [at for at in kept if self.look.front.beside().total[at, at] > 0.0]
         return np.array([*alive, *self.atoms(structure)], dtype=np.intp)
 
     def atoms(self, structure: Structure) -> list[int]:
@@ -108,8 +116,8 @@ class Scores:
 
     def strengths(self, structure: Structure) -> Array:
         """The solution on all runs, one for each of ``columns``, in their own units."""
-        at, target = self.columns(structure), self.target(structure)
-        solution = np.linalg.solve(_steadied(self.gram, at), self.gram[at] @ target)
+        at, target, gram = self.columns(structure), self.target(structure), self.gram(structure.dropped)
+        solution = np.linalg.solve(_steadied(gram, at), gram[at] @ target)
         return solution * self.scale[0] / self.scale[at]
 
     def moves(self, structure: Structure) -> Array:
@@ -119,7 +127,8 @@ class Scores:
         tangents = at <= look.layout.tangents
         found[look.own[at[tangents] - 1]] = strengths[tangents]
         target = self.target(structure) * self.scale[0] / self.scale
-        found[look.base] = look.base_moves @ target - look.base_moves[:, at] @ strengths
+        moves = look.front.beside(structure.dropped).base_moves[: look.base.size]
+        found[look.base] = moves @ target - moves[:, at] @ strengths
         return found
 
     def admitted(self, structure: Structure) -> bool:
@@ -134,7 +143,7 @@ class Scores:
         return True
 
     def predicted(self, structure: Structure) -> tuple[Array, float] | None:
-        """Mean square (groups,) of each group, predicted from all others, and the prior of form errors in nats.
+        """Mean square (groups,) of each group, predicted from all others, and what errors of forms cost in nats.
 
         None where a strength has the wrong sign.
         """
@@ -143,12 +152,14 @@ class Scores:
         return self.known[structure]
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
-        at, target = self.columns(structure), self.target(structure)
-        left = _left_out(self.look.grams, self.scale, self.gram, at, target)
+        at, target, gone = self.columns(structure), self.target(structure), structure.dropped
+        front, gram, samples = self.look.front, self.gram(gone), self.look.samples
+        left = _left_out(front.groups(gone), self.scale, gram, at, target)
         rest = target.copy()
-        rest[at] -= np.linalg.solve(_steadied(self.gram, at), self.gram[at] @ target)
-        unlikely = 0.5 * float(rest @ self.prior @ rest) * self.scale[0] ** 2
-        return np.maximum(left * self.scale[0] ** 2 / self.look.samples, 1e-12), unlikely
+        rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+        rest *= self.scale[0] / self.scale
+        unlikely = 0.5 * float(rest @ front.beside(gone).prior @ rest) + front.beside(gone).occam
+        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), unlikely
 
     def exact_nats(self) -> Array:
         """The nats (groups,) of the present structure with the laws as they are, no errors of forms allowed for."""

@@ -27,7 +27,8 @@ def search(scores: Scores) -> list[Structure]:
     while front and stale < STALE:
         moves = {move for structure in front for move in moves_from(scores, structure)} - seen
         seen |= moves
-        ranked = sorted(moves, key=scores.score)
+        grouped = sorted(moves, key=lambda one: sorted(one.dropped))  # beside the same terms one after the other
+        ranked = sorted(grouped, key=scores.score)
         front = [one for one in ranked if np.isfinite(scores.score(one))][:BEAM]
         now = min((scores.score(one) for one in front), default=np.inf)
         stale = 0 if now < best - 1e-9 else stale + 1
@@ -107,7 +108,7 @@ def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:
 def _project(scores: Scores, structure: Structure) -> _Projected:
     at, target = scores.columns(structure), scores.target(structure)
     first = scores.look.layout.first_candidate
-    gram, bank = scores.gram, slice(first, None)
+    gram, bank = scores.gram(structure.dropped), slice(first, None)
     solve = np.linalg.solve(gram[np.ix_(at, at)] + 1e-9 * np.eye(at.size), gram[at])
     left = gram[bank, bank] - gram[bank][:, at] @ solve[:, bank]
     right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)

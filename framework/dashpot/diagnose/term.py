@@ -102,7 +102,7 @@ class Model:
         """The fitted network after natural steps ``change`` (p,) of its coordinates, within their ranges."""
         from dashpot.fit.coordinates import with_point
 
-        point = self.coordinates.allowed(self.point + self.coordinates.unit * change)[0]
+        point = self.coordinates.allowed(self.coordinates.moved(self.point, change))[0]
         return with_point(self.fitted, self.coordinates, point)
 
 

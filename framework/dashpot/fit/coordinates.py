@@ -67,6 +67,16 @@ class Coordinates:
                 points[lane, knots] = isotonic_regression(points[lane, knots], weights=weights[knots]).x
         return np.clip(points, self.low, self.high)
 
+    def moved(self, point: Array, steps: Array) -> Array:
+        """Where natural ``steps`` (lanes, p) lead from a point (p,).
+
+        A number whose logarithm is searched grows in proportion to the step, as a force that is proportional to it
+        does, and falls with the logarithm, since it stays positive; both begin with the same slope.
+        """
+        change = steps * self.unit
+        grows = self.log & (change > 0.0)
+        return point + np.where(grows, np.log1p(np.where(grows, change, 0.0)), change)
+
     def from_cube(self, cube: Array) -> Array:
         """Coordinates of points in the unit cube."""
         return self.low + cube * (self.high - self.low)

@@ -93,18 +93,19 @@ def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: fl
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
     low, high = (side[free] * scale for side in _reach(coordinates, point))
-    tries = np.repeat(point[None], len(DAMPINGS), axis=0)
-    for each, damping in zip(tries, DAMPINGS * slack, strict=True):
+    steps = np.zeros((len(DAMPINGS), point.size))
+    for each, damping in zip(steps, DAMPINGS * slack, strict=True):
         damped = matrix + damping * np.eye(free.sum())
-        each[free] += least_within(damped, downhill[free] / scale, low, high) / scale * coordinates.unit[free]
-    return coordinates.allowed(tries, np.where(free, np.diag(normal), 0.0))
+        each[free] = least_within(damped, downhill[free] / scale, low, high) / scale
+    return coordinates.allowed(coordinates.moved(point, steps), np.where(free, np.diag(normal), 0.0))
 
 
 def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
     """How far each number may move down and up in one step, in natural steps."""
     stride = np.where(coordinates.log, STRIDE, np.inf)
-    low, high = (coordinates.low - point) / coordinates.unit, (coordinates.high - point) / coordinates.unit
-    return np.maximum(low, -stride), np.minimum(high, stride)
+    low, high = np.maximum(coordinates.low - point, -stride), np.minimum(coordinates.high - point, stride)
+    grown = np.where(coordinates.log, np.expm1(np.minimum(high, STRIDE)), high)
+    return low / coordinates.unit, grown / coordinates.unit
 
 
 def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:

@@ -12,6 +12,7 @@ from dashpot.contract.cause import Suspect
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.columns import Layout
 from dashpot.diagnose.folds import Folds
+from dashpot.diagnose.front import front_of
 from dashpot.diagnose.look import Look
 
 GROUPS, LENGTH = 6, 200
@@ -30,30 +31,27 @@ def candidates_of(words: Sequence[str], places: int, kind: str = "specimen", **s
 def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> Look:
     """A look at a model without numbers; ``rows`` (1 + bank, n) by group hold the residual, then the bank."""
     grams = np.array([each @ each.T for each in rows.values()])
-    size, bank = grams.shape[1], grams.shape[1] - 1
+    bank = grams.shape[1] - 1
     model = SimpleNamespace(terms=(), coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
-    prior = np.zeros((size, size))
+    front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates)
     return Look(
         model,
         None,
         None,
         tuple(candidates),
         Layout(0, 0, bank),
-        grams,
+        front,
         grams[:, :1, :1],
-        prior,
-        0.0,
         samples,
         folds,
-        np.ones(size),
+        np.ones(1 + bank),
         (),
         None,
         1.0,
         nothing,
         nothing,
-        np.zeros((0, size)),
     )
 
 

@@ -6,7 +6,8 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
-from dashpot.diagnose.look import beside_base, look_at
+from dashpot.diagnose.front import beside_base
+from dashpot.diagnose.look import look_at
 
 
 class Closed(Made):
@@ -63,13 +64,13 @@ def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, column
     base = np.concatenate([tangents for tangents, _ in columns.values()], axis=1)
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
-    scale = np.sqrt(np.diag(look.total))
+    scale = np.sqrt(np.diag(look.front.beside().total))
     left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
     seen = set()
     for run, rows in left.items():
         for number, part in look.folds.of_run(run, rows.shape[1]):
             expected = rows[:, part] @ rows[:, part].T / np.outer(scale, scale)
-            assert look.grams[number] / np.outer(scale, scale) == pytest.approx(expected, abs=2e-6)
+            assert look.front.groups()[number] / np.outer(scale, scale) == pytest.approx(expected, abs=2e-6)
             assert look.samples[number] == pytest.approx(look.noise.independent[run] * (part.stop - part.start))
             seen.add(number)
     assert seen == set(range(len(look.folds.names)))
@@ -151,4 +152,4 @@ def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     """Large data: the same matrices, whatever is kept in memory."""
     monkeypatch.setattr("dashpot.diagnose.columns.HELD_BYTES", 0)
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
-    assert (again.grams == look.grams).all() and (again.sizes == look.sizes).all()
+    assert (again.front.groups() == look.front.groups()).all() and (again.sizes == look.sizes).all()
