@@ -131,31 +131,40 @@ class Pursuer:
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
-        """A structure refitted; None for one that cannot be written, or that the data do not tell.
-
-        Its former terms go that are no longer what they are called or have lost their evidence, as a moving mass does
-        where a delay has come in; for a new term that is a reason to refuse the structure.
-        """
+        """A structure refitted; None for one that cannot be written, or that the data do not tell."""
         terms, look = terms_of(scores, structure), scores.look
         new = {term for term in terms if term not in look.model.terms}
         try:
             model = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
-            while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
-                gone = {term for k, term in enumerate(model.terms) if not term.suspect.admits(model.numbers_of(k))}
-                if not gone:
-                    seen = self.scores_of(look, model)
-                    untold, unproven = self._lacking(seen)
-                    if untold & new:
-                        return None
-                    if not (gone := (untold | unproven) - new):
-                        lacking = frozenset((term.name, term.suspect.form) for term in unproven)
-                        return replace(scored_by(seen, scores.odds), unproven=lacking)
-                if gone & new:
-                    return None
-                kept = self.refitter.writable(model, [term for term in model.terms if term not in gone])
-                model = self.refitter.refit(model, kept, look.noise)
+            found = self._tenable(look, model, new)
         except InputError as error:
             self.refused += [(term, str(error)) for term in terms if term in new]
+            return None
+        if found is None:
+            return None
+        seen, unproven = found
+        return replace(
+            scored_by(seen, scores.odds), unproven=frozenset((one.name, one.suspect.form) for one in unproven)
+        )
+
+    def _tenable(self, look: Look, model: Model, new: set[Term]) -> tuple[Scores, set[Term]] | None:
+        """A refitted model under the noise of a look, and those of its new terms that lack evidence.
+
+        Its former terms go that are no longer what they are called, or are not told or shown any more, as a moving mass
+        where a delay has come in. A new term that is not what it is called or is not told refuses the structure.
+        """
+        while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
+            gone = {term for k, term in enumerate(model.terms) if not term.suspect.admits(model.numbers_of(k))}
+            if not gone:
+                seen = self.scores_of(look, model)
+                untold, unproven = self._lacking(seen)
+                gone = untold | unproven - new
+                if not gone:
+                    return seen, unproven
+            if gone & new:
+                return None
+            kept = self.refitter.writable(model, [term for term in model.terms if term not in gone])
+            model = self.refitter.refit(model, kept, look.noise)
         return None
 
     def _lacking(self, seen: Scores) -> tuple[set[Term], set[Term]]:

@@ -6,7 +6,7 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
-from dashpot.diagnose.front import beside_base
+from dashpot.diagnose.front import Front, beside_base
 from dashpot.diagnose.look import look_at
 
 
@@ -146,6 +146,20 @@ def test_errors_of_forms_are_marginalised(block):
     covariance = np.eye(whole.shape[1]) + forms.T @ (forms / precision[2:, None])
     assert left.sum(axis=0) + prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
     assert occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
+
+
+@pytest.mark.parametrize(("gone", "kept"), [((), [0, 1, 2]), ((0,), [1]), ((1,), [0, 2]), ((0, 1), [])])
+def test_errors_of_a_form_go_with_its_term(block, gone, kept):
+    rows, precision = block
+    whole = np.concatenate(rows, axis=1)
+    forms, target, known = whole[2:5][kept], whole[5:], precision[2:][kept]
+    grams = np.array([each[2:] @ each[2:].T for each in rows])
+    front = Front(grams, np.zeros((0, 7)), precision[2:], np.array([0, 1, 0]), 0)
+    found = front.beside(frozenset(gone))
+    covariance = np.eye(whole.shape[1]) + forms.T @ (forms / known[:, None])
+    assert front.groups(frozenset(gone)).sum(axis=0) == pytest.approx(found.total)
+    assert found.total + found.prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
+    assert found.occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
 
 
 def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):

@@ -68,3 +68,15 @@ def test_a_choice_of_slots():
 def test_a_number_without_bounds_is_refused():
     with pytest.raises(ValueError, match="expected bounds for every searched parameter, got none for it.damping"):
         search_coordinates(network("it: {element: damper, damping: {start: 5}}"))
+
+
+@given(st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3))
+def test_a_step_upwards_moves_every_number_in_proportion(steps):
+    start = COORDINATES.start
+    before, after = (COORDINATES.numbers(point) for point in (start, COORDINATES.moved(start, np.array(steps))))
+    stiffness, mass, force = (b - a for a, b in zip(before, after, strict=True))
+    assert (mass, force) == pytest.approx((3.0 * steps[1], 500.0 * steps[2]))
+    if steps[0] > 0.0:
+        assert stiffness == pytest.approx(1e5 * steps[0], abs=1e-9)
+    else:
+        assert after[0] == pytest.approx(1e5 * np.exp(steps[0]))

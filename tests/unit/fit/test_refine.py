@@ -121,6 +121,14 @@ def test_a_number_that_may_not_go_as_far_as_it_would_does_not_hold_up_the_others
     assert found["oil.damping"] == pytest.approx(0.2, rel=0.01)
 
 
+def test_what_is_linear_in_a_number_is_found_in_one_step_upwards():
+    """Of a force in proportion to a number the linear forecast is exact, though its logarithm is searched."""
+    _, objective, coordinates = ready("rubber: {element: spring, stiffness: {start: 4e4, bounds: [1e3, 1e6]}}", runs())
+    ((stiffness,),) = coordinates.to_values(refine(objective, coordinates, coordinates.start, steps=1).point)
+    ((exact,),) = coordinates.to_values(refine(objective, coordinates, coordinates.start).point)
+    assert exact > 1.5e5 and stiffness == pytest.approx(exact, rel=1e-4)
+
+
 def without_hope(damping):
     spec = network(f"""
         rubber: {{element: spring, stiffness: {{start: 1.5e5, bounds: [1e4, 1e6]}}}}
