@@ -87,34 +87,36 @@ def _strengths(grams: Sequence[Gram], families: Sequence[int]) -> Array:
     """A strength for each family, from the plainest model upwards and from the richest downwards; the better one."""
     others, total = _all_but_one(grams), sum(gram[0].trace() for gram in grams) / sum(families)
 
-    def error(strengths: Array) -> float:
-        return _error(grams, others, np.repeat(strengths, families) * total)
+    def error(strengths: Array, lowest: float = np.inf) -> float:
+        return _error(grams, others, np.repeat(strengths, families) * total, lowest)
 
     plain = np.array([FIRST] + [np.inf] * (len(families) - 1))
     return min((_descend(error, start) for start in (plain, np.full(len(families), FIRST))), key=error)
 
 
-def _descend(error: Callable[[Array], float], chosen: Array) -> Array:
+def _descend(error: Callable[[Array, float], float], chosen: Array) -> Array:
     """The strength of one family after the other, until none changes."""
-    lowest = error(chosen)
+    lowest = error(chosen, np.inf)
     for _ in range(SWEEPS):
         before = chosen
         for family in range(len(chosen)):
             for strength in STRENGTHS[: -1 if family == 0 else None]:
                 tried = np.where(np.arange(len(chosen)) == family, strength, chosen)
-                if (found := error(tried)) < lowest:
+                if (found := error(tried, lowest)) < lowest:
                     lowest, chosen = found, tried
         if np.array_equal(before, chosen):
             break
     return chosen
 
 
-def _error(grams: Sequence[Gram], others: Sequence[Gram], penalty: Array) -> float:
-    """The sum of squares on the folds left out."""
+def _error(grams: Sequence[Gram], others: Sequence[Gram], penalty: Array, lowest: float = np.inf) -> float:
+    """The sum of squares on the folds left out; infinite as soon as it is above the ``lowest`` one known."""
     total = 0.0
     for (gram, right, square), other in zip(grams, others, strict=True):
         solved = _solve(other, penalty)
         total += float(square - 2.0 * right @ solved + solved @ gram @ solved)
+        if total > lowest:
+            return np.inf
     return total
 
 
