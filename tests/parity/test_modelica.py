@@ -11,16 +11,27 @@ import numpy as np
 import pytest
 from parity.cubics import along_cubics
 from parity.random_networks import draw_network
-from parity.test_targets import SYSTEMS, TOLERANCE, by_steps_for_all_numbers, error, shipped_case, system_case
+from parity.test_targets import (
+    SYSTEMS,
+    TOLERANCE,
+    WITHOUT_MEMORY,
+    by_steps_for_all_numbers,
+    error,
+    shipped_case,
+    system_case,
+)
 from seeds import seed_of
 from unit.exports.modelica_functions import Array, functions_of
 from verification.shipped import NAMES
 
-from dashpot import load_registry
+from dashpot import declare, load_registry
 from dashpot.data.drive import Drive
+from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
 from dashpot.kernel.export import exported
+from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
+from dashpot.testing import random_drive
 
 RANDOM, QUICK = 50, 20
 
@@ -73,3 +84,14 @@ def test_modelica_agrees_on_networks_with_nodes(name):
     count = len(expected.driven)
     assert error(found[:, :count].T, expected.force[0]) <= TOLERANCE
     assert error(found[:, count:].T, expected.motion[0]) <= TOLERANCE
+
+
+def test_modelica_agrees_on_a_network_in_which_nothing_turns():
+    spec = declare(WITHOUT_MEMORY)
+    drive = along_cubics(
+        random_drive(np.random.default_rng(seed_of("nothing turns")), "multisine", 3e-3, 0.02, 200, 1e-3)
+    )
+    network = replace(compile_network(spec), quick=False)
+    excitation = Excitation({"lower": drive}, {}, {}, drive.dt, drive.samples, "run")
+    expected = network.solve(network.prepare(excitation)).force[0, 0]
+    assert error(sampled(spec, [drive], network.start)[:, 0], expected) <= TOLERANCE

@@ -47,9 +47,9 @@ class ModelicaCode(Code):
             self.write(f"{_words(place)} := {_words(value)};")
 
     def do(self, call: str) -> None:
-        """A call that changes the memory."""
-        answers = MEMORY if self.changing[call.partition("(")[0]] == "nothing" else f"(, {MEMORY})"
-        self.write(f"{answers} := {_words(call)};")
+        """A call that changes the memory; one that does not is left out."""
+        if answer := self.changing.get(call.partition("(")[0]):
+            self.write(f"{MEMORY if answer == 'nothing' else f'(, {MEMORY})'} := {_words(call)};")
 
     def answer(self, value: str) -> None:
         """A return."""
@@ -62,7 +62,7 @@ class ModelicaCode(Code):
         self.locals, head, self.depth = {}, len(self.lines), 2
         yield
         body = self.lines[head:]
-        if body[-1].strip() == RETURN:  # a function ends there anyway
+        if body and body[-1].strip() == RETURN:  # a function ends there anyway
             del body[-1]
         changes = any(re.match(rf"\s*(\(.*, )?{MEMORY}(\[.*\])?\)? := ", line) for line in body)
         if changes:
