@@ -50,9 +50,11 @@ def _law(branch: Branch) -> str:
 
 def _said(branch: Branch) -> Iterator[str]:
     yield " ".join(inspect.cleandoc(branch.element.__doc__ or "").split("\n\n")[0].split()).replace("`", "")
-    numbers = {**branch.element.declares.curves, **branch.element.declares.parameters}
-    if symbols := ", ".join(f"{number.symbol} = {key}" for key, number in numbers.items() if number.symbol):
-        yield f"Symbols: {symbols}."
+    declared = branch.element.declares
+    symbols = [f"{curve.symbol} = {key}" for key, curve in declared.curves.items() if curve.symbol]
+    symbols += [f"{number.symbol} = {key}" for key, number in declared.parameters.items() if number.symbol]
+    if symbols:
+        yield f"Symbols: {', '.join(symbols)}."
     if branch.shares:
         yield f"Its parameters are those of {branch.shares}."
     if branch.scale:
