@@ -64,7 +64,8 @@ def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf, t
     def look_up(node: Node, argument: str) -> str:
         curve, order = node.payload
         shelf = online.shelves[curve]
-        return f"table{order}(s, {online.tables}, {shelf.base}, {shelf.count}, {argument})"
+        place = ", ".join(map(code.index, (online.tables, shelf.base, shelf.count)))
+        return f"table{order}(s, {place}, {argument})"
 
     writer = Writer(code, moved.values(), leaf, look_up)
     if together:
