@@ -9,6 +9,7 @@ from dashpot.kernel.export import exported
 from dashpot.kernel.targets.c99.header import identifier
 from dashpot.kernel.targets.modelica.model import print_model
 from dashpot.model.network import NetworkSpec
+from dashpot_exports.description import described
 
 KEYWORDS = frozenset(
     "algorithm and annotation block break class connect connector constant constrainedby der discrete each else "
@@ -19,7 +20,10 @@ KEYWORDS = frozenset(
 
 
 class Modelica(Export):
-    """A Modelica package: a model with a flange for each driven end that samples its motion and holds its force."""
+    """A Modelica package: a model with a flange for each driven end that samples its motion and holds its force.
+
+    Its documentation states the law of every branch.
+    """
 
     word = "modelica"
 
@@ -28,5 +32,5 @@ class Modelica(Export):
         found = exported(network)
         name = identifier(network.name)
         name = f"{name}_network" if name in KEYWORDS else name
-        text = print_model(found.online, name, found.title, found.values, found.units)
+        text = print_model(found, name, described(found))
         return {f"{name}.mo": text.encode()}

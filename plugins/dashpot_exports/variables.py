@@ -64,10 +64,8 @@ def _unit(name: str) -> str:
 
 def _numbers(found: Exported) -> list[Variable]:
     return [
-        Variable(
-            slot.path, "parameter", f"{slot.value.role} number", slot.value.unit, value, _interval(slot.value.interval)
-        )
-        for slot, value in zip(found.slots, found.values, strict=True)
+        Variable(slot.path, "parameter", about, slot.value.unit, value, _interval(slot.value.interval))
+        for slot, about, value in zip(found.slots, found.abouts, found.values, strict=True)
     ]
 
 

@@ -14,6 +14,7 @@ from seeds import seed_of
 from verification.shipped import NAMES, Dice, filled
 from verification.systems import shipped, system
 
+from dashpot import declare
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
@@ -199,6 +200,34 @@ def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
     assert status == 0 and error(outputs[:, 0], expected.force[0, 0]) <= 1e-6
     assert error(jitted(network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
     assert error(on_numba(monkeypatch, network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
+
+
+WITHOUT_MEMORY = """
+format: dashpot-network/1
+name: plain
+nodes: {lower: driven, body: {mass: 5 kg}, wall: ground}
+branches:
+  a: {element: spring, between: [lower, body], stiffness: 20 N/mm}
+  b: {element: damper, between: [body, wall], damping: 100 N*s/m}
+  c: {element: spring, between: [body, wall], stiffness: 40 N/mm}
+"""
+
+
+def test_every_target_solves_a_network_in_which_nothing_turns(tmp_path, monkeypatch):
+    spec = declare(WITHOUT_MEMORY)
+    drive = along_cubics(
+        random_drive(np.random.default_rng(seed_of("nothing turns")), "multisine", 3e-3, 0.02, 200, 1e-3)
+    )
+    network = replace(compile_network(spec), quick=False)
+    assert not network.system.passes["turn"].updates
+    excitation = Excitation({"lower": drive}, {}, {}, drive.dt, drive.samples, "run")
+    expected = network.solve(network.prepare(excitation)).force[0, 0]
+    outputs, status = Library.build(spec, tmp_path).along([drive], network.start)
+    assert status == 0 and error(outputs[:, 0], expected) <= TOLERANCE
+    assert error(jitted(spec, drive, network.start), expected) <= TOLERANCE
+    monkeypatch.setenv("DASHPOT_BACKEND", "numba")
+    other = replace(compile_network(spec), quick=False)
+    assert error(other.solve(other.prepare(excitation)).force[0, 0], expected) <= TOLERANCE
 
 
 def test_an_unknown_backend_is_told(monkeypatch):

@@ -10,6 +10,7 @@ import click
 from dashpot.cli import complete
 from dashpot.cli.session import Session, split_setting
 from dashpot.cli.switches import Switches, output_option, switches
+from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import nearest
 
 
@@ -31,9 +32,18 @@ from dashpot.text.problem import nearest
     help="An option of the target.",
     shell_complete=complete.settings,
 )
+@click.option(
+    "--at",
+    "conditions",
+    metavar="SETTING=VALUE",
+    multiple=True,
+    help="A setting on which parameters depend, with its unit.",
+)
 @output_option("A folder.")
 @switches("json", "quiet", "force", "backend")
-def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switches: Switches) -> None:
+def verb(
+    model: str, target: str, settings: tuple[str, ...], conditions: tuple[str, ...], output: Path, switches: Switches
+) -> None:
     """Write a network for another program.
 
     Its parameters are those of the file. MODEL is a network file or a shipped name. What a target cannot express is
@@ -43,6 +53,7 @@ def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switc
     Example:
       dashpot export identified.yaml --to c -o my_controller
       dashpot export identified.yaml --to fmu -o my_vehicle
+      dashpot export identified.yaml --to fmu --at "pressure=2.2 bar" -o my_vehicle
     """
     from dashpot.contract.options import read_options
 
@@ -55,7 +66,7 @@ def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switc
         export = exports[target](**read_options(exports[target], dict(map(split_setting, settings))))
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    network = session.network(model)
+    network = _at(session.network(model), conditions)
     with session.watch("exporting"):
         files = export.files(network)
     folder = session.claim(output, *map(escape, files))
@@ -64,3 +75,17 @@ def verb(model: str, target: str, settings: tuple[str, ...], output: Path, switc
             results.write_bytes(name, content)
     told = {"format": "dashpot-export/1", "network": network.name, "target": target, "files": sorted(files)}
     session.talk.result(f"exported: {', '.join(str(output / name) for name in sorted(files))}", told)
+
+
+def _at(network: NetworkSpec, conditions: tuple[str, ...]) -> NetworkSpec:
+    """The network under the conditions told; as it is where none are told."""
+    from dashpot.kernel.settings import at_settings
+    from dashpot.text.quantity import measure
+
+    if not conditions:
+        return network
+    try:
+        given = {key: measure(value) for key, value in (split_setting(each, "--at") for each in conditions)}
+        return at_settings(network, given)
+    except ValueError as error:
+        raise click.UsageError(f"--at: {error}") from error

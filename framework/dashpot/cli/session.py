@@ -182,9 +182,9 @@ def read_options_of(optimizer: str | None, settings: Iterable[str], registry: Re
     return options
 
 
-def split_setting(setting: str) -> tuple[str, str]:
+def split_setting(setting: str, option: str = "--set") -> tuple[str, str]:
     """Key and value of ``--set KEY=VALUE``; click.UsageError for anything else."""
     key, equals, value = setting.partition("=")
     if not (key and equals):
-        raise click.UsageError(f"--set expected KEY=VALUE, got '{setting}'")
+        raise click.UsageError(f"{option} expected KEY=VALUE, got '{setting}'")
     return key.strip(), value.strip()

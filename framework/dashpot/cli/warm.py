@@ -8,10 +8,12 @@ from dashpot.cli import complete
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 
+ENDINGS = (".o", ".nbc")  # of machine code that LLVM and numba keep
+
 
 @click.command("warm")
 @click.argument("models", nargs=-1, metavar="[MODEL]...", shell_complete=complete.networks)
-@switches("json", "quiet")
+@switches("json", "quiet", "backend")
 def verb(models: tuple[str, ...], switches: Switches) -> None:
     """Compile networks ahead.
 
@@ -44,4 +46,5 @@ def compiled_files() -> set[str]:
     """The names of what is compiled."""
     from dashpot.kernel.targets.cache import cache_folder
 
-    return {path.name for path in (cache_folder() / "kernels").glob("*.o")}
+    folder = cache_folder() / "kernels"
+    return {path.name for ending in ENDINGS for path in folder.rglob(f"*{ending}")}

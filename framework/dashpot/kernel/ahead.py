@@ -2,34 +2,57 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from dashpot.data.drive import drive_from_samples
+from dashpot.data.excitation import Excitation
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import take_apart
-from dashpot.kernel.targets.choice import BACKEND, LLVM, backend
+from dashpot.kernel.settings import key_of
+from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.targets.choice import LLVM, backend
 from dashpot.model.network import Characteristic, NetworkSpec, Value
-from dashpot.text.problem import InputError, Place
 
 KNOTS = (0.0, 1e-3)  # a curve along the motion is looked up outside the compiled code, however many knots it has
+STEP, SAMPLES = 1e-3, 16  # s; of the record with which a backend is called that compiles what it is called with
 
 
 def compile_ahead(spec: NetworkSpec) -> None:
     """Compile all that simulations and fits of a network need, for every number of lanes, or find it in the cache.
 
-    Raises InputError for a network that cannot be compiled, where the cache folder cannot be written, and on another
-    backend than LLVM, which compiles when it is called.
+    Raises InputError for a network that cannot be compiled, and where the cache folder cannot be written.
     """
-    if backend() != LLVM:
-        message = f"nothing is compiled ahead on the backend '{backend()}', which compiles at the first call"
-        raise InputError.at(Place(BACKEND), message, "run a simulation once: what it compiles is kept")
     filled = with_curves(spec)
     network = compile_network(filled)
-    if isinstance(network, CompiledNetwork):
-        members = [part.network for part in take_apart(filled).members]
-        for each in (network, *members):
-            for group in each.groups:
-                each.native(*group)
-    else:
-        for alone in (True, False):
-            network.native(alone)
+    if isinstance(network, CompiledSystem):
+        _compile_system(network)
+        return
+    for each in (network, *(part.network for part in take_apart(filled).members)):
+        _compile_network(each)
+
+
+def _compile_network(network: CompiledNetwork) -> None:
+    if backend() != LLVM:
+        network.simulate(network.prepare(drive_from_samples(STEP, np.zeros(SAMPLES))))
+        return
+    for group in network.groups:
+        network.native(*group)
+
+
+def _compile_system(network: CompiledSystem) -> None:
+    if backend() != LLVM:
+        network.solve(network.prepare(_at_rest(network)))
+        return
+    for alone in (True, False):
+        network.native(alone)
+
+
+def _at_rest(network: CompiledSystem) -> Excitation:
+    drive, slots = drive_from_samples(STEP, np.zeros(SAMPLES)), network.spec.slots()
+    settings = {slot.value.setting: slot.value.number for slot in slots if slot.value.setting}
+    settings |= {key_of(slot.value.over): slot.value.over.at[0] for slot in slots if slot.value.over}
+    loads = {node: np.zeros(SAMPLES) for node in network.topology.held("loaded")}
+    return Excitation({node: drive for node in network.outputs}, loads, settings, STEP, SAMPLES, "at rest")
 
 
 def with_curves(spec: NetworkSpec) -> NetworkSpec:

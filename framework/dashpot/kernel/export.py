@@ -13,6 +13,7 @@ from dashpot import __version__
 from dashpot.kernel.compiler.compile import online_of
 from dashpot.kernel.ir.online import Online
 from dashpot.kernel.settings import used_settings, with_settings
+from dashpot.model.meanings import described, meanings_of
 from dashpot.model.network import NetworkSpec, Slot
 
 
@@ -30,6 +31,12 @@ class Exported:
     def units(self) -> list[str]:
         """The units of the values."""
         return [slot.value.unit for slot in self.slots]
+
+    @property
+    def abouts(self) -> list[str]:
+        """What the values mean, and whether they were identified."""
+        meanings = meanings_of(self.spec)
+        return [described(slot, meanings) for slot in self.slots]
 
 
 def exported(spec: NetworkSpec, settings: Mapping[str, float] = MappingProxyType({})) -> Exported:

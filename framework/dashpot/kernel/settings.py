@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,6 +55,26 @@ def used_settings(spec: NetworkSpec, settings: Mapping[str, float], run: str = "
     return {key: value for key, value in settings.items() if key in needed}
 
 
+def at_settings(spec: NetworkSpec, settings: Mapping[str, float]) -> NetworkSpec:
+    """The network with the parameters that it has at some settings, in SI; they depend on no setting any more.
+
+    Raises InputError for a setting on which a number depends and that is not there, ValueError for one on which none
+    depends.
+    """
+    used, slots = used_settings(spec, settings), spec.slots()
+    if unknown := sorted(set(settings) - set(used)):
+        raise ValueError(f"no parameter of '{spec.name}' depends on the setting '{unknown[0]}'")
+    numbers = with_settings(spec, np.array([[slot.value.number for slot in slots]]), used)[0]
+    moved = {
+        slot.path: replace(slot.value, number=number, over=None, setting="", interval=None)
+        for slot, number in zip(slots, numbers.tolist(), strict=True)
+        if slot.value.over or slot.value.setting in used
+    }
+    told = ", ".join(f"{key} {value:.6g}" for key, value in used.items())
+    record = {**spec.identified.record, **({"at": f"{told} in SI"} if used else {})}
+    return replace(spec.with_values(moved), identified=replace(spec.identified, record=record))
+
+
 def key_of(over: Over) -> str:
     """Under which name the settings of an excitation hold what a number depends on."""
     return mean_of(over.word) if over.channel else over.word
@@ -79,7 +100,12 @@ def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iter
 def _problem(slot: Slot, over: Over, run: str) -> Problem:
     what, how = ("channel", "channels") if over.channel else ("setting", "settings")
     place = slot.value.node.place if slot.value.node else Place()
-    which = f"run '{run}'" if run else "the run"
+    if not run:
+        how = f"`--at {over.word}=VALUE` of `dashpot export`, `{over.word}=...` in `jit` and `dynamic_stiffness`"
+        return Problem(
+            place, f"'{slot.path}' depends on the {what} '{over.word}', which is not given", f"give it: {how}"
+        )
+    which = f"run '{run}'"
     return Problem(
         place,
         f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from dashpot.model.meanings import meanings_of
 from dashpot.model.network import NetworkSpec, Slot, Value
 from dashpot.report.parts import Column, Grid
 from dashpot.text.digits import rig_unit
@@ -29,7 +30,7 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
 
     Without remarks a column tells what each parameter means.
     """
-    meanings = _meanings(spec) if remarks is None else {}
+    meanings = meanings_of(spec) if remarks is None else {}
     rows = [
         _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
     ]
@@ -40,16 +41,6 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
         below.append("A parameter without bounds has the sensible range of its element; a fit narrows it by the data.")
     caption = " ".join(below)
     return Grid("Parameters", used, rows, caption, "numbers.csv")
-
-
-def _meanings(spec: NetworkSpec) -> dict[str, str]:
-    found: dict[str, str] = {}
-    for branch in spec.leaves():
-        parameters = branch.element.declares.parameters
-        found |= {f"{branch.numbers}.{key}": parameter.about for key, parameter in parameters.items()}
-        curves = branch.characteristics()
-        found |= {f"{branch.numbers}.{key}": written.curve.about for key, written in curves.items()}
-    return found
 
 
 def _range(value: Value) -> tuple[float, float]:

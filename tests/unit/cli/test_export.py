@@ -67,3 +67,40 @@ def test_a_simulation_beyond_the_range_of_identification_is_warned_of(seen, file
     assert ("identified in 0 mm/s to 0.1 mm/s" in err) is bool(seen)
     assert main(["simulate", "mount.yaml", "--data", "out", "-o", "again"]) == 0
     assert ("identified in 0 mm/s to 0.1 mm/s" in capsys.readouterr().err) is bool(seen)
+
+
+PRESSED = """format: dashpot-network/1
+name: mount
+branches:
+  rubber:
+    element: spring
+    stiffness: {value: 220 N/mm, over: {setting: pressure, at: 2 bar, slope: 10 N/mm/bar}}
+"""
+
+
+def test_a_setting_gives_the_parameters_that_depend_on_it(file, capsys):
+    file.write_text(PRESSED)
+    command = ["export", "mount.yaml", "--to", "c", "-o", "out"]
+    assert main(command) == 1
+    error = capsys.readouterr().err
+    assert "depends on the setting 'pressure', which is not given" in error and "--at pressure=VALUE" in error
+    assert not (file.parent / "out").exists()
+    assert main([*command, "--at", "pressure=2.5 bar"]) == 0
+    # 220 N/mm and half a bar of 10 N/mm/bar
+    assert '{"rubber.stiffness", "N/m", 225000.0}' in (file.parent / "out" / "mount.c").read_text()
+    assert "(at pressure 250000 in SI)" in (file.parent / "out" / "mount.h").read_text()
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (["pressure=2 bar", "load=3 N"], "no parameter of 'mount' depends on the setting 'load'"),
+        (["pressure"], "--at expected KEY=VALUE, got 'pressure'"),
+        (["pressure=2 fur"], "unknown unit 'fur'"),
+    ],
+)
+def test_a_setting_that_makes_no_sense_is_told(file, capsys, given, message):
+    file.write_text(PRESSED)
+    options = [word for each in given for word in ("--at", each)]
+    assert main(["export", "mount.yaml", "--to", "c", "-o", "out", *options]) == 2
+    assert message in capsys.readouterr().err

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from dashpot import load_registry
 from dashpot.data.drive import drive_from_samples
+from dashpot.data.excitation import Excitation
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.parts import take_apart
 from dashpot.kernel.targets.llvm import native
@@ -19,6 +21,14 @@ name: pair
 branches:
   spring: {element: spring, stiffness: {from: quasi_static}}
   relaxation: {element: maxwell, stiffness: 7 N/mm, relaxation_time: 20 ms}
+"""
+NODES = """format: dashpot-network/1
+name: nodes
+nodes: {lower: driven, body: {mass: 5 kg}, wheel: {hold: loaded, mass: {setting: added_mass, value: 1 kg}}}
+branches:
+  a: {element: spring, between: [lower, body], stiffness: 20 N/mm}
+  b: {element: damper, between: [wheel, body], damping: 100 N*s/m}
+  c: {element: spring, between: [wheel, lower], stiffness: 20 N/mm}
 """
 TABLE = "{deflection: [0 mm, 2 mm, 5 mm, 9 mm], force: [0 N, 40 N, 90 N, 200 N]}"
 
@@ -60,7 +70,24 @@ def test_a_network_with_a_mistake_is_told(call, file):
     assert code == 1 and "maxwell" in error
 
 
-def test_a_backend_that_compiles_when_it_is_called_is_told(call, file, monkeypatch):
+def kept(folder: Path) -> set[str]:
+    return {path.name for path in folder.rglob("*.nbc")}
+
+
+@pytest.mark.parametrize("text", [NETWORK, NODES], ids=["pair", "nodes"])
+def test_after_it_nothing_is_left_to_compile_on_numba(call, file, tmp_path, monkeypatch, text):
+    file.write_text(text)
+    code, told, error = call("warm", file, "--backend", "numba", "--json")
+    assert code == 0, error
+    before = kept(tmp_path)
+    file.write_text(text.replace("{from: quasi_static}", TABLE))
+    assert json.loads(told)["new"] == len(before) > 0
     monkeypatch.setenv("DASHPOT_BACKEND", "numba")
-    code, _, error = call("warm", file)
-    assert code == 1 and "nothing is compiled ahead on the backend 'numba'" in error
+    network = compile_network(read_network(file, load_registry().elements))
+    drive = drive_from_samples(1e-3, 1e-3 * np.sin(np.arange(200.0)))
+    whole = Excitation({"lower": drive}, {"wheel": np.zeros(200)}, {}, drive.dt, drive.samples)
+    run = network.prepare(drive if text == NETWORK else whole)
+    values = np.repeat(network.start[None], 5, axis=0)
+    assert np.isfinite(network.simulate(run, values)).all()
+    assert np.isfinite(network.score([run], [np.zeros(200)], [np.ones(200)], values)).all()
+    assert kept(tmp_path) == before

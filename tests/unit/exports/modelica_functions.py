@@ -36,7 +36,7 @@ def functions_of(text: str) -> dict[str, Any]:
     """The functions by name, as Python functions of numbers and arrays."""
     names: dict[str, Any] = {
         "Array": Array,
-        **{key: getattr(math, key) for key in ("exp", "log", "sqrt", "tanh", "sin", "cos")},
+        **{key: getattr(math, key) for key in ("exp", "log", "sqrt", "sinh", "tanh", "sin", "cos")},
         "mod": math.fmod,
         "abs": abs,
         "max": max,
@@ -73,6 +73,7 @@ def _statement(words: str, answer: str) -> str:
     if found := re.fullmatch(r"(if|while) (.+) (?:then|loop)", words):
         return f"{HEADS[found[1]]} {_expression(found[2])}:"
     place, value = words.removesuffix(";").split(" := ")
+    place = place.replace("(, ", "(_, ")  # an output that is not needed
     return f"{place} = {_expression(value)}"
 
 

@@ -195,5 +195,11 @@ def test_the_interval_of_an_identified_number_stands_in_its_annotation(word, tmp
     shutil.unpack_archive(path, tmp_path / "unit", "zip")
     text = (tmp_path / "unit" / "modelDescription.xml").read_text()
     stiffness, damping = text.partition('name="rubber.')[2].split('name="damping.')
-    assert ">190000.0 215000.0</" in stiffness and 'description="identified number"' in stiffness
-    assert ">190000.0 215000.0</" not in damping and 'description="fixed number"' in damping
+    assert (
+        ">190000.0 215000.0</" in stiffness
+        and 'description="force over deflection, or its constant slope, identified"' in stiffness
+    )
+    assert (
+        ">190000.0 215000.0</" not in damping
+        and 'description="force over velocity, or its constant slope, fixed"' in damping
+    )

@@ -7,6 +7,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from dashpot import declare, load_registry
 
@@ -19,6 +20,13 @@ PLAIN = (
 """
 )
 DRY = PLAIN + "  friction: {element: dahl, stiffness: 2000 N/mm, limit: 50 N}\n"
+LOSSY = (
+    PLAIN.replace("  damping: {element: damper, damping: 500 N*s/m}\n", "")
+    + """\
+  relaxation: {element: maxwell, stiffness: 60 N/mm, relaxation_time: 5 ms}
+  friction: {element: dahl, stiffness: 2000 N/mm, limit: 50 N, exponent: 0}
+"""
+)
 
 
 def converted(text: str, **options) -> tuple[str, np.ndarray]:
@@ -58,6 +66,38 @@ def test_the_direction_is_the_only_active_one():
     assert curve(text)[-1, 0] == pytest.approx(7.0)
     with pytest.raises(ValueError, match="expected one of FX, FY, FZ, got 'TX'"):
         converted(PLAIN, direction="TX")
+
+
+def relaxing_and_sliding(time: np.ndarray, x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """The force (n,) of LOSSY by its own equations, with short Runge-Kutta steps of the relaxation."""
+    slipping, relaxing, force = 0.0, 0.0, [220e3 * x[0]]
+    for k in range(1, time.size):
+        step, middle = time[k] - time[k - 1], 0.5 * (v[k - 1] + v[k])
+        rates = [60e3 * v[k - 1] - relaxing / 5e-3]
+        rates += [60e3 * middle - (relaxing + 0.5 * step * rates[0]) / 5e-3]
+        rates += [60e3 * middle - (relaxing + 0.5 * step * rates[1]) / 5e-3]
+        rates += [60e3 * v[k] - (relaxing + step * rates[2]) / 5e-3]
+        relaxing += step / 6.0 * (rates[0] + 2.0 * rates[1] + 2.0 * rates[2] + rates[3])
+        # a slider behind a spring: the force follows the spring as far as the slider holds
+        slipping = float(np.clip(slipping + 2000e3 * (x[k] - x[k - 1]), -50.0, 50.0))
+        force.append(220e3 * x[k] + relaxing + slipping)
+    return np.array(force)
+
+
+def test_the_error_told_is_that_of_what_is_written_against_the_laws():
+    text, rows = converted(LOSSY)
+    place, given = curve(text).T
+    damping = float(re.search(r"^C = (.*)$", text, re.MULTILINE)[1])
+    for frequency, amplitude, preload, error, share in rows:
+        # eight periods of 4000 samples, the last one counts; mm, N and N s/mm, as the head of the file says
+        time = np.arange(8 * 4000 + 1) / (4000 * frequency)
+        phase = 2.0 * np.pi * frequency * time
+        x, v = preload + amplitude * np.sin(phase), 2.0 * np.pi * frequency * amplitude * np.cos(phase)
+        truth = relaxing_and_sliding(time, x, v)[-4000:]
+        written = CubicSpline(place, given)(1e3 * x[-4000:]) + damping * 1e3 * v[-4000:]
+        own = np.sqrt(np.mean((written - truth) ** 2))
+        assert error == pytest.approx(own, rel=1e-3)
+        assert share == pytest.approx(own / np.std(truth), rel=1e-3)
 
 
 IDENTIFIED = """

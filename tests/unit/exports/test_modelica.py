@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import csv
+import html
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,6 +19,7 @@ from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.export import exported
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.targets.modelica.model import unit_of
 
 CURVED = """
 format: dashpot-network/1
@@ -43,6 +46,12 @@ branches:
   c: {element: spring, between: [right-hand, arm], stiffness: 30 N/mm}
   d: {element: prandtl, between: [arm, body], stiffness: 100 N/mm, limit: 50 N}
 """
+SMOOTH_LOOP = """
+format: dashpot-network/1
+name: smooth
+branches:
+  loop: {element: bouc_wen, stiffness: 400 N/mm, limit: 50 N, exponent: 1, shape: 0.5}
+"""
 SPAN = 4e-3
 
 
@@ -58,7 +67,9 @@ def run(network, drives, loads) -> np.ndarray:
     return np.array(found)
 
 
-@pytest.mark.parametrize("network", [mount(), declare(CURVED), leg()], ids=["mount", "curved", "leg"])
+@pytest.mark.parametrize(
+    "network", [mount(), declare(CURVED), leg(), declare(SMOOTH_LOOP)], ids=["mount", "curved", "leg", "loop"]
+)
 def test_the_functions_give_the_simulated_force(network):
     drive, compiled = sine(200), compile_network(network)
     expected = compiled.simulate(compiled.prepare(drive))
@@ -89,8 +100,42 @@ def test_a_parser_takes_the_text(network):
     assert {"Specimen", "Law"} <= set(inner) and "sampled" in inner["Law"].classes
 
 
-def test_numbers_are_parameters_with_units():
-    assert "parameter Real 'friction.limit'(unit = \"N\") = 60.0;" in written(mount())
+def test_numbers_are_parameters_with_units_and_intervals():
+    about = '"sliding force, identified, 95 % interval 55 to 66"'
+    assert f"parameter Real 'friction.limit'(unit = \"N\") = 60.0 {about};" in written(mount())
+    assert "'leg.valve.damping'(unit = \"N.s/m\") = 2000.0" in written(leg())
+
+
+@pytest.mark.parametrize(
+    ("unit", "expected"),
+    [
+        ("1", "1"),
+        ("N*s^2/m^2", "N.s2/m2"),
+        ("N/(m/s)", "N.s/m"),
+        ("N/m/K", "N/(m.K)"),
+        ("1/s", "1/s"),
+        ("N*s^0.3/m", ""),
+    ],
+)
+def test_units_are_those_of_the_language(unit, expected):
+    assert unit_of(unit) == expected
+
+
+def test_the_documentation_states_the_law_of_every_branch():
+    text = written(replace(leg(), about='a "leg" of <rubber>'))
+    info = html.unescape(text.partition('info = "')[2])
+    assert 'a "leg" of <rubber>' in info and "In parallel: rubber, leg (in series: leg.valve, leg.bush)." in info
+    assert "leg.valve: damper" in info and "F = f(v)" in info
+    assert "d between arm and body" in written(declare(NODES))
+
+
+@pytest.mark.parametrize("name", ["expm1", "log1p"])
+def test_functions_that_the_language_lacks_lose_no_digits(name):
+    # after Bouc and Wen with half a shape: the law needs both near zero, where 1 + x would be 1
+    law = functions_of(written(declare(SMOOTH_LOOP)))[name]
+    x = np.concatenate([side * 10.0 ** np.linspace(-40.0, -0.01, 200) for side in (-1.0, 1.0)] + [[0.0, 3.0, 40.0]])
+    expected = getattr(np, name)(x)
+    assert np.max(np.abs([law(each) for each in x] - expected) / np.maximum(np.abs(expected), 1e-300)) <= 1e-15
 
 
 def test_nodes_have_flanges_inputs_and_places():

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
 
 TYPES: dict[Kind, str] = {"number": "Real", "count": "Integer", "truth": "Boolean"}
-MEMORY = "s"
+MEMORY, RETURN = "s", "return;"
 
 
 class ModelicaCode(Code):
@@ -24,11 +24,10 @@ class ModelicaCode(Code):
         **COMMON,
         "absolute": "abs({0})",
         "power": "({0} ^ {1})",
-        "expm1": "(exp({0}) - 1.0)",
-        "log1p": "log(1.0 + {0})",
         "logical_not": "(not {0})",
         "where": "(if {0} then {1} else {2})",
     }
+    lacking = frozenset({"expm1", "log1p"})
 
     def __init__(self) -> None:
         super().__init__()
@@ -48,14 +47,14 @@ class ModelicaCode(Code):
             self.write(f"{_words(place)} := {_words(value)};")
 
     def do(self, call: str) -> None:
-        """A call that changes the memory."""
-        answers = MEMORY if self.changing[call.partition("(")[0]] == "nothing" else f"(, {MEMORY})"
-        self.write(f"{answers} := {_words(call)};")
+        """A call that changes the memory; one that does not is left out."""
+        if answer := self.changing.get(call.partition("(")[0]):
+            self.write(f"{MEMORY if answer == 'nothing' else f'(, {MEMORY})'} := {_words(call)};")
 
     def answer(self, value: str) -> None:
         """A return."""
         self.write(f"answer := {_words(value)};")
-        self.write("return;")
+        self.write(RETURN)
 
     @contextmanager
     def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Iterator[None]:
@@ -63,6 +62,8 @@ class ModelicaCode(Code):
         self.locals, head, self.depth = {}, len(self.lines), 2
         yield
         body = self.lines[head:]
+        if body and body[-1].strip() == RETURN:  # a function ends there anyway
+            del body[-1]
         changes = any(re.match(rf"\s*(\(.*, )?{MEMORY}(\[.*\])?\)? := ", line) for line in body)
         if changes:
             self.changing[name] = kind

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
+from math import isfinite
 
+from dashpot.kernel.export import Exported
 from dashpot.kernel.ir.online import BEGUN, INPUTS, MOTION, SPAN, STATUS, Online
 from dashpot.kernel.targets.modelica.code import ModelicaCode
 from dashpot.kernel.targets.scalar.code import Arguments
@@ -41,8 +43,13 @@ package {name} "{title}"
 
 {functions}
   end Law;
+
+  annotation (Documentation(info = "<html>
+{documentation}
+</html>"));
 end {name};
 """
+FACTOR = re.compile(r"([*/]?)(?:\((.*?)\)|([^*/^()]+)(?:\^([^*/]+))?)")
 FLANGE = "Modelica.Mechanics.Translational.Interfaces.Flange_"
 UNSOLVED = 'assert(memory[{status}] < 0.5, "Forces at inner nodes are not balanced.", AssertionLevel.warning);'
 SAMPLED: Arguments = [
@@ -56,24 +63,21 @@ SAMPLED: Arguments = [
 ]
 
 
-def print_model(online: Online, name: str, title: str, values: Sequence[float], units: Sequence[str]) -> str:
-    """The text of a package with the ``values`` and ``units`` of the parameters as parameters of its model."""
-    code = ModelicaCode()
+def print_model(found: Exported, name: str, documentation: str) -> str:
+    """The text of a package of that name; its ``documentation`` is HTML."""
+    online, code = found.online, ModelicaCode()
     write_network(code, online)
     _write_sampled(code, online)
-    rows = [
-        f'    parameter Real {parameter(path)}(unit = "{unit}") = {code.number(float(value))};'
-        for path, value, unit in zip(online.numbers, values, units, strict=True)
-    ]
     parts = _two_ends() if online.driven == (END,) else _nodes(online)
     if online.system:
         parts["equations"] += f"\n    {UNSOLVED.format(status=STATUS + 1)}"
         parts["options"] += '\n    parameter Modelica.Units.SI.Length span = 0.05 "How far the motion goes";'
     text = TEXT.format(
         name=name,
-        title=title.replace("\\", "\\\\").replace('"', '\\"'),
+        title=quoted(found.title),
+        documentation=quoted(documentation),
         size=online.size,
-        parameters="\n".join(rows),
+        parameters="\n".join(_parameters(found, code)),
         numbers=_listed(map(parameter, online.numbers)),
         driven=len(online.driven),
         force=online.outputs + 1,
@@ -89,6 +93,15 @@ def print_model(online: Online, name: str, title: str, values: Sequence[float], 
         **parts,
     )
     return "\n".join(line for line in text.splitlines() if line.strip() or not line) + "\n"
+
+
+def _parameters(found: Exported, code: ModelicaCode) -> Iterator[str]:
+    for slot, value, about in zip(found.slots, found.values, found.abouts, strict=True):
+        ends = slot.value.interval
+        known = f", 95 % interval {ends[0]:.6g} to {ends[1]:.6g}" if ends and all(map(isfinite, ends)) else ""
+        unit = unit_of(slot.value.unit)
+        head = f"    parameter Real {parameter(slot.path)}" + (f'(unit = "{unit}")' if unit else "")
+        yield f'{head} = {code.number(value)} "{quoted(about + known)}";'
 
 
 def _two_ends() -> dict[str, str]:
@@ -150,6 +163,32 @@ def _write_sampled(code: ModelicaCode, online: Online) -> None:
         for number in range(len(online.loaded)):
             code.set(f"s[{INPUTS + len(MOTION) * len(online.driven) + number}]", f"load[{number}]")
         code.do("advance(s, dt, p)")
+
+
+def quoted(text: str) -> str:
+    """A text as it stands between quotes."""
+    return text.replace("\\", "\\\\").replace('"', '\\"')
+
+
+def unit_of(text: str) -> str:
+    """A unit as the language writes it: ``N*s^2/m^2`` is ``N.s2/m2``; empty where a power is not whole."""
+    factors = list(_factors(text, 1.0))
+    if not all(power.is_integer() for _, power in factors):
+        return ""
+    above, below = (
+        [f"{name}{int(abs(power)) if abs(power) > 1.0 else ''}" for name, power in factors if side * power > 0.0]
+        for side in (1.0, -1.0)
+    )
+    return ".".join(above or ["1"]) + ("/" + (below[0] if len(below) == 1 else f"({'.'.join(below)})") if below else "")
+
+
+def _factors(text: str, sign: float) -> Iterator[tuple[str, float]]:
+    for operator, group, name, power in FACTOR.findall(text):
+        side = -sign if operator == "/" else sign
+        if group:
+            yield from _factors(group, side)
+        elif name != "1":
+            yield name, side * float(power or 1.0)
 
 
 def plain(node: str) -> str:

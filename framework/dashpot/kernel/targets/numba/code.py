@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import ClassVar
 
 from dashpot.kernel.targets.omega import OMEGA_HIGH
@@ -78,12 +79,17 @@ class PythonCode(Code):
         """A return."""
         self.write(f"return {value}")
 
-    def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Block:
+    @contextmanager
+    def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Iterator[None]:
         """A compiled function."""
         settings = SETTINGS if name in self.called else f"{SETTINGS}, {INNER}"
         settings += ", forceinline=True" if name in AT_EVERY_SAMPLE else ""
         self.lines += ["", "", f"@njit({settings})"]
-        return self.indented(f"def {name}({', '.join(name for _, name in arguments)}):")
+        with self.indented(f"def {name}({', '.join(name for _, name in arguments)}):"):
+            before = len(self.lines)
+            yield
+            if len(self.lines) == before:  # a pass of a network that has nothing to do in it
+                self.write("pass")
 
     def when(self, condition: str) -> Block:
         """An if."""

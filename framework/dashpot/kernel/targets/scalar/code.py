@@ -46,6 +46,8 @@ class Code(ABC):
 
     operations: ClassVar[Mapping[str, str]]
     """The expression of every operation of a graph."""
+    lacking: ClassVar[frozenset[str]] = frozenset()
+    """Functions of the C library that the language has not: they are written out."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []

@@ -12,12 +12,16 @@ X: Arguments = [("number", "x")]
 PAIR: Arguments = [("number", "a"), ("number", "b")]
 TABLE: Arguments = [("array", "s"), ("count", "t"), ("count", "first"), ("count", "count"), ("number", "x")]
 STEEPER = 3.0
+NEAR, TERMS = 0.3, 11  # the series of log1p is used up to there; z^2 < 0.0312, so that 11 terms leave less than 1e-17
 
 
 def write_functions(code: Code, used: set[str]) -> None:
     """Those of the functions that are ``used``."""
     for name, write in (("minimum", _smaller), ("maximum", _larger), ("sign", _sign), ("wrightomega", _omega)):
         if name in used:
+            write(code)
+    for name, write in (("expm1", _expm1), ("log1p", _log1p)):
+        if name in used & code.lacking:
             write(code)
 
 
@@ -45,24 +49,43 @@ def _sign(code: Code) -> None:
         code.answer("x")
 
 
+def _expm1(code: Code) -> None:
+    with code.function("number", "expm1", X, "exp(x) - 1 without loss of digits near zero."):
+        with code.when("fabs(x) > 1.0"):
+            code.answer("exp(x) - 1.0")
+        code.answer("2.0 * exp(0.5 * x) * sinh(0.5 * x)")
+
+
+def _log1p(code: Code) -> None:
+    with code.function("number", "log1p", X, "log(1 + x) without loss of digits near zero."):
+        with code.when(f"fabs(x) > {NEAR}"):
+            code.answer("log(1.0 + x)")
+        code.let("z", "x / (2.0 + x)")  # log(1 + x) = 2 artanh(z)
+        series = _polynomial([1.0 / (2 * k + 1) for k in range(TERMS)], "(z * z)")
+        code.answer(f"2.0 * z * {series}")
+
+
 def _omega(code: Code) -> None:
     with code.function("number", "omega", X, "The solution y of y + log(y) = x."):
+        for name in ("y", "start", "b", "m"):
+            code.let(name, "0.0")
+        code.let("low", "x")
         with code.when(f"x > {OMEGA_HIGH}"):
-            code.let("y", "x - log(x)")
-            with code.loop("k", 0, 3):
+            code.set("y", "x - log(x)")
+            for _ in range(3):
                 code.set("y", "y * (1.0 + x - log(y)) / (1.0 + y)")
             with code.when("x > 1e300"):
                 code.set("y", "x")
-            code.answer("y")
-        code.let("low", "x")
-        with code.when(f"x < {OMEGA_LOW}"):
-            code.set("low", f"{OMEGA_LOW}")
-        part = f"{_polynomial(OMEGA_TOP, 'low')} / {_polynomial(OMEGA_BOTTOM, 'low')}"
-        code.let("start", f"{log(2.0)!r} * ({part}) + (x - low)")
-        code.let("y", "exp(start)")
-        code.let("b", "1.0 / (1.0 + y)")
-        code.let("m", "(x - start - y) * b")
-        code.answer("y * (1.0 + m * (1.0 + b * m * (0.5 + m * (0.5 * b - 1.0 / 3.0))))")
+        with code.otherwise():
+            with code.when(f"x < {OMEGA_LOW}"):
+                code.set("low", f"{OMEGA_LOW}")
+            part = f"{_polynomial(OMEGA_TOP, 'low')} / {_polynomial(OMEGA_BOTTOM, 'low')}"
+            code.set("start", f"{log(2.0)!r} * ({part}) + (x - low)")
+            code.set("y", "exp(start)")
+            code.set("b", "1.0 / (1.0 + y)")
+            code.set("m", "(x - start - y) * b")
+            code.set("y", "y * (1.0 + m * (1.0 + b * m * (0.5 + m * (0.5 * b - 1.0 / 3.0))))")
+        code.answer("y")
 
 
 def _polynomial(coefficients: Sequence[float], x: str) -> str:
@@ -136,30 +159,36 @@ def _write_slope(code: Code) -> None:
                 code.set("j", "i - 1")
         _let_segment(code, "0", "j")
         _let_segment(code, "1", "i")
-        with code.when("count == 2"):
-            code.answer("r0")
-        with code.when("k == count - 1"):
-            for one, other in (("w0", "w1"), ("r0", "r1")):
-                code.let(f"far_{one}", one)
-                code.set(one, other)
-                code.set(other, f"far_{one}")
-        with code.when("(k == 0) | (k == count - 1)"):
-            _answer_end_slope(code)
-        with code.when("r0 * r1 <= 0.0"):
-            code.answer("0.0")
-        code.let("left", "2.0 * w1 + w0")
-        code.let("right", "w1 + 2.0 * w0")
-        code.answer("(left + right) / (left / r0 + right / r1)")
+        code.let("m", "r0")
+        with code.when("count > 2"):
+            with code.when("k == count - 1"):
+                for one, other in (("w0", "w1"), ("r0", "r1")):
+                    code.set("m", one)
+                    code.set(one, other)
+                    code.set(other, "m")
+            with code.when("(k == 0) | (k == count - 1)"):
+                _set_end_slope(code)
+            with code.otherwise():
+                _set_inner_slope(code)
+        code.answer("m")
 
 
-def _answer_end_slope(code: Code) -> None:
+def _set_inner_slope(code: Code) -> None:
+    """The harmonic mean of both sides; zero where they differ in sign."""
+    left, right = "(2.0 * w1 + w0)", "(w1 + 2.0 * w0)"
+    with code.when("r0 * r1 <= 0.0"):
+        code.set("m", "0.0")
+    with code.otherwise():
+        code.set("m", f"({left} + {right}) / ({left} / r0 + {right} / r1)")
+
+
+def _set_end_slope(code: Code) -> None:
     """Through three points, as long as the curve stays monotone."""
-    code.let("m", "((2.0 * w0 + w1) * r0 - w0 * r1) / (w0 + w1)")
+    code.set("m", "((2.0 * w0 + w1) * r0 - w0 * r1) / (w0 + w1)")
     with code.when("m * r0 <= 0.0"):
         code.set("m", "0.0")
     with code.when(f"(r0 * r1 <= 0.0) & (fabs(m) > {STEEPER} * fabs(r0))"):
         code.set("m", f"{STEEPER} * r0")
-    code.answer("m")
 
 
 def _let_segment(code: Code, number: str, name: str) -> None:

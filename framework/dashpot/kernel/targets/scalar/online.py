@@ -64,7 +64,8 @@ def storing(code: Code, online: Online, moved: Mapping[str, Node], leaf: Leaf, t
     def look_up(node: Node, argument: str) -> str:
         curve, order = node.payload
         shelf = online.shelves[curve]
-        return f"table{order}(s, {online.tables}, {shelf.base}, {shelf.count}, {argument})"
+        place = ", ".join(map(code.index, (online.tables, shelf.base, shelf.count)))
+        return f"table{order}(s, {place}, {argument})"
 
     writer = Writer(code, moved.values(), leaf, look_up)
     if together:
@@ -160,6 +161,7 @@ def _write_turn(code: Code, online: Online, passes: Passes, correct: str) -> Non
 
 
 def _write_turns(code: Code) -> None:
+    _write_turn_at(code)
     arguments: Arguments = [
         ("array", "s"),
         ("number", "dt"),
@@ -175,34 +177,44 @@ def _write_turns(code: Code) -> None:
         code.let("c", "3.0 * (vo + v) - 6.0 * rise")
         code.let("b", "v - vo - c")
         code.let("middle", "vo + 0.5 * b")
+        for name in ("free", "root", "q", "first", "second"):
+            code.let(name, "0.0")
         # the velocity lies between its control points: as long as these have one sign it turns nowhere
         with code.when("(vo * middle <= 0.0) | (middle * v <= 0.0)"):
-            code.let("free", "b * b - 4.0 * vo * c")
+            code.set("free", "b * b - 4.0 * vo * c")
             with code.when("free > 0.0"):
                 _write_roots(code)
         code.answer("since")
 
 
+def _write_turn_at(code: Code) -> None:
+    path: Arguments = [("number", name) for name in ("since", "xo", "vo", "b", "c", "u")]
+    about = "Turns where the cubic path is at u if that lies in the step; answers where it last turned."
+    with code.function("number", "turn_at", [("array", "s"), ("number", "dt"), *path], about):
+        code.let("there", "since")
+        with code.when("(u > 0.0) & (u < 1.0)"):
+            code.set("there", "xo + dt * u * (vo + u * (b / 2.0 + u * c / 3.0))")
+            code.do("turn(s, dt, since, there)")
+        code.answer("there")
+
+
 def _write_roots(code: Code) -> None:
     """The roots of vo + b u + c u^2 between 0 and 1, the earlier one first."""
-    code.let("root", "sqrt(free)")
+    code.set("root", "sqrt(free)")
     with code.when("b < 0.0"):
         code.set("root", "-root")
-    code.let("q", "-0.5 * (b + root)")
-    code.let("first", "-1.0")
+    code.set("q", "-0.5 * (b + root)")
+    code.set("first", "-1.0")
     with code.when("c != 0.0"):
         code.set("first", "q / c")
-    code.let("second", "vo / q")
+    code.set("second", "vo / q")
     with code.when("second < first"):
         code.set("root", "first")
         code.set("first", "second")
         code.set("second", "root")
-    with code.when("first != second"), code.loop("k", 0, 2):
-        with code.when("(first > 0.0) & (first < 1.0)"):
-            code.let("there", "xo + dt * first * (vo + first * (b / 2.0 + first * c / 3.0))")
-            code.do("turn(s, dt, since, there)")
-            code.set("since", "there")
-        code.set("first", "second")
+    with code.when("first != second"):
+        for root in ("first", "second"):
+            code.set("since", f"turn_at(s, dt, since, xo, vo, b, c, {root})")
 
 
 def _read_motion(code: Code, online: Online, turning: bool) -> None:
