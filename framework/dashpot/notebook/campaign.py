@@ -9,8 +9,8 @@ from dashpot.campaign.content import campaign_content
 from dashpot.campaign.run import CampaignResult
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
-from dashpot.notebook.printed import Printed
 from dashpot.notebook.plots import interactive
+from dashpot.notebook.printed import Printed
 from dashpot.report.campaign import campaign_headline, named_grid, number_figure, population_grid, specimens_grid
 
 if TYPE_CHECKING:

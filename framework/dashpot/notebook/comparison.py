@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from dashpot.compare.comparison import Comparison as PlainComparison
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
-from dashpot.notebook.printed import Printed
 from dashpot.notebook.plots import PLOTS, interactive, plot
+from dashpot.notebook.printed import Printed
 from dashpot.report.comparison import comparison_headline, comparison_page
 from dashpot.report.figures import rmse_bars
 from dashpot.report.grids import comparison_grid, explainable_value, floor_value, runs_grid

@@ -12,9 +12,9 @@ from dashpot.diagnose.diagnosis import Diagnosis as PlainDiagnosis
 from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
-from dashpot.notebook.printed import Printed
 from dashpot.notebook.model import Model
 from dashpot.notebook.plots import PLOTS, interactive, plot
+from dashpot.notebook.printed import Printed
 from dashpot.notebook.promoted import promoted
 from dashpot.report.diagnosis import VERDICTS, diagnosis_page
 from dashpot.report.figures import gain_intervals

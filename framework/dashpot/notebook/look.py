@@ -11,8 +11,8 @@ from dashpot.compare.provenance import provenance_of
 from dashpot.compare.signals import signal_evidence
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
-from dashpot.notebook.printed import Printed
 from dashpot.notebook.plots import interactive
+from dashpot.notebook.printed import Printed
 from dashpot.report.look import look_figures, look_grid, look_headline, look_page
 from dashpot.report.page import write_page
 from dashpot.text.problem import nearest
