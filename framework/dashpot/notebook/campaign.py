@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 class Campaign(Printed, CampaignResult):
-    """Many specimens as a population. In a notebook it shows means and scatter, and the specimens that stand out.
+    """Many specimens as a population. In a notebook it shows means and scatter, and the outliers.
 
     Examples:
         >>> campaign = dp.campaign("mounts.yaml")
         >>> print(campaign.headline)
-        None of 3 specimens is unlike the others.
+        No outlier among 3 specimens.
         >>> [column.heading for column in campaign.table().columns][:2]
         ['specimen', 'data']
     """
