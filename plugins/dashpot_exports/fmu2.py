@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement
 
-from dashpot.kernel.export import Exported
 from dashpot.model.identified import Range
 from dashpot_exports.unit import MockUpUnit
 from dashpot_exports.variables import Variable
+
+if TYPE_CHECKING:
+    from dashpot.kernel.export import Exported
 
 SYSTEMS = {"linux": "linux", "windows": "win", "darwin": "darwin"}
 

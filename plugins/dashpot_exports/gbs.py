@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.export import Export
 from dashpot.data.drive import drive_from_samples
-from dashpot.kernel.export import exported
-from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.kernel.system import CompiledSystem
-from dashpot.kernel.targets.c99.header import identifier
 from dashpot.model.network import NetworkSpec
 from dashpot_exports.sines import SAMPLES, beyond, preloads_of, require_one_end, sine
 
+if TYPE_CHECKING:
+    from dashpot.kernel.network import CompiledNetwork
+    from dashpot.kernel.system import CompiledSystem
+
+    Compiled = CompiledNetwork | CompiledSystem
+
 Array = NDArray[np.float64]
-Compiled = CompiledNetwork | CompiledSystem
 Sine = tuple[float, float, float]  # frequency, amplitude, preload
 
 POINTS, BETWEEN = 41, 50  # of the static curve, and steps from one to the next
@@ -103,6 +104,10 @@ class Gbs(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.gbs`` and ``NAME_conversion.csv``."""
+        from dashpot.kernel.export import exported
+        from dashpot.kernel.network import compile_network
+        from dashpot.kernel.targets.c99.header import identifier
+
         require_one_end(network, "a bushing property file")
         found, name, compiled = exported(network), identifier(network.name), compile_network(network)
         sines = list(product(self.frequencies, self.amplitudes, self.preloads or preloads_of(network)))

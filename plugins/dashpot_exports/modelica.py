@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from dashpot.contract.export import Export
-from dashpot.kernel.export import exported
-from dashpot.kernel.targets.c99.header import identifier
-from dashpot.kernel.targets.modelica.model import print_model
 from dashpot.model.network import NetworkSpec
 from dashpot_exports.description import described
 
@@ -29,6 +26,10 @@ class Modelica(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.mo``."""
+        from dashpot.kernel.export import exported
+        from dashpot.kernel.targets.c99.header import identifier
+        from dashpot.kernel.targets.modelica.model import print_model
+
         found = exported(network)
         name = identifier(network.name)
         name = f"{name}_network" if name in KEYWORDS else name

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from dashpot.contract.export import Export
-from dashpot.kernel.export import Exported, exported
-from dashpot.kernel.ir.online import SPAN
-from dashpot.kernel.ir.system import SMALLEST_SPAN
-from dashpot.kernel.targets.c99.header import identifier
-from dashpot.kernel.targets.numba.code import AloneCode
-from dashpot.kernel.targets.numba.stepping import print_solver
 from dashpot.model.network import NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.export import Exported
 
 ABOUT = """\
 {title}
@@ -42,6 +40,11 @@ class Numba(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.py``."""
+        from dashpot.kernel.export import exported
+        from dashpot.kernel.targets.c99.header import identifier
+        from dashpot.kernel.targets.numba.code import AloneCode
+        from dashpot.kernel.targets.numba.stepping import print_solver
+
         found = exported(network)
         about = repr(ABOUT.format(title=found.title))
         text = f"{about}\n\n{print_solver(found.online, AloneCode)}{_numbers(found)}"
@@ -49,6 +52,9 @@ class Numba(Export):
 
 
 def _numbers(found: Exported) -> str:
+    from dashpot.kernel.ir.online import SPAN
+    from dashpot.kernel.ir.system import SMALLEST_SPAN
+
     online = found.online
     return TEXT.format(
         names=online.numbers,

@@ -11,7 +11,7 @@ import io
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
@@ -19,11 +19,11 @@ from dashpot.contract.export import Export
 from dashpot.contract.registry import load_registry
 from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.run import Run
-from dashpot.fit.api import Setting, prepare
-from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.kernel.settings import require_settings
 from dashpot.model.network import NetworkSpec, Slot, Value
 from dashpot.text.problem import InputError, Place
+
+if TYPE_CHECKING:
+    from dashpot.fit.api import Setting
 
 Row = Mapping[str, Any]
 
@@ -70,6 +70,10 @@ class Petab(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``problem.yaml``, the four tables and the network file."""
+        from dashpot.fit.api import prepare
+        from dashpot.fit.ranges import natural_sizes, with_ranges
+        from dashpot.kernel.settings import require_settings
+
         if not self.data:
             message = "expected the dataset whose runs are the measurements, got none"
             raise InputError.at(Place(network.file), message, "say --set data=my/dataset.yaml")

@@ -10,9 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.export import Export
-from dashpot.kernel.export import exported
-from dashpot.kernel.network import compile_network
-from dashpot.kernel.targets.c99.header import identifier
 from dashpot.model.network import NetworkSpec
 from dashpot_exports.sines import SAMPLES, beyond, preloads_of, require_one_end, sine
 
@@ -46,6 +43,9 @@ class StiffnessTable(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME_stiffness.csv``, and beside it a text that says of which network."""
+        from dashpot.kernel.export import exported
+        from dashpot.kernel.targets.c99.header import identifier
+
         require_one_end(network, "a table of stiffness")
         sines = list(product(self.preloads or preloads_of(network), self.amplitudes, self.frequencies))
         rows = "".join(f"{','.join(map(repr, row))}\n" for row in _rows(network, sines))
@@ -58,6 +58,8 @@ class StiffnessTable(Export):
 
 
 def _rows(network: NetworkSpec, sines: list[tuple[float, float, float]]) -> Iterator[tuple[float, ...]]:
+    from dashpot.kernel.network import compile_network
+
     compiled = compile_network(network)
     for preload, amplitude, frequency in sines:
         force = compiled.along(sine(frequency, amplitude, preload))()

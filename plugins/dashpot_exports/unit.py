@@ -11,18 +11,18 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from importlib.resources import files as resources
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from dashpot.contract.export import Export
-from dashpot.kernel.export import Exported, digest_of, exported
-from dashpot.kernel.targets.c99.header import identifier, print_header
-from dashpot.kernel.targets.c99.source import print_source
 from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 from dashpot_exports.variables import Variable, add_unit, variables_of
+
+if TYPE_CHECKING:
+    from dashpot.kernel.export import Exported
 
 SPAN, STEP = 0.05, 1e-3  # how far the motion is expected to go, m; the step of a default experiment, s
 LIBRARIES = {"linux": ".so", "darwin": ".dylib", "windows": ".dll"}
@@ -63,6 +63,9 @@ class MockUpUnit(Export):
 
     def files(self, network: NetworkSpec) -> Mapping[str, bytes]:
         """``NAME.fmu``. InputError where there is no C compiler, or it refuses the sources."""
+        from dashpot.kernel.export import digest_of, exported
+        from dashpot.kernel.targets.c99.header import identifier
+
         found, name = exported(network), identifier(network.name)
         token = digest_of(network)
         sources = self.sources(found, name, token)
@@ -79,6 +82,9 @@ class MockUpUnit(Export):
 
     def sources(self, found: Exported, name: str, token: str) -> dict[str, bytes]:
         """The sources by name."""
+        from dashpot.kernel.targets.c99.header import print_header
+        from dashpot.kernel.targets.c99.source import print_source
+
         online = found.online
         model = MODEL.format(
             name=name,

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
+from typing import TYPE_CHECKING
 from xml.etree.ElementTree import Element, SubElement
 
-from dashpot.kernel.export import Exported
-from dashpot.kernel.targets.c99.header import input_names, output_names
 from dashpot.text.quantity import dimensions
+
+if TYPE_CHECKING:
+    from dashpot.kernel.export import Exported
 
 UNITS = {"displacement": "m", "velocity": "m/s", "force": "N"}
 
@@ -48,6 +50,8 @@ class Variable:
 
 def variables_of(found: Exported) -> list[Variable]:
     """All of them, in the order of their numbers in ``component.h``."""
+    from dashpot.kernel.targets.c99.header import input_names, output_names
+
     motions = [name for name in input_names(found.online) if not name.startswith("acceleration")]
     inputs = [Variable(name, "input", "at the end of a step", _unit(name), 0.0) for name in motions]
     outputs = [Variable(name, "output", "at the end of a step", _unit(name)) for name in output_names(found.online)]

@@ -11,6 +11,8 @@ import pytest
 HEAVY = {"numpy", "scipy", "numba", "llvmlite", "pandas", "plotly", "pint", "jinja2", "rich"}
 IMPORT = "import dashpot"
 HELP = "from dashpot.cli import main; main(['--help'])"
+LIST = "from dashpot.cli import main; main(['list'])"
+CHECK = "from dashpot.cli import main; main(['check', 'gehmann'])"
 SHOWN = "; import sys; print('LOADED', *sys.modules)"
 
 
@@ -34,6 +36,11 @@ def seconds(program: str) -> float:
 @pytest.mark.parametrize("program", [IMPORT, HELP])
 def test_nothing_heavy_is_imported(program):
     assert not loaded(program) & HEAVY
+
+
+@pytest.mark.parametrize("program", [LIST, CHECK])
+def test_lists_and_checks_need_numpy_alone(program):
+    assert loaded(program) & HEAVY == {"numpy"}
 
 
 def test_importing_dashpot_takes_less_than_a_tenth_of_a_second():

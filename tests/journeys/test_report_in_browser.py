@@ -177,7 +177,7 @@ def test_the_pointer_shows_values_with_units(visit):
     opened.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     label = opened.figure("Error of the models").locator(".hovertext")
     label.first.wait_for()
-    assert "60.10 N on training runs" in label.first.text_content()
+    assert "60.1 N on training runs" in label.first.text_content()
 
 
 def test_a_dragged_box_zooms_and_a_double_click_returns(visit):

@@ -12,7 +12,7 @@ from dashpot.cli import complete
 from dashpot.cli.outcome import ExitCode
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
-from dashpot.text.problem import InputError, Place, Problem
+from dashpot.text.problem import InputError, Place, Problem, problem_lines
 
 if TYPE_CHECKING:
     from dashpot.model.network import NetworkSpec
@@ -56,9 +56,8 @@ def verb(specs: tuple[str, ...], other: str | None, switches: Switches) -> int:
         lines += [line for entry in compared for line in tell(entry, other)]
     session.talk.result("\n".join(lines), content)
     for problems in found.values():
-        for problem in problems:
-            if problem.severity == "warning":
-                click.echo(str(problem), err=True)
+        for line in problem_lines(problem for problem in problems if problem.severity == "warning"):
+            click.echo(line, err=True)
     if failed and switches.json:
         # the problems stand in the JSON above
         click.echo(str(InputError(failed)), err=True)

@@ -28,6 +28,9 @@ COMPARISONS: dict[str, Callable[[tuple, tuple], bool]] = {
 PURPOSES = {
     "matlab73": "reads MATLAB 7.3 and HDF5 files",
     "excel": "reads Excel workbooks",
+    "boosting": "boosted trees for the explainable error",
+    "cluster": "campaigns on local processes or a Dask cluster",
+    "parquet": "tables of campaigns as Parquet files",
     "sampler": "draws from the posterior of a fit",
     "pandas": "gives tables as data frames in Python",
     "docs": "builds the documentation",

@@ -67,7 +67,8 @@ def verb(
     for problem in imported.problems:
         session.talk.warn(f"left out: {problem}")
     session.talk.result(as_text(imported), as_dict(imported, written))
-    session.talk.say(f"\nwritten: {written}\nNext: dashpot check {written}{allowed}")
+    shown = written.relative_to(Path.cwd()) if written.is_relative_to(Path.cwd()) else written
+    session.talk.say(f"\nwritten: {shown}\nNext: dashpot check {shown}{allowed}")
 
 
 def read_rate(sampling: str | None) -> float | None:

@@ -101,8 +101,10 @@ class Session:
 
     def warn_of(self, problems: Iterable[Problem]) -> None:
         """Tell what is wrong with single runs."""
-        for problem in problems:
-            self.talk.warn(str(problem))
+        from dashpot.text.problem import problem_lines
+
+        for line in problem_lines(problems):
+            self.talk.warn(line)
 
     def claim(self, output: Path, *patterns: str) -> OutputFolder:
         """The folder ``output``, into which files of these names may be written, by this call alone until it ends."""

@@ -65,9 +65,12 @@ def dashpot() -> None:
 
     \b
     First steps:
-      dashpot demo                                compare and diagnose models of a virtual tire
-      dashpot compare kelvin_voigt gehmann my/dataset.yaml -o comparison
-      dashpot diagnose kelvin_voigt my/dataset.yaml -o diagnosis
+      dashpot demo                            compare and diagnose models of a virtual tire
+      dashpot import my                       describe the measured files in the folder my
+      dashpot look my -o look                 look at them
+      dashpot list models                     networks that are shipped
+      dashpot compare spring gehmann my -o comparison
+      dashpot diagnose gehmann my -o diagnosis
 
     `dashpot VERB --help` explains a verb. Arguments stand in one order, MODEL...
     DATASET; a MODEL is a YAML file or the name of a shipped network, see `dashpot list models`.

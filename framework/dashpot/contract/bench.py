@@ -11,7 +11,7 @@ from dashpot.contract.limits import Limits
 from dashpot.contract.measuring import Measuring
 from dashpot.contract.options import read_options
 from dashpot.contract.rig import PlannedRun, Rig
-from dashpot.model.shipped import SUFFIXES, spec_folder
+from dashpot.model.shipped import SUFFIXES, read_specification, spec_folder
 from dashpot.text.document import Document
 from dashpot.text.form import Form
 from dashpot.text.node import Node, Scalar, Sequence
@@ -63,7 +63,7 @@ def find_bench(word: str, rigs: Mapping[str, type[Rig]], options: Mapping[str, s
     if path.suffix in SUFFIXES or path.is_file():
         return read_bench(Document.read(path), rigs)
     if word in shipped:
-        return read_bench(Document.read(shipped[word]), rigs)
+        return read_bench(read_specification(shipped[word]), rigs)
     known = [*rigs, *shipped]
     hint = nearest(word, known) or f"there are: {', '.join(known) or 'none'}"
     raise InputError.at(Place(word), "there is no such file, procedure or shipped bench", hint)

@@ -104,7 +104,7 @@ def friction_start(displacement: np.ndarray, force: np.ndarray) -> FrictionStart
     limit = interior_width(loop)
     if limit <= 0.0:
         raise ValueError(
-            f"expected a loop that dissipates, got a half width of {limit:.3g} N; there is no friction to start from, "
+            f"expected a loop that dissipates, got a friction force of {limit:.3g} N; there is none to start from, "
             "or a channel has the wrong sign"
         )
     return FrictionStart(limit, _opening_travel(loop, limit))

@@ -38,7 +38,7 @@ from dashpot.fit.order import ordered
 from dashpot.fit.posterior import STEPS, require_sampler, sample_posterior
 from dashpot.fit.prior import beside_priors, first_error, refine_beside_priors, rows_beside, told_priors
 from dashpot.fit.ranges import natural_sizes, with_ranges
-from dashpot.fit.refine import Refined, refine
+from dashpot.fit.refine import OWN_METHOD, Refined, refine
 from dashpot.fit.result import Errors, FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
@@ -58,7 +58,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
-OWN_METHOD = "gauss_newton"
 POLISH_STEPS = 120
 
 

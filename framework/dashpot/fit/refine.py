@@ -14,6 +14,7 @@ from dashpot.fit.linear import Linear, Loss, linearise
 
 Array = NDArray[np.float64]
 
+OWN_METHOD = "gauss_newton"  # its name in files
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 NOT_FELT = 1e-12  # of the largest eigenvalue
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])

@@ -12,7 +12,7 @@ from dashpot.model.element import Element
 from dashpot.model.identified import read_identified
 from dashpot.model.joints import read_joints
 from dashpot.model.network import Group, NetworkSpec, Value
-from dashpot.model.shipped import find_network, find_used_network
+from dashpot.model.shipped import find_network, find_used_network, read_specification
 from dashpot.model.topology import COMPLIANCE
 from dashpot.model.values import Kind, Reading, read_value
 from dashpot.text.document import Document
@@ -42,7 +42,7 @@ Elements = MappingType[str, type[Element]]
 
 def read_network(path_or_name: str | Path, elements: Elements) -> NetworkSpec:
     """The network in a file, or the shipped one of that name. Raises InputError with every mistake of the file."""
-    return build_network(Document.read(find_network(path_or_name)), elements)
+    return build_network(read_specification(find_network(path_or_name)), elements)
 
 
 def parse_network(
@@ -158,7 +158,7 @@ class _Uses:
 
     def _outcome(self, file: Path, trail: tuple[Path, ...]) -> NetworkSpec | InputError:
         try:
-            return self._used(Document.read(file), trail)
+            return self._used(read_specification(file), trail)
         except InputError as error:
             return error
 

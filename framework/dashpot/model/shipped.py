@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from dashpot.text.document import Document
 from dashpot.text.problem import InputError, Place, of_family
 
 SUFFIXES = (".yaml", ".yml")
@@ -15,6 +16,11 @@ def spec_folder() -> Path:
     package = Path(__file__).resolve().parents[1]
     installed = package / "specs"
     return installed if installed.is_dir() else package.parents[1] / "specs"
+
+
+def read_specification(path: Path) -> Document:
+    """The text of a shipped file or of a user's. Raises InputError where it is not sound YAML."""
+    return Document.read(path, ours=path.is_relative_to(spec_folder()))
 
 
 def shipped_networks() -> dict[str, Path]:

@@ -10,6 +10,7 @@ from dashpot.campaign.run import CampaignResult
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.plots import interactive
+from dashpot.notebook.printed import Printed
 from dashpot.report.campaign import campaign_headline, named_grid, number_figure, population_grid, specimens_grid
 
 if TYPE_CHECKING:
@@ -17,13 +18,13 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure as PlotlyFigure
 
 
-class Campaign(CampaignResult):
-    """Many specimens as a population. In a notebook it shows means and scatter, and the specimens that stand out.
+class Campaign(Printed, CampaignResult):
+    """Many specimens as a population. In a notebook it shows means and scatter, and the outliers.
 
     Examples:
         >>> campaign = dp.campaign("mounts.yaml")
         >>> print(campaign.headline)
-        None of 3 specimens is unlike the others.
+        No outlier among 3 specimens.
         >>> [column.heading for column in campaign.table().columns][:2]
         ['specimen', 'data']
     """
@@ -32,6 +33,11 @@ class Campaign(CampaignResult):
     def content(self) -> dict[str, Any]:
         """The result in plain values, as in ``campaign.json``."""
         return campaign_content(self)
+
+    @property
+    def _line(self) -> str:
+        """The answer in a line."""
+        return self.headline
 
     @property
     def headline(self) -> str:

@@ -10,6 +10,7 @@ from dashpot.compare.comparison import Comparison as PlainComparison
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.plots import PLOTS, interactive, plot
+from dashpot.notebook.printed import Printed
 from dashpot.report.comparison import comparison_headline, comparison_page
 from dashpot.report.figures import rmse_bars
 from dashpot.report.grids import comparison_grid, explainable_value, floor_value, runs_grid
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure as PlotlyFigure
 
 
-class Comparison(PlainComparison):
+class Comparison(Printed, PlainComparison):
     """Several networks on the same runs. In a notebook it shows the table of their errors.
 
     Examples:
@@ -31,6 +32,11 @@ class Comparison(PlainComparison):
         >>> sorted(comparison.fits[1].errors.per_run) == sorted(run.name for run in comparison.setting.dataset.runs)
         True
     """
+
+    @property
+    def _line(self) -> str:
+        """The answer in a line."""
+        return self.headline
 
     @property
     def headline(self) -> str:

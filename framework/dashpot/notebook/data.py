@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping
 from functools import cached_property
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,10 +21,11 @@ from dashpot.notebook.cell import cell
 from dashpot.notebook.frames import Samples, samples_of_frame, samples_of_xarray
 from dashpot.notebook.listing import Listing, frame
 from dashpot.notebook.plots import plot
+from dashpot.notebook.printed import Printed
 from dashpot.notebook.promoted import promoted
 from dashpot.report.parts import Column, Grid, Notice
 from dashpot.text.digits import rig_unit
-from dashpot.text.problem import InputError
+from dashpot.text.problem import InputError, nearest
 from dashpot.text.quantity import pretty
 
 if TYPE_CHECKING:
@@ -35,7 +37,7 @@ if TYPE_CHECKING:
 PLOTS = ("stiffness", "loops")
 
 
-class Data(Dataset):
+class Data(Printed, Dataset):
     """Measured runs. In a notebook they show what was run and which channels were measured.
 
     Examples:
@@ -75,20 +77,22 @@ class Data(Dataset):
         sampling: float | str | None = None,
         sensors: Mapping[str, Mapping[str, float | str]] | None = None,
         accept: Iterable[str] | None = None,
+        **more: float | str,
     ) -> Data:
         """One run out of arrays (n,): time in s, displacement in m and force in N, compression positive; copied.
 
         ``units`` by channel, where they are others: ``{"displacement": "mm"}``. Without ``time`` the ``sampling`` rate
         in Hz is needed. ``channels`` are further ones by name, as ``temperature`` or ``force@wheel_left``. The other
         arguments are keys of a run in a dataset file; without ``kind`` it is found from the motion, as by
-        `dashpot import`. The samples go through what those of files go through: InputError for holes, clipping, wrong
+        `dashpot import`. Any ``more`` are settings, ``amplitude="1 mm"``; TypeError for one that is called nearly as an
+        argument is. The samples go through what those of files go through: InputError for holes, clipping, wrong
         units, a clock that runs backwards and the like. Several runs become one dataset with ``join``.
         """
         samples = {"time": time, "displacement": displacement, "force": force, **(channels or {})}
         keys = {
             "name": name,
             "kind": kind,
-            "settings": settings,
+            "settings": {**(settings or {}), **_refuse_slips(more)} or settings,
             "repeats": repeats,
             "held_out": held_out,
             "sampling": sampling,
@@ -180,6 +184,14 @@ class Data(Dataset):
         """The group of every run, which it shares with its repeats: for cross-validation by groups."""
         return [run.cluster for run in self.runs]
 
+    @property
+    def _line(self) -> str:
+        """The name, and how many runs."""
+        return f"{self.name}, {len(self.runs)} run{'s' * (len(self.runs) != 1)}"
+
+    def __str__(self) -> str:
+        return "\n".join([super().__str__(), *map(str, self.problems)])
+
     def table(self) -> Listing:
         """The runs: kind, settings, length, and which are repeats or held out."""
         columns = [
@@ -239,6 +251,15 @@ class Data(Dataset):
         problems = [Notice("warning", str(problem)) for problem in self.problems]
         runs: Grid = self.table()
         return cell(self.name, *problems, runs, self.channels())
+
+
+def _refuse_slips(more: Mapping[str, float | str]) -> Mapping[str, float | str]:
+    """Settings by name, none of which is an argument with a slip of the pen."""
+    *arguments, _ = signature(Data.from_arrays).parameters
+    for word in more:
+        if hint := nearest(word, arguments):
+            raise TypeError(f"from_arrays: there is no argument '{word}', {hint} A setting goes into settings={{...}}")
+    return more
 
 
 def _run_row(run: Run) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
 from dashpot.notebook.plots import PLOTS, interactive, plot
+from dashpot.notebook.printed import Printed
 from dashpot.notebook.promoted import promoted
 from dashpot.report.diagnosis import VERDICTS, diagnosis_page
 from dashpot.report.figures import gain_intervals
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure as PlotlyFigure
 
 
-class Diagnosis(PlainDiagnosis):
+class Diagnosis(Printed, PlainDiagnosis):
     """What a network gets wrong, and why. In a notebook it shows the answer, the causes, and what they change.
 
     Examples:
@@ -40,6 +41,11 @@ class Diagnosis(PlainDiagnosis):
         >>> [branch.element.word for branch in diagnosis.extended.leaves()][-1]
         'maxwell'
     """
+
+    @property
+    def _line(self) -> str:
+        """The answer in a line."""
+        return self.headline
 
     @property
     def headline(self) -> str:

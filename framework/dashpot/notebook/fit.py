@@ -17,6 +17,7 @@ from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
 from dashpot.notebook.plots import plot
+from dashpot.notebook.printed import Printed
 from dashpot.notebook.promoted import promoted
 from dashpot.report.grids import comparison_grid
 from dashpot.report.parameters import parameters_grid
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure as PlotlyFigure
 
 
-class Fit(FitResult):
+class Fit(Printed, FitResult):
     """A network with the parameters that were found. In a notebook it shows its errors and its numbers with intervals.
 
     Examples:
@@ -47,6 +48,14 @@ class Fit(FitResult):
         >>> fit.aic < fit.bic
         True
     """
+
+    @property
+    def _line(self) -> str:
+        """The errors in a line."""
+        return self.summary().partition("\n")[0]
+
+    def __str__(self) -> str:
+        return self.summary()
 
     def table(self) -> Listing:
         """Every parameter with its 95 % interval, the bounds of the search, and remarks."""

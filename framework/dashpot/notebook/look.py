@@ -12,6 +12,7 @@ from dashpot.compare.signals import signal_evidence
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.plots import interactive
+from dashpot.notebook.printed import Printed
 from dashpot.report.look import look_figures, look_grid, look_headline, look_page
 from dashpot.report.page import write_page
 from dashpot.text.problem import nearest
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from dashpot.report.evidence import Evidence
 
 
-class Look(PlainLook):
+class Look(Printed, PlainLook):
     """Measured runs before any model. In a notebook it shows the runs in numbers, with the work of their cycles.
 
     Examples:
@@ -33,6 +34,11 @@ class Look(PlainLook):
         >>> all(run["energy_per_cycle"] > 0.0 for run in seen.as_dict()["runs"])
         True
     """
+
+    @property
+    def _line(self) -> str:
+        """The answer in a line."""
+        return self.headline
 
     @property
     def headline(self) -> str:

@@ -13,6 +13,7 @@ from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.part import Part
+from dashpot.notebook.printed import Printed
 from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Notice, Picture
 from dashpot.report.schematic.svg import svg
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from dashpot.kernel.jit import Solver
 
 
-class Model(NetworkSpec):
+class Model(Printed, NetworkSpec):
     """A network. In a notebook it shows its schematic and its parameters.
 
     It can be changed: ``model["rubber"].stiffness = ...``, ``model.add(...)``, ``del model["rubber"]``. What is set is
@@ -83,6 +84,12 @@ class Model(NetworkSpec):
         from dashpot.kernel.stiffness import dynamic_stiffness
 
         return dynamic_stiffness(self, frequency, amplitude, preload, settings)
+
+    @property
+    def _line(self) -> str:
+        """The name, and the branches with their elements."""
+        branches = [f"{branch.name} ({branch.element.word})" for branch in self.leaves()]
+        return f"{self.name}: {', '.join(branches)}" if branches else self.name
 
     def table(self) -> Listing:
         """Every parameter with its meaning, unit, bounds and role."""

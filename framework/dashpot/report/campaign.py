@@ -42,9 +42,10 @@ def campaign_headline(content: Json) -> str:
     names = list(dict.fromkeys(one["specimen"] for one in content["named"]))
     count = len(content["specimens"])
     if not names:
-        told = f"None of {count} specimens is unlike the others"
+        told = f"No outlier among {count} specimens"
     else:
-        told = f"{len(names)} of {count} specimens stand{'s' * (len(names) == 1)} out: {', '.join(names)}"
+        words = "is an outlier" if len(names) == 1 else "are outliers"
+        told = f"{len(names)} of {count} specimens {words}: {', '.join(names)}"
     failed = len(content["failures"])
     return told + (f"; {failed} job{'s' * (failed > 1)} failed." if failed else ".")
 
@@ -139,7 +140,7 @@ def population_grid(content: Json) -> Grid:
 
 
 def named_grid(content: Json) -> Grid:
-    """The specimens that stand out, with their evidence."""
+    """The outliers, with their evidence."""
     columns = [
         Column("specimen", "specimen"),
         Column("kind", "likely"),
@@ -148,7 +149,7 @@ def named_grid(content: Json) -> Grid:
         Column("evidence", "evidence"),
     ]
     rows = [{**one, "model": one["model"] or None, "evidence": "; ".join(one["evidence"])} for one in content["named"]]
-    return Grid("Specimens that stand out", columns, rows, csv_name="named.csv")
+    return Grid("Outliers", columns, rows, csv_name="named.csv")
 
 
 def dependence_grid(population: Json) -> Grid:
@@ -183,7 +184,7 @@ def _result(content: Json) -> Iterator[Part]:
     yield KeyFigures(
         [
             ("specimens", str(len(content["specimens"])), "", ""),
-            ("stand out", str(len(named)), "", ""),
+            ("outliers", str(len(named)), "", ""),
             ("failed jobs", str(len(content["failures"])), "", ""),
         ]
     )

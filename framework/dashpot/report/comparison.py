@@ -136,7 +136,7 @@ def _key_figures(comparison: Json) -> KeyFigures:
     shown = []
     if best is not None:
         error = shown_with_unit(_error(best), "N")
-        shown.append((f"error of {best['name']}", *error, f"least RMSE on {RUNS[_judged_on(best)]}"))
+        shown.append((f"error of {best['name']}", *error, f"lowest RMSE on {RUNS[_judged_on(best)]}"))
     explainable = explainable_value(comparison)
     if explainable is not None:
         shown.append(("explainable", *shown_with_unit(explainable, "N"), "of a general model of the past motion"))

@@ -101,11 +101,12 @@ class Limit(TypedDict, total=False):
 
 
 class IdentifiedCurve(TypedDict):
-    """A table of a network in SI: knots `at` (k,) of the quantity `over`, `value` (k,), and its 95 % intervals from
-    `low` to `high` (k,), NaN where unknown."""
+    """A table of a network in SI: knots `at` (k,) of the quantity `over`, `value` (k,) of the one that is `told`, and
+    its 95 % intervals from `low` to `high` (k,), NaN where unknown."""
 
     over: str
     over_unit: str
+    told: str
     unit: str
     at: np.ndarray
     value: np.ndarray

@@ -45,7 +45,7 @@ def runs_grid(comparison: Json) -> Grid:
     part = [Column("part", "used for")] if held_out else []
     columns = [Column("run", "run"), *part] + [Column(f"model {i}", m["name"], "N", 3) for i, m in enumerate(models)]
     rows = [
-        {"run": run, "part": "judging only" if run in held_out else "training"}
+        {"run": run, "part": "hold-out" if run in held_out else "training"}
         | {f"model {i}": model.get("per_run", {}).get(run) for i, model in enumerate(models)}
         for run in runs
     ]

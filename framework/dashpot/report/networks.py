@@ -62,14 +62,15 @@ def _alone(network: NetworkSpec, member: Branch | Group, dataset: Dataset) -> di
 
 
 def _curve(curve: Characteristic) -> IdentifiedCurve:
-    over, over_unit = curve.curve.over
+    (over, over_unit), (told, unit) = curve.curve.over, curve.curve.value
     intervals = [value.interval or (np.nan, np.nan) for value in curve.values]
     low, high = np.array(intervals).T
     value = np.array([value.number for value in curve.values])
     return {
         "over": over,
         "over_unit": over_unit,
-        "unit": curve.curve.value[1],
+        "told": told,
+        "unit": unit,
         "at": np.array(curve.at),
         "value": value,
         "low": low,

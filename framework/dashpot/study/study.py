@@ -71,9 +71,8 @@ def preview_text(previews: Sequence[Preview]) -> str:
         head = f"{each.model}: {firm} of {count} parameters can be determined to better than 10 %"
         cost = f"at most {each.budget} parameter vectors" if each.budget else "nothing to search"
         blocks.append("\n".join([f"{head}; {cost}", *(f"  {text}" for text in each.known.sentences)]))
-    noise = (
-        f"At the start values, with noise of {previews[0].noise:.3g} N coloured as in the records." if previews else ""
-    )
+    noise = "At the start values, with coloured noise of {:.3g} N, its correlation estimated from the records."
+    noise = noise.format(previews[0].noise) if previews else ""
     return "\n".join([*blocks, noise])
 
 

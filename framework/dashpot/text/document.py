@@ -23,17 +23,20 @@ class Document:
     root: Node
 
     @classmethod
-    def read(cls, path: Path | str) -> Document:
-        """Read a file (UTF-8). Raises InputError when it is missing, too large or not sound YAML."""
+    def read(cls, path: Path | str, ours: bool = False) -> Document:
+        """Read a file (UTF-8), one of dashpot itself if it is ``ours``.
+
+        Raises InputError when it is missing, too large or not sound YAML.
+        """
         file = str(path)
-        return cls.parse(_decode(_read_bytes(Path(path), file), file), file)
+        return cls.parse(_decode(_read_bytes(Path(path), file), file), file, ours)
 
     @classmethod
-    def parse(cls, text: str, file: str | None = None) -> Document:
+    def parse(cls, text: str, file: str | None = None, ours: bool = False) -> Document:
         """Parse a text; `file` is the name used in messages. Raises InputError."""
         if len(text) > MAX_BYTES:
             raise _too_large(file)
-        return cls(text, file, compose(text, file))
+        return cls(text, file, compose(text, file, ours))
 
 
 def _read_bytes(path: Path, file: str) -> bytes:

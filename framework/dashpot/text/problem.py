@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
+
+# more runs than these with the same fault are counted, so that what else is wrong stays on the screen
+RUNS_ALIKE = 3
+_RUN = re.compile(r"run '[^']*' \([^)]*\)")
 
 
 @dataclass(frozen=True)
@@ -40,16 +45,30 @@ class Problem:
 
 
 class InputError(Exception):
-    """Everything that is wrong with an input, in the order of the text; one line for each problem."""
+    """Everything that is wrong with an input, in the order of the text; lines as of `problem_lines`."""
 
     def __init__(self, problems: Iterable[Problem]):
         self.problems = in_text_order(problems)
-        super().__init__("\n".join(str(problem) for problem in self.problems))
+        super().__init__("\n".join(problem_lines(self.problems)))
 
     @classmethod
     def at(cls, place: Place, message: str, hint: str = "") -> InputError:
         """The error with the single problem `message` at `place`."""
         return cls([Problem(place, message, hint)])
+
+
+def problem_lines(problems: Iterable[Problem]) -> Iterator[str]:
+    """A line for each problem; where many runs have the same one, the first of them and how many more there are."""
+    told = list(problems)
+    kinds = [(_RUN.sub("", each.message), each.hint, each.severity) for each in told]
+    counts, seen = Counter(kinds), Counter[tuple[str, str, str]]()
+    for problem, kind in zip(told, kinds, strict=True):
+        seen[kind] += 1
+        more = counts[kind] - RUNS_ALIKE if _RUN.match(problem.message) else 0
+        if more < 2 or seen[kind] <= RUNS_ALIKE:
+            yield str(problem)
+        elif seen[kind] == RUNS_ALIKE + 1:
+            yield f"... and {more} more runs, of which the same is true"
 
 
 def in_text_order(problems: Iterable[Problem]) -> tuple[Problem, ...]:

@@ -16,6 +16,7 @@ from dashpot.contract.registry import Registry
 from dashpot.model.identified import Identified
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.document import Document
+from dashpot.text.problem import Place, Problem
 
 
 class Method:
@@ -135,7 +136,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
 
         return done
 
-    dataset = SimpleNamespace(problems=("a.csv: set aside",), runs=())
+    dataset = SimpleNamespace(problems=(Problem(Place("a.csv"), "set aside"),), runs=())
 
     def read(name, elements):
         return SimpleNamespace(name=name, identified=Identified(), slots=tuple)

@@ -72,6 +72,12 @@ def test_measured_files_stay_as_they_are(call, folder):
     assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.glob("*.csv")} == before
 
 
+def test_the_next_command_names_the_dataset_as_seen_from_here(call, folder, monkeypatch):
+    monkeypatch.chdir(folder.parent)
+    _, said, _ = call("import", folder.name)
+    assert f"Next: dashpot check {folder.name}/dataset.yaml\n" in said
+
+
 def test_a_dataset_elsewhere_leads_to_its_files(call, folder, tmp_path):
     out = tmp_path / "elsewhere" / "my.yaml"
     code, said, _ = call("import", folder / "a1.csv", "-o", out)

@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dashpot.text.problem import Place, Problem
+
 NAMES = ("slow", "odd[1]", "file")
 FORCES = {"slow": np.array([0.1, 1 / 3]), "odd[1]": np.array([-2.5, 1e-300]), "file": np.array([0.0, -0.0])}
 CHANNELS = {"displacement": np.array([0.0, 1e-3]), "force": np.zeros(2)}
@@ -16,7 +18,7 @@ CHANNELS = {"displacement": np.array([0.0, 1e-3]), "force": np.zeros(2)}
 class Stream:
     """Three runs."""
 
-    problems = ("run 'four' is set aside",)
+    problems = (Problem(Place(), "run 'four' is set aside"),)
     names = NAMES
     conditions = dict.fromkeys(NAMES, {})
 

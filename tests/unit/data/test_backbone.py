@@ -160,7 +160,7 @@ def test_one_direction_alone_is_flagged():
 
 def test_a_loop_that_gives_energy_has_no_friction_to_start_from():
     displacement = path(0.0, 0.03, 0.0)
-    with pytest.raises(ValueError, match="expected a loop that dissipates, got a half width of -.* wrong sign"):
+    with pytest.raises(ValueError, match="expected a loop that dissipates, got a friction force of -.* wrong sign"):
         friction_start(displacement, spring(displacement) - sliders(displacement))
 
 

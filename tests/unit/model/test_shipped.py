@@ -8,6 +8,7 @@ from dashpot import load_registry
 from dashpot.model.reading import parse_network, read_network
 from dashpot.model.shipped import find_network, find_used_network, shipped_networks, spec_folder
 from dashpot.model.topology import topology_of
+from dashpot.text.document import Document, Mapping, Node, Sequence
 from dashpot.text.problem import InputError
 from dashpot_specimens.car_laws import Car
 
@@ -136,3 +137,26 @@ def test_the_known_curve_is_that_of_the_virtual_shock_absorber():
     for velocity, value in zip(curve.at, curve.values, strict=True):
         slope, knee = Car().rebound if velocity < 0.0 else Car().compression
         assert value.number == pytest.approx(slope * velocity / (1.0 + abs(velocity) / knee), abs=0.6)
+
+
+def nodes(node: Node) -> list[tuple[object, ...]]:
+    """Everything below a node with its place, in the order of the text."""
+    own = (type(node), node.place, node.start, node.end, getattr(node, "value", None))
+    inner = [*getattr(node, "items", ())] if isinstance(node, Sequence) else []
+    if isinstance(node, Mapping):
+        inner = [each for name, entry in node.entries.items() for each in (node.keys[name], entry)]
+    return [own, *(each for below in inner for each in nodes(below))]
+
+
+@pytest.mark.parametrize("path", sorted(spec_folder().rglob("*.yaml")), ids=lambda path: path.stem)
+def test_a_shipped_file_is_read_alike_by_both_parsers_of_yaml(path):
+    quick, careful = (nodes(Document.read(path, ours=ours).root) for ours in (True, False))
+    assert len(quick) > 10 and quick == careful
+
+
+def test_what_yaml_forbids_is_refused_in_files_of_users(tmp_path):
+    path = tmp_path / "tabs.yaml"
+    path.write_text("format: dashpot-network/1\nname:\tmine\nbranches: {a: {element: ,spring}\t}\n")
+    Document.read(path, ours=True)
+    with pytest.raises(InputError, match="tabs"):
+        Document.read(path)

@@ -213,3 +213,16 @@ def test_a_registry_of_ones_own_is_used():
     own = SimpleNamespace(elements={})
     with pytest.raises(InputError, match="there is no element 'spring'"):
         dp.declare(MODEL, registry=own)
+
+
+def test_a_result_is_one_line_by_itself_and_its_answer_where_it_is_printed(data, fit):
+    comparison = dp.compare(["spring", fit.model], data)
+    model, seen = dp.declare(MODEL), dp.look(data)
+    for result in (data, model, fit, comparison, seen):
+        assert repr(result).startswith(f"<{type(result).__name__}: ") and "\n" not in repr(result)
+        assert "array(" not in str(result) and len(str(result).splitlines()) < 40
+    assert repr(data) == f"<Data: {data.name}, {len(data.runs)} runs>"
+    assert repr(model) == "<Model: mount: rubber (spring), damping (damper)>"
+    assert str(fit) == fit.summary()
+    assert str(comparison).rstrip().endswith(comparison.headline) and "RMSE train (N)" in str(comparison)
+    assert "bounds" not in repr(model) and "150" in str(model)

@@ -174,3 +174,13 @@ def test_runs_in_memory_are_fitted_compared_and_simulated():
     assert found.model["loss"].damping == pytest.approx(500.0, rel=1e-4)
     assert dp.simulate(found.model, data)["f8"] == pytest.approx(data.run("f8").force, abs=0.1)
     assert len(dp.compare([model], data).fits) == 1
+
+
+def test_settings_are_taken_as_arguments_too():
+    run = sine(settings={"preload": "2 mm"}, amplitude="1 mm", pressure="2 bar").runs[0]
+    assert run.settings == {"preload": 2e-3, "amplitude": 1e-3, "pressure": 2e5}
+
+
+def test_an_argument_with_a_slip_does_not_become_a_setting():
+    with pytest.raises(TypeError, match="no argument 'setings', did you mean 'settings'"):
+        sine(setings={"amplitude": "1 mm"})

@@ -101,15 +101,15 @@ def content(**more) -> dict:
 
 
 def test_the_headline_counts_and_names():
-    assert campaign_headline(content()) == "1 of 2 specimens stands out: a; 1 job failed."
-    assert campaign_headline(content(named=[], failures=[])) == "None of 2 specimens is unlike the others."
+    assert campaign_headline(content()) == "1 of 2 specimens is an outlier: a; 1 job failed."
+    assert campaign_headline(content(named=[], failures=[])) == "No outlier among 2 specimens."
 
 
 def test_the_page_holds_all_parts_and_its_links():
     page = campaign_page(content())
     titles = [part.title for section in page.sections for part in section.parts if hasattr(part, "title")]
     assert {
-        "Specimens that stand out",
+        "Outliers",
         "The population",
         "Specimens",
         "k.stiffness",

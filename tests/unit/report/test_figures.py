@@ -167,6 +167,7 @@ def test_identified_curves_are_drawn_in_rig_units_with_their_bands():
     curve = {
         "over": "deflection",
         "over_unit": "m",
+        "told": "slope",
         "unit": "N/m",
         "at": np.array([0.0, 2e-3, 4e-3]),
         "value": np.array([1e5, 2e5, 3e5]),
@@ -179,7 +180,7 @@ def test_identified_curves_are_drawn_in_rig_units_with_their_bands():
     assert list(band.x) == [0.0, 4.0, 4.0, 0.0] and list(band.y) == [110.0, 310.0, 290.0, 90.0]
     assert list(factor.y) == [1e5, 2e5, 3e5]
     titles = [figure.plot["layout"][key]["title"]["text"] for key in ("xaxis", "yaxis", "yaxis2")]
-    assert titles == ["deflection (mm)", "(N/mm)", "factor"]
+    assert titles == ["deflection (mm)", "slope (N/mm)", "factor"]
 
 
 def test_dynamic_stiffness_is_drawn_in_newtons_a_millimetre_and_degrees():

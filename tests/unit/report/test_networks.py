@@ -7,6 +7,7 @@ import pytest
 
 import dashpot as dp
 from dashpot.report.networks import branch_forces, identified_curves
+from dashpot.report.schematic.wording import branch_lines
 
 TIME = np.arange(0.0, 1.0, 1e-3)
 X, V = 1e-3 * np.sin(20.0 * TIME), 2e-2 * np.cos(20.0 * TIME)
@@ -43,6 +44,18 @@ def test_only_tables_that_were_searched_are_curves():
         },
     )
     [(path, curve)] = identified_curves(model).items()
-    assert path == "found.stiffness" and (curve["over"], curve["over_unit"], curve["unit"]) == ("deflection", "m", "N")
+    assert path == "found.stiffness" and [curve[key] for key in ("over", "over_unit", "told", "unit")] == [
+        "deflection",
+        "m",
+        "force",
+        "N",
+    ]
     assert curve["at"].tolist() == [0.0, 5e-3] and curve["value"].tolist() == [0.0, 1000.0]
     assert np.isnan(curve["low"][0]) and (curve["low"][1], curve["high"][1]) == (900.0, 1100.0)
+
+
+def test_the_ends_of_a_long_table_stand_in_one_unit_beside_its_symbol():
+    table = {"from": "quasi_static", "deflection": [f"{x} mm" for x in (0.006, 1, 2, 3, 4, 7.994)]}
+    table |= {"force": [f"{x} N" for x in (0, 300, 600, 900, 1200, 2400)]}
+    model = dp.Network("long", {"rubber": {"element": "spring", "stiffness": table}})
+    assert branch_lines(model.leaves()[0])[-1] == "x: 0.006 mm … 7.994 mm"

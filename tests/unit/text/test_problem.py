@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dashpot.text.problem import InputError, Place, Problem, nearest, of_family
+from dashpot.text.problem import InputError, Place, Problem, nearest, of_family, problem_lines
 
 
 def test_a_place_reads_as_file_line_column():
@@ -51,3 +51,15 @@ def test_the_nearest_word_is_found_whatever_its_case():
 )
 def test_words_of_one_family_are_offered_together(word, found):
     assert of_family(word, ["axle_1", "axle_2", "tire_2", "big_tire_2", "spring"]) == found
+
+
+def test_runs_with_the_same_fault_are_counted_and_other_mistakes_all_stand():
+    empty = "is set aside: it is empty"
+    runs = [Problem(Place("d.yaml", n), f"run 'r{n}' (r{n}.csv) {empty}", "remove it") for n in range(9)]
+    others = [Problem(Place("d.yaml", 20 + n), f"'k{n}': expected a number", "write one") for n in range(9)]
+    told = list(problem_lines([*runs, *others]))
+    assert told[:3] == [str(each) for each in runs[:3]]
+    assert told[3] == "... and 6 more runs, of which the same is true"
+    assert told[4:] == [str(each) for each in others]
+    assert list(problem_lines(runs[:4])) == [str(each) for each in runs[:4]]
+    assert str(InputError(runs)).count("\n") == 3 and len(InputError(runs).problems) == 9

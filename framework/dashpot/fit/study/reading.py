@@ -10,11 +10,11 @@ from typing import Any
 from dashpot.contract.bench import option_text
 from dashpot.contract.chain import make_optimizer, read_optimizer_options
 from dashpot.contract.registry import Registry
-from dashpot.fit.api import OWN_METHOD
+from dashpot.fit.refine import OWN_METHOD
 from dashpot.fit.study.declaration import DataSource, ModelPlan, SearchStage, Stage, StudySpec, TakeStage
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import read_network
-from dashpot.model.shipped import SUFFIXES, spec_folder
+from dashpot.model.shipped import SUFFIXES, read_specification, spec_folder
 from dashpot.text.document import Document
 from dashpot.text.form import Form, read_choice, read_items, read_number, read_text
 from dashpot.text.node import Node, Scalar
@@ -51,7 +51,7 @@ def read_study(path: Path, registry: Registry) -> StudySpec:
         >>> study.name, len(study.models)
         ('ladder', 1)
     """
-    return parse_study(Document.read(path), path.parent, registry)
+    return parse_study(read_specification(path), path.parent, registry)
 
 
 def parse_study(document: Document, folder: Path, registry: Registry) -> StudySpec:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 from dashpot.contract.optimizer import Optimizer
 from dashpot.contract.option_schema import with_options
-from dashpot.fit.api import OWN_METHOD
+from dashpot.fit.refine import OWN_METHOD
 from dashpot.fit.study.reading import BUDGET, FORMAT, STAGE_RUNS, TAKEN
 from dashpot.text import schema as s
 from dashpot.text.schema import Schema

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
-from dashpot.fit.api import OWN_METHOD
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_beside_priors
-from dashpot.fit.refine import Loss, Outcome, Refined
+from dashpot.fit.refine import OWN_METHOD, Loss, Outcome, Refined
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
 from dashpot.fit.starts import refine_from_starts

@@ -31,7 +31,7 @@ def identified_curves(curves: Mapping[str, IdentifiedCurve]) -> Figure:
         row, column = divmod(index, ACROSS)
         across = share(column, min(ACROSS, len(curves)), GAP)
         top, bottom = (1.0 - edge for edge in share(row, down, HEAD / height))
-        axes |= _axes(index, curve["over"], units, across, (bottom, top))
+        axes |= _axes(index, (curve["over"], curve["told"]), units, across, (bottom, top))
         titles.append(
             {
                 "text": plain(path),
@@ -87,10 +87,10 @@ def _traces(
 
 
 def _axes(
-    index: int, over: str, units: Sequence[str], across: tuple[float, float], down: tuple[float, float]
+    index: int, told: tuple[str, str], units: Sequence[str], across: tuple[float, float], down: tuple[float, float]
 ) -> dict[str, Any]:
     x, y = axis_number("x", index), axis_number("y", index)
-    titles = (f"{over} ({units[0]})", f"({units[1]})" if units[1] else "factor")
+    titles = (f"{told[0]} ({units[0]})", f"{told[1]} ({units[1]})" if units[1] else "factor")
     return {
         axis_number("x", index, "axis"): axis(titles[0], domain=list(across), anchor=y),
         axis_number("y", index, "axis"): axis(titles[1], domain=list(down), anchor=x),

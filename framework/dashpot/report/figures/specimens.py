@@ -11,7 +11,7 @@ from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, layout, plain
 from dashpot.text.digits import rig_unit
 
-SOUND, NAMED = "belongs to the others", "stands out"
+SOUND, NAMED = "population", "outlier"
 TWO = 2.0  # standard deviations between specimens, about 95 % of them
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dashpot.model.element import Curve
 from dashpot.model.network import Branch, Characteristic, Joint, NetworkSpec, Value
 from dashpot.text.digits import beside
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty, pretty_all
 
 GREEK = {
     name: chr(sign)
@@ -50,9 +50,13 @@ def equation(sign: str, value: Value) -> str:
 
 def quantity(number: float, unit: str) -> str:
     """A number with its unit as it is typeset."""
-    text = pretty(number, unit)
-    for plain, typeset in TYPESET.items():
-        text = text.replace(plain, typeset)
+    return typeset(pretty(number, unit))
+
+
+def typeset(text: str) -> str:
+    """A quantity with its unit as a formula has it."""
+    for plain, sign in TYPESET.items():
+        text = text.replace(plain, sign)
     return text
 
 
@@ -94,7 +98,14 @@ def _table_lines(sign: str, argument: str, curve: Characteristic, declared: Curv
             yield equation(f"{sign}({_place(at, curve, declared)})", value)
     else:
         yield f"{sign}({argument}): {len(curve.values)} knots"
-        yield f"{argument}: {_place(curve.at[0], curve, declared)} … {_place(curve.at[-1], curve, declared)}"
+        yield f"{argument}: {_range(curve, declared)}"
+
+
+def _range(curve: Characteristic, declared: Curve) -> str:
+    """The first and the last knot in one unit."""
+    widest = max(map(abs, curve.at))
+    ends = [beside(at, widest) for at in (curve.at[0], curve.at[-1])]
+    return " … ".join(map(typeset, pretty_all(ends, declared.over[1])))
 
 
 def _place(at: float, curve: Characteristic, declared: Curve) -> str:
