@@ -35,7 +35,7 @@ RANGES = {
 
 @dataclass(frozen=True)
 class Kind:
-    """An element: its number in ``truth``, what it is written as, its numbers in that order; whether it always holds."""
+    """An element: its number in ``truth``, what it is written as, its numbers in order; whether it always holds."""
 
     number: int
     text: str
@@ -139,8 +139,8 @@ class Case:
 
 @dataclass(frozen=True)
 class Known:
-    """A case with its true force (samples,) in N; root mean square and peak in N by which two tolerances differ; how many
-    draws were set aside before it."""
+    """A case with its true force (samples,) in N; the root mean square and the peak in N by which two tolerances
+    differ; how many draws were set aside before it."""
 
     case: Case
     force: np.ndarray
@@ -229,10 +229,8 @@ def _motion(rng: np.random.Generator, kind: str, rate: float) -> Motion:
     if kind in ("cosines", "small"):
         span = SPAN if kind == "cosines" else 0.1 * SPAN
         count = 6
-        waves = np.stack(
-            [rng.standard_normal(count), 2.0 * np.pi * rng.uniform(3.0, 20.0, count), rng.uniform(-np.pi, np.pi, count)],
-            axis=1,
-        )
+        heights, omegas = rng.standard_normal(count), 2.0 * np.pi * rng.uniform(3.0, 20.0, count)
+        waves = np.stack((heights, omegas, rng.uniform(-np.pi, np.pi, count)), axis=1)
         waves[:, 0] *= span / np.abs(Motion(waves, steps, sweep).sampled(np.linspace(0.0, SECONDS, 2000))[0]).max()
     elif kind == "sweep":
         sweep = np.array([SPAN, 1.0, 19.0 / SECONDS])

@@ -253,8 +253,8 @@ def content_of(
     errors: tuple[float | None, float | None],
     beyond: Mapping[str, list[str]],
 ) -> dict[str, Any]:
-    """What ``--json`` tells: the network, its runs and where they are, bounds in N of the root mean square and of the peak
-    of the numerical ``errors``, and the runs that go ``beyond`` the range of identification.
+    """What ``--json`` tells: the network, its runs and where they are, bounds in N of the root mean square and of the
+    peak of the numerical ``errors``, and the runs that go ``beyond`` the range of identification.
     """
     return {
         "format": "dashpot-simulation/1",

@@ -1,8 +1,8 @@
 """How many time steps the runs of a fit need, so that its numerical error is within the tolerance of a simulation.
 
-It is measured wherever a fit is linearised, by the lane it is linearised at; all lanes of a block take the same steps, so
-that their differences are derivatives. Steps that were needed once stay. A search begins with what the numbers of the file
-need for a tenfold tolerance: it compares lanes that differ by more.
+It is measured wherever a fit is linearised, by the lane it is linearised at; all lanes of a block take the same steps,
+so that their differences are derivatives. Steps that were needed once stay. A search begins with what the numbers of
+the file need for a tenfold tolerance: it compares lanes that differ by more.
 """
 
 from __future__ import annotations

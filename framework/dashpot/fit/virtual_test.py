@@ -26,10 +26,8 @@ DYNAMIC = ("sweep", "harmonic", "random", "transient")
 LETTERS = "bcdefghijklmnopqrstuvwxyz"
 
 
-def bench_as_driven(
-    spec: NetworkSpec, bench: Bench, refine: int | None = None, tolerance: float = TOLERANCE
-) -> Bench:
-    """The bench with its runs as the rig can drive them on the network: a run that is not as planned has a note of it.
+def bench_as_driven(spec: NetworkSpec, bench: Bench, refine: int | None = None, tolerance: float = TOLERANCE) -> Bench:
+    """The bench with its runs as the rig can drive them on the network; one that is not as planned has a note of it.
 
     ``refine`` and ``tolerance`` as in ``virtual_test``.
 
@@ -54,8 +52,8 @@ def virtual_test(
 ) -> list[Run]:
     """Every run of the bench as the rig can drive it, measured on the network; the same seed gives the same noise.
 
-    Where the motion of a node is unknown, the numerical error of each force is at most the ``tolerance``, a share of its
-    root mean square; or, by hand, ``refine`` times as many steps as usual lie between two samples.
+    Where the motion of a node is unknown, the numerical error of each force is at most the ``tolerance``, a share of
+    its root mean square; or, by hand, ``refine`` times as many steps as usual lie between two samples.
     ``progress`` hears of each planned run, by name and with the share of those before it.
 
     InputError for a network that cannot be simulated, or that has not the nodes that the bench drives.

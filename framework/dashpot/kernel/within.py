@@ -1,8 +1,8 @@
 """Solutions whose numerical error is within a tolerance: as many steps as that takes.
 
-A solution is held against that with twice as many steps. Where forces are smooth the second one errs much less, and the
-difference is the error of the first; where they bend sharply within a step (a stop, a gap, a reversal) both may err by as
-much as the step is long, and the difference is still a bound for the second. No order of the steps is relied on.
+A solution is held against that with twice as many steps. Where forces are smooth the second one errs much less, and
+the difference is the error of the first; where they bend sharply within a step (a stop, a gap, a reversal) both may err
+by as much as the step is long, and the difference is still a bound for the second. No order of the steps is relied on.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def solve_within(
     tolerance: float = TOLERANCE,
     finest: int = FINEST,
 ) -> Bounded:
-    """One lane ``values`` (slots,), by default the numbers of the file, with an error of at most ``tolerance`` times the
-    root mean square of each force, or with ``finest`` times as many steps as usual, a power of two.
+    """One lane ``values`` (slots,), by default the numbers of the file, with an error of at most ``tolerance`` times
+    the root mean square of each force, or with ``finest`` times as many steps as usual, a power of two.
     """
     refine, before = 1, network.solve(network.prepare(excitation), values)
     while True:
@@ -62,8 +62,8 @@ def solve_at(network: CompiledSystem, excitation: Excitation, refine: int) -> Bo
 
 
 def steps_within(network: CompiledSystem, excitation: Excitation, values: Array, tolerance: float, finest: int) -> int:
-    """How many times as many steps as usual, ``finest`` at most, keep the error of a lane (slots,) within the tolerance; 1
-    for a lane that cannot be solved, which no number of steps helps.
+    """How many times as many steps as usual, ``finest`` at most, keep the error of a lane (slots,) within the
+    tolerance; 1 for a lane that cannot be solved, which no number of steps helps.
     """
     found = solve_within(network, excitation, values, tolerance, 2 * finest)
     return found.refine // 2 if np.isfinite(found.error).all() else 1

@@ -12,6 +12,8 @@ import math
 from numba import njit
 
 MEMORY = 8
+# called by compiled functions only
+inner = njit(cache=True, no_cpython_wrapper=True, no_cfunc_wrapper=True, error_model="numpy")
 (
     SPRING,
     DAMPER,
@@ -29,10 +31,11 @@ MEMORY = 8
     ASYMMETRIC,
     STRIBECK,
 ) = range(15)
+STRETCHED = (BACKLASH, IWAN, LOOSE)  # whose memory is a way, not a force
 SHARPNESS = 10.0  # of a Prandtl element: slider over spring
 
 
-@njit(cache=True)
+@inner
 def branch_force(kind, p, memory, old, x, v, h, new):
     """Force, slope and branch; ``new`` becomes the memory. ``p`` are the numbers, ``old`` and ``x`` the deflections."""
     way = x - old
@@ -94,7 +97,7 @@ def branch_force(kind, p, memory, old, x, v, h, new):
     return force, slope, code
 
 
-@njit(cache=True)
+@inner
 def _prandtl(p, memory, way, side, turned, h, new):
     """u = 1 - F/limit: u1 = u0 - a s u1/(1 + s u1), a quadratic equation."""
     s, before = SHARPNESS, max(1.0 - side * memory[0] / p[1], 0.0)
@@ -106,7 +109,7 @@ def _prandtl(p, memory, way, side, turned, h, new):
     return new[0], p[0] * h * s * left / (2.0 * root), turned
 
 
-@njit(cache=True)
+@inner
 def _bouc_wen(p, memory, way, side, turned, h, new):
     """y = F/limit along the motion: y1 = y0 + a (1 - |y1|^n (shape sgn y1 + 1 - shape)), which only rises with a."""
     before, a = side * memory[0] / p[1], p[0] * abs(way) / p[1]
@@ -128,7 +131,7 @@ def _bouc_wen(p, memory, way, side, turned, h, new):
     return new[0], p[0] * h * (1.0 - share * abs(y) ** p[3]) / slope, turned + (2 if y > 0.0 else 0)
 
 
-@njit(cache=True)
+@inner
 def _stribeck(p, memory, v, way, side, turned, h, new):
     """A Dahl slider whose limit is that of the speed at the end."""
     above = (p[2] - p[1]) * math.exp(-((v / p[3]) ** 2))

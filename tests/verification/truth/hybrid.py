@@ -1,6 +1,6 @@
 """Forces of any network of nodes and elements: backward Euler, extrapolated, with steps that end where a law bends.
 
-An integrator of its own. A step H is made with 1, 2, ... 5 equal backward Euler steps; Aitken and Neville's scheme takes
+An integrator of its own. A step is made with 1, 2, ... 5 equal backward Euler steps; Aitken and Neville's scheme takes
 their errors away in turn (Deuflhard, SIAM Review 27 (1985) 505), and the last two columns tell the error that is left.
 A law that bends within a step (a reversal, a stop, a gap, a slider that gives way) shows by its branch, which is not
 the same in all of these small steps. There no order is relied on: the step has to be so short that one and two steps
@@ -16,14 +16,15 @@ import math
 
 import numpy as np
 from numba import njit
-from verification.truth.branches import MEMORY, branch_force
+from verification.truth.branches import MEMORY, STRETCHED, branch_force, inner
 
 ORDERS, SHORTEST, MOST = 5, 1e-9, 40_000  # orders; s; steps in a record
 ROUNDS, HALVINGS = 100, 80
+FAST = 2.0 * math.pi * 20.0  # 1/s, of the fastest motions
 BALANCED, BALANCED_SHARE, ROUNDING = 1e-10, 1e-13, 1e-15  # N, of all forces, of a velocity
 
 
-@njit(cache=True)
+@inner
 def place_and_speed(t, waves, steps, sweep):
     """Of the driven node: cosines (mean shift, amplitude, omega), smooth steps (height, time, width), one sweep."""
     x, v = 0.0, 0.0
@@ -40,11 +41,14 @@ def place_and_speed(t, waves, steps, sweep):
     return x, v
 
 
-@njit(cache=True)
+@inner
 def _balance(v, h, place, speed, x, v_old, mass, kinds, ends, numbers, memory, missing, slopes, new, branch):
     """What every node lacks, the slopes of that, the force on the driven node and the size of all forces."""
-    missing[:], slopes[:, :], driving, size = 0.0, 0.0, 0.0, 0.0
+    driving, size = 0.0, 0.0
     for i in range(x.size):
+        missing[i] = 0.0
+        for j in range(x.size):
+            slopes[i, j] = 0.0
         inertia = mass[i] * (v[i] - v_old[i]) / h
         missing[i] -= inertia
         slopes[i, i] += mass[i] / h
@@ -72,21 +76,60 @@ def _balance(v, h, place, speed, x, v_old, mass, kinds, ends, numbers, memory, m
     return driving, size
 
 
-@njit(cache=True)
+@inner
 def _balanced(missing, slopes, v, speed, size):
     """Whether nothing is missing but what rounding of the forces and of the velocities makes."""
-    fastest = max(abs(speed), np.max(np.abs(v)))
+    fastest = abs(speed)
+    for i in range(v.size):
+        fastest = max(fastest, abs(v[i]))
     for i in range(v.size):
         if abs(missing[i]) > BALANCED + BALANCED_SHARE * size + ROUNDING * slopes[i, i] * fastest:
             return False
     return True
 
 
-@njit(cache=True)
+@inner
+def _along(way, missing):
+    total = 0.0
+    for i in range(way.size):
+        total += way[i] * missing[i]
+    return total
+
+
+@inner
+def _solve(slopes, missing, way):
+    """Gauss's elimination of a symmetric positive matrix, which it uses up."""
+    n = way.size
+    for i in range(n):
+        way[i] = missing[i]
+    for i in range(n):
+        for j in range(i + 1, n):
+            share = slopes[j, i] / slopes[i, i]
+            way[j] -= share * way[i]
+            for k in range(i, n):
+                slopes[j, k] -= share * slopes[i, k]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            way[i] -= slopes[i, k] * way[k]
+        way[i] /= slopes[i, i]
+
+
+@inner
+def _gap(one, other, scale):
+    """The largest difference of two rows, as a share of their scale."""
+    largest = 0.0
+    for i in range(one.size):
+        # what is not a number is as far as can be
+        share = abs(one[i] - other[i]) / scale[i]
+        largest = share if not share <= largest else largest
+    return largest
+
+
+@inner
 def _euler(v, h, place, speed, x, v_old, mass, kinds, ends, numbers, memory, new, branch):
     """One backward Euler step from ``v`` as a guess, which becomes the answer; the force, NaN where none is found."""
     n = x.size
-    missing, slopes, trial = np.zeros(n), np.zeros((n, n)), v.copy()
+    missing, slopes, trial, way = np.zeros(n), np.zeros((n, n)), np.zeros(n), np.zeros(n)
     arguments = (x, v_old, mass, kinds, ends, numbers, memory, missing, slopes, new, branch)
     driving, size = _balance(v, h, place, speed, *arguments)
     for _ in range(ROUNDS):
@@ -94,14 +137,14 @@ def _euler(v, h, place, speed, x, v_old, mass, kinds, ends, numbers, memory, new
             return driving
         for i in range(n):
             slopes[i, i] += 1e-12 + 1e-14 * slopes[i, i]
-        way = np.linalg.solve(slopes, missing)
-        first = np.dot(way, missing)
+        _solve(slopes, missing, way)
+        first = _along(way, missing)
         low, high, share = 0.0, np.inf, 1.0
         for _ in range(HALVINGS):
             for i in range(n):
                 trial[i] = v[i] + share * way[i]
             driving, size = _balance(trial, h, place, speed, *arguments)
-            pull = np.dot(way, missing)
+            pull = _along(way, missing)
             if abs(pull) <= 0.3 * first or _balanced(missing, slopes, trial, speed, size):
                 break
             if pull > 0.0:
@@ -111,13 +154,14 @@ def _euler(v, h, place, speed, x, v_old, mass, kinds, ends, numbers, memory, new
             share = 4.0 * share if high == np.inf else 0.5 * (low + high)
             if high - low < 1e-16 * high:
                 break
-        v[:] = trial
+        for i in range(n):
+            v[i] = trial[i]
     return np.nan
 
 
-@njit(cache=True)
+@inner
 def _course(parts, t, step, y, mass, kinds, ends, numbers, motion, out, first_branch, branch):
-    """``parts`` small steps over one step: fills ``out``; 0: no answer, 1: the branches changed, 2: they are the same."""
+    """``parts`` small steps over one step fill ``out``; 0: no answer, 1: the branches changed, 2: they are the same."""
     n, m = mass.size, kinds.size
     x, v = y[:n].copy(), y[n : 2 * n].copy()
     memory = y[2 * n : 2 * n + MEMORY * m].reshape(m, MEMORY).copy()
@@ -142,7 +186,7 @@ def _course(parts, t, step, y, mass, kinds, ends, numbers, motion, out, first_br
     return same
 
 
-@njit(cache=True)
+@inner
 def _extrapolated(t, step, y, mass, kinds, ends, numbers, motion, scale, answer):
     """A whole step into ``answer``, and its error as a share of the ``scale``; infinity where there is none."""
     table, row, error = np.zeros((ORDERS, y.size)), np.zeros(y.size), np.inf
@@ -153,69 +197,26 @@ def _extrapolated(t, step, y, mass, kinds, ends, numbers, motion, scale, answer)
         if same == 0:
             return np.inf
         smooth = smooth and same == 2
-        below = table[0].copy()
-        table[0] = row
+        below, corner = table[0].copy(), np.empty(y.size)
+        for i in range(y.size):
+            table[0, i] = row[i]
         if j == 1:
-            error = np.max(np.abs(row - below) / scale)
+            error = _gap(row, below, scale)
         if j > 0 and not smooth:
-            answer[:] = row
+            for i in range(y.size):
+                answer[i] = row[i]
             return error
         for k in range(1, j + 1):
-            corner = table[k].copy()
-            table[k] = table[k - 1] + (table[k - 1] - below) / ((j + 1) / (j + 1 - k) - 1.0)
-            below = corner
-    answer[:] = table[ORDERS - 1]
-    return np.max(np.abs(table[ORDERS - 1] - table[ORDERS - 2]) / scale)
+            for i in range(y.size):
+                corner[i] = table[k, i]
+                table[k, i] = table[k - 1, i] + (table[k - 1, i] - below[i]) / ((j + 1) / (j + 1 - k) - 1.0)
+                below[i] = corner[i]
+    for i in range(y.size):
+        answer[i] = table[ORDERS - 1, i]
+    return _gap(table[ORDERS - 1], table[ORDERS - 2], scale)
 
 
-@njit(cache=True)
-def hybrid_force(samples, dt, mass, kinds, ends, numbers, motion, span, tolerance):
-    """The force on the driven node at every sample (samples,), from rest with all nodes at zero; NaN where none is
-    found. ``mass`` (nodes,) in kg, ``kinds`` (edges,) as in ``branches``, ``ends`` (edges, 2) node numbers, ``numbers``
-    (edges, ...) of the laws, ``motion`` as ``place_and_speed`` takes it; the error of a step is at most ``tolerance``
-    of ``span`` in m, of the speed that it makes at 20 Hz, and of the largest force so far.
-    """
-    n, m = mass.size, kinds.size
-    size = 2 * n + MEMORY * m + 1
-    y, answer, scale = np.zeros(size), np.zeros(size), np.ones(size)
-    scale[:n], scale[n : 2 * n] = span, 2.0 * math.pi * 20.0 * span
-    forces, step, largest = np.full(samples, np.nan), 1e-5 * dt, 1.0
-    for i in range(n):
-        if mass[i] == 0.0:
-            scale[n + i] = np.inf  # a velocity without memory
-    for e in range(m):
-        for k in range(MEMORY):
-            if kinds[e] in (7, 10, 12):
-                scale[2 * n + MEMORY * e + k] = span
-    forces[0], t, made = _euler_start(y, mass, kinds, ends, numbers, motion), 0.0, 0
-    for sample in range(1, samples):
-        goal = sample * dt
-        while t < goal:
-            left = goal - t
-            ends_here = step >= 0.999 * left
-            trial = left if ends_here else step
-            for e in range(m):
-                for k in range(MEMORY):
-                    if not (kinds[e] in (7, 10, 12)):
-                        scale[2 * n + MEMORY * e + k] = largest
-            scale[-1] = largest
-            made += 1
-            error = _extrapolated(t, trial, y, mass, kinds, ends, numbers, motion, scale, answer)
-            if error <= tolerance or (trial <= SHORTEST and math.isfinite(error)):
-                t = goal if ends_here else t + trial
-                y[:] = answer
-                largest = max(largest, abs(y[-1]))
-                step = trial * min(4.0, 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / ORDERS))
-                step = max(step, SHORTEST)
-            elif trial <= SHORTEST or made > MOST:
-                return forces
-            else:
-                step = max(0.4 * trial, SHORTEST) if error > 32.0 * tolerance else 0.7 * trial
-        forces[sample] = y[-1]
-    return forces
-
-
-@njit(cache=True)
+@inner
 def _euler_start(y, mass, kinds, ends, numbers, motion):
     """The force with which the record begins: after a step too short to matter."""
     new, branch = np.zeros((kinds.size, MEMORY)), np.zeros(kinds.size, dtype=np.int64)
@@ -225,3 +226,48 @@ def _euler_start(y, mass, kinds, ends, numbers, motion):
     return _euler(
         v, SHORTEST, np.array([0.0, place]), speed, y[:n], np.zeros(n), mass, kinds, ends, numbers, memory, new, branch
     )
+
+
+@inner
+def _set_scale(scale, mass, kinds, span, largest):
+    """What errors of places, of velocities with a memory, of stretches, and of forces are measured by."""
+    n = mass.size
+    for i in range(n):
+        scale[i] = span
+        scale[n + i] = FAST * span if mass[i] > 0.0 else np.inf
+    for e in range(kinds.size):
+        for k in range(MEMORY):
+            scale[2 * n + MEMORY * e + k] = span if kinds[e] in STRETCHED else largest
+    scale[-1] = largest
+
+
+@njit(cache=True)
+def hybrid_force(samples, dt, mass, kinds, ends, numbers, motion, span, tolerance):
+    """The force on the driven node at every sample (samples,), from rest with all nodes at zero; NaN from where none is
+    found. ``mass`` (nodes,) in kg, ``kinds`` (edges,) as in ``branches``, ``ends`` (edges, 2) node numbers, ``numbers``
+    (edges, ...) of the laws, ``motion`` as ``place_and_speed`` takes it; the error of a step is at most ``tolerance``
+    of ``span`` in m, of the speed that it makes at 20 Hz, and of the largest force so far.
+    """
+    size = 2 * mass.size + MEMORY * kinds.size + 1
+    y, answer, scale = np.zeros(size), np.zeros(size), np.ones(size)
+    forces, step, largest, t, made = np.full(samples, np.nan), 1e-5 * dt, 1.0, 0.0, 0
+    forces[0] = _euler_start(y, mass, kinds, ends, numbers, motion)
+    for sample in range(1, samples):
+        goal = sample * dt
+        while t < goal:
+            last = step >= 0.999 * (goal - t)
+            trial, made = goal - t if last else step, made + 1
+            _set_scale(scale, mass, kinds, span, largest)
+            error = _extrapolated(t, trial, y, mass, kinds, ends, numbers, motion, scale, answer)
+            if error <= tolerance or (trial <= SHORTEST and math.isfinite(error)):
+                t = goal if last else t + trial
+                y[:] = answer
+                largest = max(largest, abs(y[-1]))
+                growth = min(4.0, 0.9 * (tolerance / max(error, 1e-300)) ** (1.0 / ORDERS))
+                step = max(trial * growth, SHORTEST)
+            elif trial <= SHORTEST or made > MOST:
+                return forces
+            else:
+                step = max(0.4 * trial, SHORTEST) if error > 32.0 * tolerance else 0.7 * trial
+        forces[sample] = y[-1]
+    return forces
