@@ -9,7 +9,7 @@ from verification.conformance_cases import settled_case
 from verification.truth import branches as law
 from verification.truth.hybrid import hybrid_force
 
-SAMPLE = 8
+SAMPLE = 6
 LARGEST, HELD = 1e-3, 0.95  # of the root mean square of a force; share of the bounds
 
 
