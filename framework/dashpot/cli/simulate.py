@@ -95,12 +95,12 @@ def verb(
     if table and (dataset is None or energy):
         raise click.UsageError("--table goes with DATASET, and without --energy")
     if rig is not None:
-        return measure_on(rig, settings, network, output, session, energy, refine or 1)
+        return measure_on(rig, settings, network, output, session, energy, refine, tolerance)
     if settings:
         raise click.UsageError("--set gives an option of a rig: name it with --rig")
     assert dataset is not None
     if table:
-        return tabulate(dataset, network, output, session, refine or 1)
+        return tabulate(dataset, network, output, session, refine, tolerance)
     return follow(dataset, network, output, session, energy, refine, tolerance)
 
 
@@ -124,7 +124,8 @@ def follow(
     files = [f"{name}.csv" for name in runs.names]
     others = [ENERGIES] * energy
     folder = session.claim_beside(output, *others) if archive else session.claim(output, *map(escape, files), *others)
-    forces, names, error, beyond = ForceArchive(), list[str](), 0.0, dict[str, list[str]]()
+    forces, names, beyond = ForceArchive(), list[str](), dict[str, list[str]]()
+    error = peak = 0.0
     with folder.together() as results:
         with session.watch("compiling") as progress:
             solved = solve_each(network, runs, len(runs.names), refine=refine, tolerance=tolerance, progress=progress)
@@ -135,7 +136,7 @@ def follow(
                     results.write_pieces(f"{run.name}.csv", csv_pieces(run, solution))
                 names.append(run.name)
                 beyond[run.name] = beyond_range(network, run)
-                error = max(error, *solution.error.values())
+                error, peak = max(error, *solution.error.values()), max(peak, *solution.peak.values())
         session.warn_of(runs.problems)
         warn_of_range(beyond, session)
         if archive:
@@ -143,11 +144,14 @@ def follow(
         if energy:
             write_energies(network, map(Excitation.of_run, runs), results, session.talk)
     session.talk.result(
-        f"simulated {len(names)} runs: {output}{told_error(error)}", content_of(network, names, output, error, beyond)
+        f"simulated {len(names)} runs: {output}{told_error(error)}",
+        content_of(network, names, output, (error, peak), beyond),
     )
 
 
-def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session, refine: int) -> None:
+def tabulate(
+    dataset: str, network: NetworkSpec, output: Path, session: Session, refine: int | None, tolerance: float
+) -> None:
     """Write the dynamic stiffness at every row of the tables of a dataset."""
     from dashpot.data.steady import STEADY
     from dashpot.data.stiffness_text import table_text
@@ -162,15 +166,19 @@ def tabulate(dataset: str, network: NetworkSpec, output: Path, session: Session,
     if not rows:
         raise InputError.at(Place(dataset), "the dataset has no table of dynamic stiffness", "list one under 'tables'")
     with session.watch("compiling") as progress:
-        found = list(solve_each(network, rows, len(rows), refine=refine, progress=progress))
+        solved = solve_each(network, rows, len(rows), refine=refine, tolerance=tolerance, progress=progress)
+        found = list(solved)
     folder.write(TABLE, table_text((run, next(iter(solution.force.values()))) for run, solution in found))
     session.warn_of(runs.problems)
     beyond = {run.name: beyond_range(network, run) for run in rows}
     warn_of_range(beyond, session)
-    error = max(max(solution.error.values(), default=0.0) for _, solution in found)
+    error, peak = (
+        max(max(bounds.values(), default=0.0) for bounds in each)
+        for each in zip(*((solution.error, solution.peak) for _, solution in found), strict=True)
+    )
     session.talk.result(
         f"simulated {len(rows)} rows: {output / TABLE}{told_error(error)}",
-        content_of(network, list(beyond), output, error, beyond),
+        content_of(network, list(beyond), output, (error, peak), beyond),
     )
 
 
@@ -181,7 +189,8 @@ def measure_on(
     output: Path,
     session: Session,
     energy: bool,
-    refine: int,
+    refine: int | None,
+    tolerance: float,
 ) -> None:
     """Write what a virtual rig measures as a dataset."""
     from dashpot.compare.metrics import metric_lines, metric_rows
@@ -197,8 +206,8 @@ def measure_on(
     except ValueError as error:
         raise click.UsageError(str(error)) from error
     with session.watch("compiling") as progress:
-        bench = bench_as_driven(network, bench, refine)
-        runs = virtual_test(network, bench, session.switches.seed, refine, progress)
+        bench = bench_as_driven(network, bench, refine, tolerance)
+        runs = virtual_test(network, bench, session.switches.seed, refine, progress, tolerance)
     files = dataset_files(f"{network.name} on {bench.name} (virtual)", runs)
     folder = session.claim(output, *map(escape, files), *[ENERGIES] * energy)
     beyond = {planned.name: beyond_range(network, planned.excitation()) for planned in bench.runs()}
@@ -214,7 +223,7 @@ def measure_on(
     dataset = output / "dataset.yaml"
     names = [run.name for run in runs]
     told = metric_rows(session.registry.metrics.values(), one_force_each(Dataset(bench.name, tuple(runs))).runs)
-    content = {**content_of(network, names, dataset, None, beyond), "metrics": told, NOTE: limited}
+    content = {**content_of(network, names, dataset, (None, None), beyond), "metrics": told, NOTE: limited}
     session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]), content)
 
 
@@ -238,17 +247,22 @@ def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
 
 
 def content_of(
-    network: NetworkSpec, runs: list[str], output: Path, error: float | None, beyond: Mapping[str, list[str]]
+    network: NetworkSpec,
+    runs: list[str],
+    output: Path,
+    errors: tuple[float | None, float | None],
+    beyond: Mapping[str, list[str]],
 ) -> dict[str, Any]:
-    """What ``--json`` tells: the network, its runs and where they are, the numerical ``error`` in N, and the runs that
-    go ``beyond`` the range of identification.
+    """What ``--json`` tells: the network, its runs and where they are, bounds in N of the root mean square and of the
+    peak of the numerical ``errors``, and the runs that go ``beyond`` the range of identification.
     """
     return {
         "format": "dashpot-simulation/1",
         "network": network.name,
         "runs": runs,
         "output": str(output),
-        "numerical_error": error,
+        "numerical_error": errors[0],
+        "numerical_error_peak": errors[1],
         "outside_of_identification": {name: words for name, words in beyond.items() if words},
     }
 

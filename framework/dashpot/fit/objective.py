@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.steady import STEADY
+from dashpot.fit.enough_steps import EnoughSteps, Team
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.shelf import Shelf
 from dashpot.kernel.columns import Rows
@@ -39,10 +40,6 @@ class Whitening(Protocol):
         """How many values are kept of so many samples."""
 
 
-# the numbers of runs whose forces were measured together
-Team = tuple[int, ...]
-
-
 class Objective:
     """The misfit of a compiled network on runs.
 
@@ -63,7 +60,8 @@ class Objective:
         shares = np.array([run.weight for run in self.runs]) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
-        self.rows: Shelf[Rows | SystemRows] = Shelf(lambda team: network.prepare(self.runs[team[0]].excitation))
+        self.steps = EnoughSteps(network, self.runs)
+        self.rows: Shelf[Rows | SystemRows] = Shelf(self._prepared)
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -77,6 +75,17 @@ class Objective:
         other = copy(self)
         other.shares = np.asarray(weights, dtype=float) / np.mean(weights)
         return other
+
+    def _prepared(self, key: tuple[Team, int]) -> Rows | SystemRows:
+        team, refine = key
+        excitation = self.runs[team[0]].excitation
+        if isinstance(self.network, CompiledNetwork):
+            return self.network.prepare(excitation)
+        return self.network.prepare(excitation, refine)
+
+    def _rows(self, team: Team) -> Rows | SystemRows:
+        """What is prepared of runs that were measured together, with as many steps as they need so far."""
+        return self.rows((team, self.steps.of(team)))
 
     @cached_property
     def parts(self) -> Parts:
@@ -119,6 +128,7 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+        self.steps.suffice(team, values)
         for number, force in self._forces(team, np.concatenate([values[None], values + moves])):
             run = self.runs[number]
             found = np.array(force[:, run.first :])
@@ -191,7 +201,7 @@ class Objective:
 
     def _scored(self, team: Team, values: Array) -> Array:
         # the mean squared errors (runs, lanes) of runs that were measured together
-        rows, runs = self.rows(team), [self.runs[number] for number in team]
+        rows, runs = self._rows(team), [self.runs[number] for number in team]
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)
             targets, weights = [run.force for run in runs], [_weights(run) for run in runs]
@@ -216,7 +226,7 @@ class Objective:
 
     def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
         # what the load cells show in runs that were measured together
-        rows = self.rows(team)
+        rows = self._rows(team)
         see = self.network.observation(values, self.runs[team[0]].excitation.settings).see
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)

@@ -18,6 +18,7 @@ from dashpot.kernel.api import RunSolution, solve
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.observe import Observation
 from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.within import TOLERANCE
 from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
@@ -25,15 +26,18 @@ DYNAMIC = ("sweep", "harmonic", "random", "transient")
 LETTERS = "bcdefghijklmnopqrstuvwxyz"
 
 
-def bench_as_driven(spec: NetworkSpec, bench: Bench, refine: int = 1) -> Bench:
-    """The bench with its runs as the rig can drive them on the network: a run that is not as planned has a note of it.
+def bench_as_driven(spec: NetworkSpec, bench: Bench, refine: int | None = None, tolerance: float = TOLERANCE) -> Bench:
+    """The bench with its runs as the rig can drive them on the network; one that is not as planned has a note of it.
+
+    ``refine`` and ``tolerance`` as in ``virtual_test``.
 
     InputError for a network that cannot be simulated, or that presses with more than the rig bears.
     """
     network = compile_network(spec)
 
     def largest_force(planned: PlannedRun) -> float:
-        return max(float(np.max(np.abs(force))) for force in answer_of(network, planned, refine).force.values())
+        answer = answer_of(network, planned, refine, tolerance)
+        return max(float(np.max(np.abs(force))) for force in answer.force.values())
 
     return as_driven(bench, largest_force)
 
@@ -42,32 +46,36 @@ def virtual_test(
     spec: NetworkSpec,
     bench: Bench,
     seed: int = 0,
-    refine: int = 1,
+    refine: int | None = None,
     progress: Callable[[str, float], None] | None = None,
+    tolerance: float = TOLERANCE,
 ) -> list[Run]:
     """Every run of the bench as the rig can drive it, measured on the network; the same seed gives the same noise.
 
-    ``refine`` is how many times as many steps as usual lie between two samples, where the motion of a node is unknown;
+    Where the motion of a node is unknown, the numerical error of each force is at most the ``tolerance``, a share of
+    its root mean square; or, by hand, ``refine`` times as many steps as usual lie between two samples.
     ``progress`` hears of each planned run, by name and with the share of those before it.
 
     InputError for a network that cannot be simulated, or that has not the nodes that the bench drives.
     """
     network = compile_network(spec)
     measured: list[Run] = []
-    planned_runs = bench_as_driven(spec, bench, refine).runs()
+    planned_runs = bench_as_driven(spec, bench, refine, tolerance).runs()
     for number, planned in enumerate(planned_runs):
         if progress:
             progress(planned.name, number / len(planned_runs))
-        answer = answer_of(network, planned, refine)
+        answer = answer_of(network, planned, refine, tolerance)
         for repeat in range(bench.measuring.repeats if planned.kind in DYNAMIC else 1):
             rng = np.random.default_rng([seed, len(measured)])
             measured.append(_measured(planned, answer, bench.measuring, repeat, len(measured), rng))
     return measured
 
 
-def answer_of(network: CompiledNetwork | CompiledSystem, planned: PlannedRun, refine: int) -> RunSolution:
+def answer_of(
+    network: CompiledNetwork | CompiledSystem, planned: PlannedRun, refine: int | None, tolerance: float
+) -> RunSolution:
     """The forces at the driven nodes and the motions of the free ones."""
-    found = solve(network, planned.excitation(), refine)
+    found = solve(network, planned.excitation(), refine, tolerance)
     if list(planned.motion) == [PORT]:
         return replace(found, force={PORT: next(iter(found.force.values()))})
     return found

@@ -16,27 +16,26 @@ from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.settings import require_settings
 from dashpot.kernel.system import CompiledSystem, Solution, Status
+from dashpot.kernel.within import TOLERANCE, solve_at, solve_within
 from dashpot.model.network import END, NetworkSpec
 from dashpot.model.reading import read_network
 from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-3  # of the root mean square of a force: the numerical error that is allowed
-FINEST = 32  # times as many steps as usual, at most
-
 
 @dataclass(frozen=True, eq=False)
 class RunSolution:
     """A simulated run: ``force`` (n,) in N at the driven nodes, as load cells show it, and ``motion`` (n,) in m of the
     nodes that are free to move, both by node. ``error`` is meant as a bound of the root mean square numerical error of
-    each force in N; it is 0 where the law is solved exactly along the path. ``refine`` is how many times as many steps
-    as usual lay between two samples.
+    each force in N, ``peak`` as one of its largest absolute value; they are 0 where the law is solved exactly along the
+    path. ``refine`` is how many times as many steps as usual lay between two samples.
     """
 
     force: Mapping[str, Array]
     motion: Mapping[str, Array]
     error: Mapping[str, float]
+    peak: Mapping[str, float]
     refine: int = 1
 
 
@@ -92,40 +91,16 @@ def solve(
     observation = network.observation(network.start, excitation.settings)
     if isinstance(network, CompiledNetwork):
         alone = network.simulate(network.prepare(excitation))
-        return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0})
-    found, error, parts = _solved_within(network, excitation, refine, tolerance)
+        return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0}, {END: 0.0})
+    if refine is None:
+        bounded = solve_within(network, excitation, None, tolerance)
+    else:
+        bounded = solve_at(network, excitation, refine)
+    found = _good(network, bounded.solution, excitation)
     force = [observation.see(row[None], excitation.dt)[0] for row in found.force[0]]
     motion = {node: row for node, row in zip(found.unknown, found.motion[0], strict=True) if ":" not in node}
-    return RunSolution(
-        dict(zip(found.driven, force, strict=True)), motion, dict(zip(found.driven, error.tolist(), strict=True)), parts
-    )
-
-
-def _solved_within(
-    network: CompiledSystem, excitation: Excitation, refine: int | None, tolerance: float
-) -> tuple[Solution, Array, int]:
-    """The solution, a bound (driven nodes,) of its error, and how many times as many steps it has taken as usual."""
-    parts, before = refine or 1, None
-    while True:
-        found = _good(network, network.solve(network.prepare(excitation, parts)), excitation)
-        error = _bound(found, before)
-        allowed = tolerance * np.sqrt(np.mean(found.force[0] ** 2, axis=1))
-        if refine or parts >= FINEST or (error <= allowed).all():
-            return found, error, parts
-        parts, before = 2 * parts, found
-
-
-def _bound(found: Solution, before: Solution | None) -> Array:
-    """A bound (driven nodes,) of the error of the first lane; ``before`` is the solution in half as many steps.
-
-    It is the whole difference between long and short steps: three times the error of the short ones where that is of
-    second order, and the error itself where forces bend sharply, at stops and reversals, and it is of first order.
-    Where the answer has moved by more since the steps were halved, that counts.
-    """
-    whole = 3.0 * found.error[0]
-    if before is None:
-        return whole
-    return np.maximum(whole, np.sqrt(np.mean((found.force[0] - before.force[0]) ** 2, axis=1)))
+    error, peak = (dict(zip(found.driven, each.tolist(), strict=True)) for each in (bounded.error, bounded.peak))
+    return RunSolution(dict(zip(found.driven, force, strict=True)), motion, error, peak, bounded.refine)
 
 
 def _good(network: CompiledSystem, found: Solution, excitation: Excitation) -> Solution:

@@ -118,7 +118,8 @@ class CompiledSystem(Compiled[SystemRows]):
         if whole is motion:
             excitation = replace(excitation, settings=used_settings(self.spec, whole.settings, whole.name))
         still = self._columns({"dt": excitation.dt, **self._still(excitation)}, 1)
-        newton, loads = self._newton(excitation), {node: _spline(load) for node, load in excitation.loads.items()}
+        newton = self._newton(excitation, pairs)
+        loads = {node: _spline(load) for node, load in excitation.loads.items()}
 
         def pieces(long: int, quick: bool) -> Iterable[Piece]:
             def make(first: int, end: int) -> Piece:
@@ -314,10 +315,11 @@ class CompiledSystem(Compiled[SystemRows]):
             seen[driven_symbol(joint, "load")] = float(excitation.loads[joint][0])
         return seen | dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
 
-    def _newton(self, excitation: Excitation) -> dict[str, float]:
+    def _newton(self, excitation: Excitation, pairs: int = PAIRS) -> dict[str, float]:
         spans = [np.ptp(drive.displacement) for drive in excitation.motions.values()]
         span = float(max([SMALLEST_SPAN, *spans]))
-        return {"newton.tolerance": TOLERANCE * span, "newton.farthest": FARTHEST * span}
+        # what is left of a position counts over a step as a velocity, which is to get better with shorter steps
+        return {"newton.tolerance": TOLERANCE * span / pairs**2, "newton.farthest": FARTHEST * span}
 
     def _columns(self, seen: dict[str, Array | float], count: int) -> Array:
         found = np.zeros((count, len(self.program.columns)))

@@ -23,6 +23,7 @@ KEYS = {
         "runs",
         "output",
         "numerical_error",
+        "numerical_error_peak",
         "outside_of_identification",
         "metrics",
         "limited",

@@ -1,0 +1,47 @@
+"""How many time steps the runs of a fit need, so that its numerical error is within the tolerance of a simulation.
+
+It is measured wherever a fit is linearised, by the lane it is linearised at; all lanes of a block take the same steps,
+so that their differences are derivatives. Steps that were needed once stay. A search begins with what the numbers of
+the file need for a tenfold tolerance: it compares lanes that differ by more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.network import CompiledNetwork
+from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.within import TOLERANCE, steps_within
+
+Array = NDArray[np.float64]
+
+SEARCHED = 10.0 * TOLERANCE
+FINEST = 8  # times as many steps as usual at most: a fit takes no more than eight times as long
+
+# the numbers of runs whose forces were measured together
+Team = tuple[int, ...]
+
+
+class EnoughSteps:
+    """The steps of each team of ``runs``; a network without unknown nodes needs none."""
+
+    def __init__(self, network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun]) -> None:
+        self.network, self.runs = network, runs
+        self._refine: dict[Team, int] = {}
+
+    def of(self, team: Team) -> int:
+        """How many times as many steps as usual, for now."""
+        if team not in self._refine:
+            self.suffice(team, self.network.start, SEARCHED)
+        return self._refine[team]
+
+    def suffice(self, team: Team, values: Array, tolerance: float = TOLERANCE) -> None:
+        """See to it that the steps are enough for a lane (slots,)."""
+        before, needed = self._refine.get(team, 1), 1
+        if isinstance(self.network, CompiledSystem) and before < FINEST:
+            needed = steps_within(self.network, self.runs[team[0]].excitation, values, tolerance, FINEST)
+        self._refine[team] = max(before, needed)

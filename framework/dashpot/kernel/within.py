@@ -1,0 +1,77 @@
+"""Solutions whose numerical error is within a tolerance: as many steps as that takes.
+
+A solution is held against that with twice as many steps. Where forces are smooth the second one errs much less, and
+the difference is the error of the first; where they bend sharply within a step (a stop, a gap, a reversal) both may err
+by as much as the step is long, and twice the difference is a bound for the second. No order of the steps is relied on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dashpot.data.excitation import Excitation
+from dashpot.kernel.system import CompiledSystem, Solution, Status
+
+Array = NDArray[np.float64]
+
+TOLERANCE = 1e-3  # of the root mean square of a force: the numerical error that is allowed
+FINEST = 256  # times as many steps as usual, at most
+# where in a step forces bend is a matter of chance, so that the error may be larger than the change
+CHANCE = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Bounded:
+    """A ``solution`` of one lane with bounds (driven nodes,) in N of its numerical error: ``error`` of its root mean
+    square, ``peak`` of its largest absolute value. ``refine`` is how many times as many steps as usual lie between two
+    samples; with half of them the error is ``error``, too.
+    """
+
+    solution: Solution
+    error: Array
+    peak: Array
+    refine: int
+
+
+def solve_within(
+    network: CompiledSystem,
+    excitation: Excitation,
+    values: Array | None = None,
+    tolerance: float = TOLERANCE,
+    finest: int = FINEST,
+) -> Bounded:
+    """One lane ``values`` (slots,), by default the numbers of the file, with an error of at most ``tolerance`` times
+    the root mean square of each force, or with ``finest`` times as many steps as usual, a power of two.
+    """
+    refine, before = 1, network.solve(network.prepare(excitation), values)
+    while True:
+        refine *= 2
+        found = network.solve(network.prepare(excitation, refine), values)
+        error, peak = _moved(found, before)
+        allowed = tolerance * np.sqrt(np.mean(found.force[0] ** 2, axis=1))
+        if refine >= finest or (found.status[0] is Status.GOOD and (error <= allowed).all()):
+            return Bounded(found, error, peak, refine)
+        before = found
+
+
+def solve_at(network: CompiledSystem, excitation: Excitation, refine: int) -> Bounded:
+    """The numbers of the file with ``refine`` times as many steps as usual, by hand."""
+    found = network.solve(network.prepare(excitation, refine))
+    return Bounded(found, *_moved(network.solve(network.prepare(excitation, 2 * refine)), found), refine)
+
+
+def steps_within(network: CompiledSystem, excitation: Excitation, values: Array, tolerance: float, finest: int) -> int:
+    """How many times as many steps as usual, ``finest`` at most, keep the error of a lane (slots,) within the
+    tolerance; 1 for a lane that cannot be solved, which no number of steps helps.
+    """
+    found = solve_within(network, excitation, values, tolerance, 2 * finest)
+    return found.refine // 2 if np.isfinite(found.error).all() else 1
+
+
+def _moved(finer: Solution, before: Solution) -> tuple[Array, Array]:
+    """Bounds (driven nodes,) by how much forces move where the steps are halved: of root mean square and peak."""
+    way = finer.force[0] - before.force[0]
+    return CHANCE * np.sqrt(np.mean(way**2, axis=1)), CHANCE * np.max(np.abs(way), axis=1)
