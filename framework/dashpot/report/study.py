@@ -29,7 +29,7 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     compared = [model for model in study["models"] if model["name"] in study["study"]["compared"]]
     page = comparison_page({**study, "models": compared}, evidence)
     first, *others = page.sections
-    added = [*axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    added = [_ladder(study), *axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
     headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])
@@ -75,6 +75,36 @@ def intervals_grid(model: Json) -> Grid:
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
+
+
+def ladder_grid(study: Json) -> Grid:
+    """How each model stands beside the one before it."""
+    columns = [
+        Column("model", "model"),
+        Column("before", "beside"),
+        Column("adds", "adds"),
+        Column("lacks", "lacks"),
+        Column("train", "RMSE, training runs", "%", 3),
+        Column("held_out", "RMSE, held-out runs", "%", 3),
+    ]
+    rows = [
+        {
+            "model": step["model"],
+            "before": step["before"],
+            "adds": ", ".join(step["adds"]) or None,
+            "lacks": ", ".join(step["lacks"]) or None,
+            **step["changes"],
+        }
+        for step in study["ladder"]
+    ]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    caption = "Changes of the RMSE from the model above to this one; what is added or lacks: branches and parameters."
+    return Grid("From model to model", used, rows, caption, "ladder.csv")
+
+
+def _ladder(study: Json) -> Section:
+    reasons = [Notice("info", step["reason"]) for step in study["ladder"] if step["reason"]]
+    return Section("From model to model", parts=[ladder_grid(study), *reasons] if study["ladder"] else [])
 
 
 def _at_amplitude(study: Json, evidence: Evidence) -> Section:

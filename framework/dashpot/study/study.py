@@ -11,7 +11,9 @@ from dashpot.fit.study.preview import Preview
 from dashpot.fit.study.run import ModelResult, StudyResult
 from dashpot.fit.study.stage import StageResult
 from dashpot.study.axle_study import axle_content, axle_evidence, model_content
+from dashpot.study.ladder import ladder_of
 from dashpot.study.masses import identified_masses
+from dashpot.study.references import references_content
 
 
 def comparison_of(result: StudyResult) -> Comparison:
@@ -25,7 +27,12 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
     content = comparison_of(result).as_dict()
     family = [model["name"] for model in content["models"]]
-    models = [{**_row(model, result.study.seed), **_model(model), **model_content(model)} for model in result.models]
+    before = {plan.name: plan.start_from for plan in result.study.models}
+    models = [
+        {**_row(model, result.study.seed), **_model(model), **model_content(model)}
+        | {"start_from": before[model.fit.declared.name]}
+        for model in result.models
+    ]
     study = {
         "name": result.study.name,
         "about": result.study.about,
@@ -34,13 +41,16 @@ def study_content(result: StudyResult) -> dict[str, Any]:
         "compared": family,
     }
     axle = axle_content(result.models)
-    masses = identified_masses(models, result.models[-1].setting.floor.value)
+    references = _references(result, models)
+    masses = identified_masses(models, result.models[-1].setting.floor.value, references)
     return {
         **content,
         "format": "dashpot-study-result/1",
         "study": study,
         "models": models,
         "axle": axle,
+        "references": references,
+        "ladder": ladder_of([model for model in models if model["name"] in family]),
         "masses": masses,
     }
 
@@ -49,6 +59,11 @@ def study_evidence(result: StudyResult) -> Any:
     """Arrays and texts for the report: those of the comparison, and those of an axle."""
     evidence = comparison_of(result).evidence()
     return evidence | axle_evidence(result.models, evidence["dynamic_stiffness"])
+
+
+def _references(result: StudyResult, models: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    networks = [model.fit.fitted for model in result.models]
+    return references_content(result.setting.dataset.references.values(), networks, models)
 
 
 def preview_content(name: str, previews: Sequence[Preview]) -> dict[str, Any]:
@@ -115,6 +130,7 @@ def _masses(model: ModelResult) -> list[dict[str, Any]]:
     return [
         {
             "node": path.rpartition(".")[0],
+            "parameter": path,
             "value": slots[path].number,
             "interval": list(slots[path].interval or ()),
             "owed": [

@@ -37,6 +37,7 @@ from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
 from dashpot.fit.study.parts import with_parts
 from dashpot.fit.study.patterns import chosen
+from dashpot.fit.study.references import require_references
 from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
@@ -92,7 +93,8 @@ def run_study(
     """Identify every model of a study; what an earlier call left in the folder ``checkpoint`` is not done again.
 
     The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
-    number of interruptions. Raises InputError for patterns that name nothing and for networks that do not compile.
+    number of interruptions. Raises InputError for patterns that name nothing, for networks that do not compile, and for
+    references of another kind than the parameters of their paths.
 
     Examples:
         >>> found = dp.run_study(study, dp.load_dataset("mount"), registry=dp.load_registry())
@@ -100,6 +102,7 @@ def run_study(
         1
     """
     setting = study_setting(study, dataset)
+    require_references(study, dataset.references)
     records = Checkpoint(checkpoint)
     records.open(fingerprint(study, dataset))
     conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
