@@ -35,8 +35,8 @@ def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, sw
 
     \b
     Example:
-      dashpot study tire_ladder --dry-run
-      dashpot study tire_ladder -o ladder
+      dashpot study paper_tire --dry-run
+      dashpot study paper_tire -o tire
     """
     from dashpot.fit.study.reading import find_study, read_study
 
