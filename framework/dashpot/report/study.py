@@ -116,8 +116,8 @@ def _at_amplitude(study: Json, evidence: Evidence) -> Section:
         for curve in evidence.get("dynamic_stiffness", ())
         if math.isclose(curve.get("amplitude") or 0.0, amplitude, rel_tol=ALIKE)
     ]
-    best = best_model(study)
-    parts = figures.stiffness_figures(curves, [best["name"]] if best else []) if curves else []
+    best, last = best_model(study), study["study"]["compared"][-1:]
+    parts = figures.stiffness_figures(curves, [best["name"], *last] if best else last) if curves else []
     return Section(f"Dynamic stiffness at {set_value(amplitude, 'm')}", parts=list(parts))
 
 
