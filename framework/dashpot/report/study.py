@@ -29,7 +29,13 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     compared = [model for model in study["models"] if model["name"] in study["study"]["compared"]]
     page = comparison_page({**study, "models": compared}, evidence)
     first, *others = page.sections
-    added = [_ladder(study), *axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    added = [
+        _ladder(study),
+        *axle_sections(study, evidence),
+        _at_amplitude(study, evidence),
+        _conduct(study),
+        _knowledge(study),
+    ]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
     headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])

@@ -41,6 +41,7 @@ def _reasons(before: Json, model: Json, named: Mapping[str, Json]) -> Iterator[s
         f"{_error(model):.4g} N beside {_error(before):.4g} N."
     )
     adds, lacks = _more(before, model), _more(model, before)
+    fall = -(_change(before, model, "train") or 0.0)
     root = named.get(model["start_from"] or "")
     if lacks and root and root["name"] == before["start_from"]:
         yield f"Both go on from {root['name']} ({_error(root):.4g} N):"
@@ -48,10 +49,10 @@ def _reasons(before: Json, model: Json, named: Mapping[str, Json]) -> Iterator[s
         yield f"{_listed(_more(root, before))} of {before['name']}, which it lacks, {_moves(root, before)}."
     elif lacks:
         yield f"It lacks {_listed(lacks)}" + (f", and adds {_listed(adds)}." if adds else ".")
-    elif _change(before, model, "train") < 0.0 and judged == "held-out":
+    elif fall > 0.0 and judged == "held-out":
         yield (
-            f"On training runs its RMSE is {-_change(before, model, 'train'):.2g} % lower: what it adds, "
-            f"{_listed(adds)}, follows those runs and not the specimen."
+            f"On training runs its RMSE is {fall:.2g} % lower: what it adds, {_listed(adds)}, follows those runs and "
+            "not the specimen."
         )
     else:
         yield f"Nor on training runs: the data do not need what it adds, {_listed(adds)}."

@@ -7,8 +7,8 @@ import pytest
 
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset, read_dataset
-from dashpot.fit.study.references import require_references
 from dashpot.fit.study.reading import parse_study
+from dashpot.fit.study.references import require_references
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError
 from dashpot_formats import dashpot_formats
@@ -52,7 +52,10 @@ def test_numbers_and_curves_are_read_in_si_and_do_not_change_the_digest(tmp_path
     ("text", "said"),
     [
         ("  a.k: {value: heavy}\n", "'value': "),
-        ("  a.k: {velocity: [0 m/s, 1 m/s], force: [1 N]}\n", "as many forces as velocities, two at least, got 2 and 1"),
+        (
+            "  a.k: {velocity: [0 m/s, 1 m/s], force: [1 N]}\n",
+            "as many forces as velocities, two at least, got 2 and 1",
+        ),
         ("  a.k: {velocity: [1 m/s, 0 m/s], force: [1 N, 2 N]}\n", "expected growing velocities"),
         ("  a.k: {by: weighed}\n", "lacks 'velocity'"),
         ("  a.k: {value: 1 kg, weighed_by: me}\n", "has no key 'weighed_by'"),
@@ -68,7 +71,10 @@ def test_a_wrong_reference_is_told_and_left_out(tmp_path, text, said):
     [
         ("  wheel_left.mass: {value: 47 mm}\n", "the reference of 'wheel_left.mass': "),
         ("  wheel_left.mass: {velocity: [0 m/s, 1 m/s], force: [0 N, 1 N]}\n", "expected a number, got a curve"),
-        ("  shock_absorber.damping: {value: 1500 N*s/m}\n", "is the number 1500 N*s/m, in 'axle_model_3' it is another"),
+        (
+            "  shock_absorber.damping: {value: 1500 N*s/m}\n",
+            "is the number 1500 N*s/m, in 'axle_model_3' it is another",
+        ),
         ("  suspension.stiffness: {velocity: [0 m/s, 1 m/s], force: [0 N, 1 N]}\n", "is a force over velocity, in"),
     ],
 )

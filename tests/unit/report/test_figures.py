@@ -133,7 +133,9 @@ def test_contact_forces_stand_in_a_panel_for_each_wheel_and_a_colour_for_each_ma
 
 def test_models_stand_side_by_side_on_the_runs_with_the_least_mass():
     curves = [contact("a", "m", 5.0), contact("b", "m", 0.0), contact("c", "m", 0.0)]
-    figure = figures.contact_models([{**curve, "simulated": {"n": curve["measured"], "m": curve["measured"]}} for curve in curves])
+    figure = figures.contact_models(
+        [{**curve, "simulated": {"n": curve["measured"], "m": curve["measured"]}} for curve in curves]
+    )
     assert {trace["meta"]["run"] for trace in figure.plot["data"]} == {"b", "c"}
     shown = [trace for trace in figure.plot["data"] if trace["visible"] is True]
     assert [trace["meta"]["series"] for trace in shown] == ["measured", "n", "m"]

@@ -37,7 +37,8 @@ def velocity_curves(
         traces.append(_points(label, table.add({"model": label, VELOCITY: curve["velocity"], FORCE: curve["force"]})))
     groups = [toggles.series_group(labels, measured="point" if measured else "")]
     caption = (
-        ("Points: measured by other means. " if measured else "") + "Compression is positive. Lines: identified or, without a band, known, with markers at the knots and at the "
+        ("Points: measured by other means. " if measured else "")
+        + "Compression is positive. Lines: identified or, without a band, known, with markers at the knots and at the "
         "ends of what was reached; bands: 95 % intervals of each knot, the structure of the model taken as right. "
         "Velocities that the runs did not reach are not drawn."
     )
