@@ -18,8 +18,8 @@ def identified_masses(
 ) -> list[dict[str, Any]]:
     """For each node whose mass was identified: its mass (kg), 95 % interval, model, and what other models say.
 
-    ``models`` and ``references`` are those of a study's result. The model is the one with the smallest error on held-out
-    runs, or on the training runs where there are none.
+    ``models`` and ``references`` are those of a study's result. The model is the one with the smallest error on
+    held-out runs, or on the training runs where there are none.
     """
     found: dict[str, list[tuple[Json, Json]]] = {}
     for model in models:
