@@ -49,10 +49,11 @@ AXLE_CHANNELS = """\
 REFERENCES = """\
 references:
   wheel_left.mass: {{value: {mass:.2f} kg, by: weighed}}
-  shock_absorber.damping:
+  shock_absorber.damping: &shock_absorber
     velocity: [{velocity}]
     force: [{force}]
     by: damper test rig
+  strut.shock_absorber.damping: *shock_absorber     # of models with top mounts
 """
 VELOCITIES = (-1.0, -0.7, -0.45, -0.25, -0.1, -0.03, 0.0, 0.03, 0.1, 0.25, 0.45, 0.7, 1.0)  # m/s
 

@@ -38,7 +38,7 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     ]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
-    headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])
+    headline = " ".join(f"{mass_sentence(mass)}." for mass in study["masses"]) or page.headline
     title, lead = f"Study {study['study']['name']}", f"{about} {page.lead}".strip()
     return replace(page, title=title, headline=headline, lead=lead, sections=sections)
 
@@ -88,8 +88,8 @@ def ladder_grid(study: Json) -> Grid:
     columns = [
         Column("model", "model"),
         Column("before", "beside"),
-        Column("adds", "adds"),
-        Column("lacks", "lacks"),
+        Column("adds", "searches besides"),
+        Column("lacks", "does not search"),
         Column("train", "RMSE, training runs", "%", 3),
         Column("held_out", "RMSE, held-out runs", "%", 3),
     ]
@@ -104,7 +104,7 @@ def ladder_grid(study: Json) -> Grid:
         for step in study["ladder"]
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
-    caption = "Changes of the RMSE from the model above to this one; what is added or lacks: branches and parameters."
+    caption = "Change of the RMSE from one model to the next, and in which parameters, or whole branches, they differ."
     return Grid("From model to model", used, rows, caption, "ladder.csv")
 
 

@@ -13,8 +13,8 @@ FEW = 4  # names in a sentence
 def ladder_of(models: Sequence[Json]) -> list[dict[str, Any]]:
     """For each of the compared ``models`` of a study but the first, how it stands beside the one before.
 
-    ``changes`` of its RMSE in per cent on training and on held-out runs, the parameters that it ``adds`` and those that
-    it ``lacks``, and, where it is not better on the runs that judge, the ``reason`` in words. Runs that judge are the
+    ``changes`` of its RMSE in per cent on training and on held-out runs, what it ``adds`` to the searched parameters and
+    what it ``lacks`` of them, and, where it is not better on the runs that judge, the ``reason`` in words. Runs that judge are the
     held-out ones; where there are none, the training runs.
     """
     named = {model["name"]: model for model in models}
@@ -48,14 +48,16 @@ def _reasons(before: Json, model: Json, named: Mapping[str, Json]) -> Iterator[s
         yield f"{_listed(_more(root, model))} of {model['name']} {_moves(root, model)},"
         yield f"{_listed(_more(root, before))} of {before['name']}, which it lacks, {_moves(root, before)}."
     elif lacks:
-        yield f"It lacks {_listed(lacks)}" + (f", and adds {_listed(adds)}." if adds else ".")
+        yield f"It does not search {_listed(lacks)}" + (f", but {_listed(adds)}." if adds else ".")
     elif fall > 0.0 and judged == "held-out":
         yield (
             f"On training runs its RMSE is {fall:.2g} % lower: what it adds, {_listed(adds)}, follows those runs and "
             "not the specimen."
         )
-    else:
+    elif model["status"] == "ok":
         yield f"Nor on training runs: the data do not need what it adds, {_listed(adds)}."
+    if model["status"] != "ok":
+        yield f"Its fit did not converge: {model['status']}."
 
 
 def _moves(root: Json, model: Json) -> str:
@@ -69,11 +71,17 @@ def _change(before: Json, model: Json, key: str) -> float | None:
 
 
 def _more(before: Json, model: Json) -> list[str]:
-    """What a model searches and the one before has not: parameters, and branches all of whose parameters are new."""
-    have = {path.partition("[")[0] for path in before["parameters"]}
-    branches = {_branch(path) for path in have}
-    new = (path.partition("[")[0] for path, entry in model["parameters"].items() if entry["role"] != "fixed")
-    return list(dict.fromkeys(path if _branch(path) in branches else _branch(path) for path in new if path not in have))
+    """What a model searches and the one before does not: parameters, and branches that are new as a whole."""
+    searched = _searched(before)
+    branches = {_branch(path) for path in before["parameters"]}
+    new = (path for path in _searched(model) if path not in searched)
+    return list(dict.fromkeys(path if _branch(path) in branches else _branch(path) for path in new))
+
+
+def _searched(model: Json) -> dict[str, None]:
+    """The parameters that a model searches, a table as one."""
+    entries = model["parameters"].items()
+    return dict.fromkeys(path.partition("[")[0] for path, entry in entries if entry["role"] != "fixed")
 
 
 def _branch(path: str) -> str:

@@ -131,6 +131,12 @@ def test_contact_forces_stand_in_a_panel_for_each_wheel_and_a_colour_for_each_ma
     assert plot["data"][0]["marker"]["color"] != plot["data"][2]["marker"]["color"]
 
 
+def test_of_two_runs_with_one_mass_the_first_is_drawn_at_first():
+    plot = figures.contact_response([contact("a", "m", 0.0), contact("anti", "m", 0.0), contact("b", "m", 5.0)]).plot
+    shown = {trace["meta"]["run"] for trace in plot["data"] if trace["visible"] is True}
+    assert shown == {"a", "b"} and len(plot["data"]) == 6
+
+
 def test_models_stand_side_by_side_on_the_runs_with_the_least_mass():
     curves = [contact("a", "m", 5.0), contact("b", "m", 0.0), contact("c", "m", 0.0)]
     figure = figures.contact_models(

@@ -110,7 +110,7 @@ def test_the_headline_of_a_study_of_masses_is_the_mass_with_its_interval():
     mass = content["masses"][0]
     headline = study_page(content, comparison_evidence()).headline
     assert headline.startswith(f"wheel: {mass['value']:.2f} kg, 95 % interval 39.00 to 41.50 kg; from {mass['model']}")
-    assert "has the lowest RMSE: 14.9 N" in headline
+    assert headline.endswith("which has the lowest RMSE (14.9 N at a noise floor of 9 N).")
     assert not study_page({**content, "masses": []}, comparison_evidence()).headline.startswith("wheel")
 
 

@@ -7,10 +7,10 @@ import pytest
 from dashpot.study.ladder import ladder_of
 
 
-def model(name, held_out, *paths, train=None, start_from=None):
+def model(name, held_out, *paths, train=None, start_from=None, status="ok"):
     parameters = {path: {"role": "identified"} for path in paths} | {"curve.stiffness[0]": {"role": "fixed"}}
     rmse = {"train": held_out if train is None else train, "held_out": held_out}
-    return {"name": name, "rmse": rmse, "parameters": parameters, "start_from": start_from}
+    return {"name": name, "rmse": rmse, "parameters": parameters, "start_from": start_from, "status": status}
 
 
 BASE = model("base", 20.0, "oil.damping")
@@ -46,7 +46,18 @@ def test_what_helps_nowhere_is_not_needed():
 
 def test_another_structure_is_told_by_what_it_lacks():
     [step] = ladder_of([SCALED, SLIDING])
-    assert step["reason"].endswith("It lacks oil.scale, and adds slider.")
+    assert step["reason"].endswith("It does not search oil.scale, but slider.")
+
+
+def test_a_curve_that_is_known_in_one_model_is_searched_in_the_other():
+    known = {**BASE, "parameters": {**BASE["parameters"], "oil.damping": {"role": "fixed"}}}
+    [step] = ladder_of([known, {**BASE, "name": "searched"}])
+    assert (step["adds"], step["lacks"]) == (["oil.damping"], [])
+
+
+def test_a_search_that_did_not_end_is_told_instead_of_blaming_the_model():
+    [step] = ladder_of([BASE, model("idle", 21.0, "oil.damping", "slider.limit", status="the budget is spent")])
+    assert step["reason"].endswith("20 N. Its fit did not converge: the budget is spent.")
 
 
 def test_without_held_out_runs_the_training_runs_judge():

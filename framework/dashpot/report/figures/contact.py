@@ -19,7 +19,7 @@ def contact_response(curves: Sequence[Mapping[str, Any]], series: Sequence[str] 
     """Amplitude of the first order of the contact force (N), a panel for each wheel, a colour for each added mass.
 
     Each curve: `run`, `wheel`, `added_mass` kg, `frequency` (n,) Hz, `measured` (n,) N and `simulated[label]` (n,) N.
-    The labels in `series` are drawn at first, without them all.
+    The labels in `series` are drawn at first, without them all; of several runs with one mass the first.
     """
     labels = list(dict.fromkeys(label for curve in curves for label in curve["simulated"]))
     wheels = list(dict.fromkeys(curve["wheel"] for curve in curves))
@@ -29,7 +29,7 @@ def contact_response(curves: Sequence[Mapping[str, Any]], series: Sequence[str] 
     for curve in curves:
         color = ordered_color(masses.index(curve["added_mass"]), len(masses))
         traces += _traces(curve, table.add(_block(curve)), color, wheels.index(curve["wheel"]), labels)
-    groups = _groups(masses, labels, series)
+    groups = [*_groups(masses, labels, series), _runs(curves)]
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(wheels, groups)}
     caption = "Amplitude at the excited frequency. Points: measured; lines: simulated, by the same order tracking."
     return Figure("Wheel contact force over frequency", caption, plot, table.columns)
@@ -43,14 +43,13 @@ def contact_models(curves: Sequence[Mapping[str, Any]]) -> Figure:
     least = min(curve["added_mass"] for curve in curves)
     curves = [curve for curve in curves if curve["added_mass"] == least]
     labels = list(dict.fromkeys(label for curve in curves for label in curve["simulated"]))
-    wheels, runs = (list(dict.fromkeys(curve[key] for curve in curves)) for key in ("wheel", "run"))
+    wheels = list(dict.fromkeys(curve["wheel"] for curve in curves))
     table = TidyTable("run", "wheel", FREQUENCY, MEASURED, *map(_heading, labels))
     traces = []
     for curve in curves:
         block = {key: value for key, value in _block(curve).items() if key != "added mass (kg)"}
         traces += _traces(curve, table.add(block), "", wheels.index(curve["wheel"]), labels)
-    buttons = [toggles.choice(run, shown=run == runs[0]) for run in runs]
-    groups = [toggles.series_group(labels, measured="point"), toggles.group("run", "Run", buttons)]
+    groups = [toggles.series_group(labels, measured="point"), _runs(curves)]
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(wheels, groups)}
     caption = f"Runs with {_mass(least)} added. Points: measured; lines: simulated, by the same order tracking."
     return Figure("Models side by side", caption, plot, table.columns)
@@ -107,6 +106,13 @@ def _groups(masses: Sequence[float], labels: Sequence[str], series: Sequence[str
         for index, mass in enumerate(masses)
     ]
     return [toggles.group("series", "Show", [measured, *simulated]), toggles.group("mass", "Added mass", shades)]
+
+
+def _runs(curves: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Buttons for the runs; pressed at first is the first of each mass: others move otherwise, as in anti-phase."""
+    masses = {curve["run"]: curve["added_mass"] for curve in curves}
+    first = {masses[run]: run for run in reversed(masses)}
+    return toggles.group("run", "Run", [toggles.choice(run, shown=first[masses[run]] == run) for run in masses])
 
 
 def _layout(wheels: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any]:
