@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from unit.report.report_samples import comparison, comparison_evidence
 
-from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, wheels_grid
+from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, taken_as_known, wheels_grid
 from dashpot.report.page import render
 from dashpot.report.parts import Notice
 from dashpot.report.study import convergence, intervals_grid, stages_grid, study_page
@@ -190,6 +190,22 @@ def test_knots_that_no_run_reached_have_no_force():
     outside, inside, rest = excited_grid(content).rows
     assert (outside["force"], outside["interval"]) == (None, "not excited")
     assert (inside["force"], inside["interval"], rest["interval"]) == (-500.0, "-520 to -480", "–")
+
+
+def test_a_known_curve_is_told_of_unless_it_was_measured_so():
+    curve = {"curve": "oil.damping", "velocity": [-1.0, 1.0], "force": [-9.0, 9.0], "reached": [-1.0, 1.0]}
+    ends = {"low": [-9.0, 9.0], "high": [-9.0, 9.0], "excited": [True, True]}
+
+    def told(share: float | None) -> list[str]:
+        content = study()
+        content["models"][0]["velocity_curves"] = [curve | ends]
+        each = {"model": content["models"][0]["name"], "within": [-1.0, 1.0], "rms": 1.0, "share": share}
+        references = [{"parameter": "oil.damping", "by": "rig", "velocity": [], "force": [], "deviations": [each]}]
+        return list(taken_as_known({**content, "references": [] if share is None else references}))
+
+    assert told(0.004) == []
+    assert "oil.damping as known, 30 % off the measured: its numbers hold if" in told(0.3)[0]
+    assert "the data state no measured curve" in told(None)[0]
 
 
 def test_slow_curves_stand_in_numbers():
