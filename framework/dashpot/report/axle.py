@@ -111,8 +111,8 @@ def excited_grid(study: Json) -> Grid:
     return Grid("Knots of the damper curves", columns, rows, csv_name="velocity_curves.csv")
 
 
-def deviations_grid(measured: Sequence[Json]) -> Grid:
-    """How far identified and known curves are from those that were measured by other means."""
+def deviations_grid(measured: Sequence[Json], models: Sequence[Json]) -> Grid:
+    """How far identified and known curves of models are from those that were measured by other means."""
     columns = [
         Column("model", "model"),
         Column("curve", "curve"),
@@ -133,6 +133,8 @@ def deviations_grid(measured: Sequence[Json]) -> Grid:
         for reference in measured
         for each in reference["deviations"]
     ]
+    order = [model["name"] for model in models]
+    rows.sort(key=lambda row: order.index(row["model"]))
     caption = "Over the velocities that the runs of a model reached and both tables hold, all alike."
     return Grid("Identified beside measured curves", columns, rows, caption, "measured_curves.csv")
 
@@ -237,7 +239,7 @@ def _velocity(study: Json) -> Iterator[Part]:
         points = {f"{each['parameter']}, {each['by']}" if several else each["by"]: each for each in measured}
         yield figures.velocity_curves(curves, points)
         if measured:
-            yield deviations_grid(measured)
+            yield deviations_grid(measured, study["models"])
         yield from (Notice("warning", text) for text in taken_as_known(study))
         yield excited_grid(study)
 

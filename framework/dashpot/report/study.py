@@ -88,7 +88,7 @@ def ladder_grid(study: Json) -> Grid:
     columns = [
         Column("model", "model"),
         Column("before", "beside"),
-        Column("adds", "searches besides"),
+        Column("adds", "has or searches besides"),
         Column("lacks", "does not search"),
         Column("train", "RMSE, training runs", "%", 3),
         Column("held_out", "RMSE, held-out runs", "%", 3),

@@ -14,7 +14,7 @@ def ladder_of(models: Sequence[Json]) -> list[dict[str, Any]]:
     """For each of the compared ``models`` of a study but the first, how it stands beside the one before.
 
     ``changes`` of its RMSE in per cent on training and on held-out runs, what it ``adds`` to the searched parameters
-    and what it ``lacks`` of them, and, where it is not better on the runs that judge, the ``reason`` in words. Runs
+    or has as other parts, what it ``lacks`` of them, and, where it is not better on the runs that judge, the ``reason`` in words. Runs
     that judge are the held-out ones; where there are none, the training runs.
     """
     named = {model["name"]: model for model in models}
@@ -27,7 +27,7 @@ def _step(before: Json, model: Json, named: Mapping[str, Json]) -> dict[str, Any
         "model": model["name"],
         "before": before["name"],
         "changes": {key: _change(before, model, key) for key in ("train", "held_out")},
-        "adds": _more(before, model),
+        "adds": [*_parts(before, model), *_more(before, model)],
         "lacks": _more(model, before),
         "better": better,
         "reason": None if better else " ".join(_reasons(before, model, named)),
@@ -76,6 +76,12 @@ def _more(before: Json, model: Json) -> list[str]:
     branches = {_branch(path) for path in before["parameters"]}
     new = (path for path in _searched(model) if path not in searched)
     return list(dict.fromkeys(path if _branch(path) in branches else _branch(path) for path in new))
+
+
+def _parts(before: Json, model: Json) -> list[str]:
+    """The branches for which a model uses another one that was identified before it: "tire (ftire)"."""
+    parts = model["parts"].items()
+    return [f"{branch} ({part})" for branch, part in parts if before["parts"].get(branch) != part]
 
 
 def _searched(model: Json) -> dict[str, None]:

@@ -7,6 +7,7 @@ from typing import Any
 
 from dashpot.compare.comparison import Comparison
 from dashpot.fit.identifiability import Identifiability
+from dashpot.fit.study.declaration import ModelPlan
 from dashpot.fit.study.preview import Preview
 from dashpot.fit.study.run import ModelResult, StudyResult
 from dashpot.fit.study.stage import StageResult
@@ -27,10 +28,10 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
     content = comparison_of(result).as_dict()
     family = [model["name"] for model in content["models"]]
-    before = {plan.name: plan.start_from for plan in result.study.models}
+    plans = {plan.name: plan for plan in result.study.models}
     models = [
         {**_row(model, result.study.seed), **_model(model), **model_content(model)}
-        | {"start_from": before[model.fit.declared.name]}
+        | _declared(plans[model.fit.declared.name])
         for model in result.models
     ]
     study = {
@@ -90,6 +91,10 @@ def preview_text(previews: Sequence[Preview]) -> str:
         f"At the start values, with noise of {previews[0].noise:.3g} N coloured as in the records." if previews else ""
     )
     return "\n".join([*blocks, noise])
+
+
+def _declared(plan: ModelPlan) -> dict[str, Any]:
+    return {"start_from": plan.start_from, "parts": dict(plan.parts)}
 
 
 def _row(model: ModelResult, seed: int) -> dict[str, Any]:

@@ -45,6 +45,7 @@ def model(row: dict) -> dict:
         "stages": [STAGE],
         "masses": [MASS],
         "start_from": None,
+        "parts": {},
         "bootstrap": {"a.k": [1.8e5, 2.2e5]},
         "profiles": [PROFILE],
         "held_out": ["b1"],

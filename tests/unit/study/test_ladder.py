@@ -10,7 +10,14 @@ from dashpot.study.ladder import ladder_of
 def model(name, held_out, *paths, train=None, start_from=None, status="ok"):
     parameters = {path: {"role": "identified"} for path in paths} | {"curve.stiffness[0]": {"role": "fixed"}}
     rmse = {"train": held_out if train is None else train, "held_out": held_out}
-    return {"name": name, "rmse": rmse, "parameters": parameters, "start_from": start_from, "status": status}
+    return {
+        "name": name,
+        "rmse": rmse,
+        "parameters": parameters,
+        "start_from": start_from,
+        "status": status,
+        "parts": {},
+    }
 
 
 BASE = model("base", 20.0, "oil.damping")
@@ -53,6 +60,12 @@ def test_a_curve_that_is_known_in_one_model_is_searched_in_the_other():
     known = {**BASE, "parameters": {**BASE["parameters"], "oil.damping": {"role": "fixed"}}}
     [step] = ladder_of([known, {**BASE, "name": "searched"}])
     assert (step["adds"], step["lacks"]) == (["oil.damping"], [])
+
+
+def test_another_part_is_named_with_its_model():
+    one, other = ({**BASE, "name": tire, "parts": {"tire": tire}} for tire in ("voigt", "ftire"))
+    [step] = ladder_of([one, other])
+    assert step["adds"] == ["tire (ftire)"]
 
 
 def test_a_search_that_did_not_end_is_told_instead_of_blaming_the_model():
