@@ -104,8 +104,8 @@ def ladder_grid(study: Json) -> Grid:
         for step in study["ladder"]
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
-    caption = "Change of the RMSE from one model to the next, and in which parameters, or whole branches, they differ."
-    return Grid("From model to model", used, rows, caption, "ladder.csv")
+    caption = "From the model beside it to each model, and in which parameters, or whole branches, they differ."
+    return Grid("Change of the RMSE", used, rows, caption, "ladder.csv")
 
 
 def _ladder(study: Json) -> Section:

@@ -14,8 +14,8 @@ def ladder_of(models: Sequence[Json]) -> list[dict[str, Any]]:
     """For each of the compared ``models`` of a study but the first, how it stands beside the one before.
 
     ``changes`` of its RMSE in per cent on training and on held-out runs, what it ``adds`` to the searched parameters
-    or has as other parts, what it ``lacks`` of them, and, where it is not better on the runs that judge, the ``reason`` in words. Runs
-    that judge are the held-out ones; where there are none, the training runs.
+    or has as other parts, what it ``lacks`` of them, and, where it is not better on the runs that judge, the ``reason``
+    in words. Runs that judge are the held-out ones; where there are none, the training runs.
     """
     named = {model["name"]: model for model in models}
     return [_step(before, model, named) for before, model in zip(models, models[1:], strict=False)]

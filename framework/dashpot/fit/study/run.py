@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -208,7 +208,7 @@ class _Conduct:
             dataset=self.setting.dataset,
             optimizer=" then ".join(dict.fromkeys(stage.optimizer for stage in stages if stage.free)),
             seed=self.study.seed,
-            ending=next((s.ending for s in stages if not s.converged), Outcome.CONVERGED.value),
+            ending=ending_of(stages),
             evaluations=sum(stage.evaluations for stage in stages),
             at_bound=known.at_bound,
             idle=known.idle,
@@ -268,6 +268,18 @@ class _Conduct:
 
     def _tell(self, plan: ModelPlan, what: str) -> None:
         self.progress(f"{plan.name}: {what}", self.spent / max(self.study.budget, 1), None, self.setting.floor.value)
+
+
+def ending_of(stages: Sequence[StageResult]) -> str:
+    """How a model's search ended: as its first stage that did not converge, if no later one did with the same free.
+
+    What a stage left unfinished is finished by one after it that searches at least the same parameters.
+    """
+    for number, stage in enumerate(stages):
+        later = stages[number + 1 :]
+        if not stage.converged and not any(each.converged and {*stage.free} <= {*each.free} for each in later):
+            return stage.ending
+    return Outcome.CONVERGED.value
 
 
 def _refuse_priors(study: StudySpec) -> None:
