@@ -114,6 +114,12 @@ def _static_sag(car: Car) -> float:
     return (-k + np.sqrt(k * k + 4.0 * h * load)) / (2.0 * h)
 
 
+def shock_force(car: Car, velocity: float) -> float:
+    """The force in N of a shock absorber by itself at a velocity in m/s, compression positive."""
+    slope, knee = car.compression if velocity > 0.0 else car.rebound
+    return float(_digressive(velocity, slope, knee))
+
+
 @njit(cache=True)
 def _digressive(v, slope, knee):  # type: ignore[no-untyped-def]
     return slope * v / (1.0 + abs(v) / knee)

@@ -45,6 +45,17 @@ AXLE_CHANNELS = """\
       force@platform_left: {column: Fl, unit: N}
       force@platform_right: {column: Fr, unit: N}
 """
+# as a balance and a damper test rig would have told it, to 10 g and 0.1 N
+REFERENCES = """\
+references:
+  wheel_left.mass: {{value: {mass:.2f} kg, by: weighed}}
+  shock_absorber.damping: &shock_absorber
+    velocity: [{velocity}]
+    force: [{force}]
+    by: damper test rig
+  strut.shock_absorber.damping: *shock_absorber     # of models with top mounts
+"""
+VELOCITIES = (-1.0, -0.7, -0.45, -0.25, -0.1, -0.03, 0.0, 0.03, 0.1, 0.25, 0.45, 0.7, 1.0)  # m/s
 
 
 class CarOnRig(Specimen):
@@ -82,8 +93,19 @@ def measure_car(car: Car, folder: Path, seed: int, every: int = 20, axle_sweep: 
     rng = np.random.default_rng(seed)
     entries = [*_tire_runs(car, folder, rng, every), *_axle_runs(car, folder, rng, every, axle_sweep)]
     part = target.with_suffix(".part")
-    part.write_text(head + "".join(entries), encoding="utf-8")
+    part.write_text(head + "".join(entries) + _references(car), encoding="utf-8")
     return part.replace(target)
+
+
+def _references(car: Car) -> str:
+    """What balance and damper test rig tell of a car."""
+    from dashpot_specimens.car_laws import shock_force
+
+    return REFERENCES.format(
+        mass=car.wheel_mass,
+        velocity=", ".join(f"{velocity:g} m/s" for velocity in VELOCITIES),
+        force=", ".join(f"{shock_force(car, velocity):.1f} N" for velocity in VELOCITIES),
+    )
 
 
 def _tire_runs(car: Car, folder: Path, rng: np.random.Generator, dynamic: int) -> Iterator[str]:

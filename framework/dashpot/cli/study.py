@@ -35,8 +35,8 @@ def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, sw
 
     \b
     Example:
-      dashpot study tire_ladder --dry-run
-      dashpot study tire_ladder -o ladder
+      dashpot study paper_tire --dry-run
+      dashpot study paper_tire -o tire
     """
     from dashpot.fit.study.reading import find_study, read_study
 
@@ -112,5 +112,6 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
         results.write("models.csv", to_csv(grid.rows, grid.columns))
         report = results.write("report.html", page)
     answers = [mass_sentence(mass) for mass in content["masses"]]
+    answers += [step["reason"] for step in content["ladder"] if step["reason"]]
     session.talk.result("\n".join([plain_table(grid), *answers]), content)
     session.tell_report(report)

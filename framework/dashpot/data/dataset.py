@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
 from dashpot.data.digest import digest_runs
 from dashpot.data.groups import group_repeats
+from dashpot.data.reference import Reference
 from dashpot.data.run import Run
 from dashpot.data.stream import open_dataset
 from dashpot.data.table import FileReader
@@ -23,7 +24,8 @@ class Dataset:
 
     `folder` is where its measured files lie and `document` the text that describes them, `file` the only measured file
     that this text stands beside; all None for a dataset made in memory. `faults` are the faults of the measurement
-    itself that were found in reading, as (name of the run, finding).
+    itself that were found in reading, as (name of the run, finding). `references` are what was measured of the
+    specimen by other means, by the path of the parameter.
     """
 
     name: str
@@ -33,6 +35,7 @@ class Dataset:
     faults: tuple[tuple[str, Trouble], ...] = ()
     document: Document | None = None
     file: str | None = None
+    references: Mapping[str, Reference] = field(default_factory=dict)
 
     @cached_property
     def digest(self) -> str:
@@ -72,5 +75,12 @@ def read_dataset(path: Path | str, readers: Mapping[str, FileReader], allow_outs
     stream = open_dataset(path, readers, allow_outside)
     runs = group_repeats(list(stream))
     return Dataset(
-        stream.name, tuple(runs), stream.problems, stream.folder, stream.faults, stream.document, stream.source.file
+        stream.name,
+        tuple(runs),
+        stream.problems,
+        stream.folder,
+        stream.faults,
+        stream.document,
+        stream.source.file,
+        stream.references,
     )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Mapping as MappingOf
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration, name_of, read_declaration, stem_of
 from dashpot.data.inherit import inherit
+from dashpot.data.reference import Reference, read_references
 from dashpot.data.source import DESCRIPTIONS, Source
 from dashpot.data.stiffness_table import TableDeclaration, read_table_declaration
 from dashpot.text.document import Document
@@ -18,14 +20,15 @@ from dashpot.text.problem import InputError, Place, Problem
 FORMAT = "dashpot-dataset/1"
 
 # keys of a dataset that are no keys of a run, also where dataset and run are one
-_OWN_KEYS = ("format", "folder")
+_OWN_KEYS = ("format", "folder", "references")
 
 
 @dataclass(frozen=True)
 class Description:
     """The sound declarations of a dataset, the names of all its runs, and the problems found in its text.
 
-    `folder` is what the text says about where the measured files lie, None for beside it.
+    `folder` is what the text says about where the measured files lie, None for beside it; `references` are what was
+    measured by other means, by the path of the parameter.
     """
 
     name: str
@@ -34,6 +37,7 @@ class Description:
     names: tuple[str, ...]
     problems: tuple[Problem, ...]
     tables: tuple[TableDeclaration, ...] = ()
+    references: MappingOf[str, Reference] = field(default_factory=dict)
 
 
 def is_dataset(path: Path) -> bool:
@@ -65,13 +69,13 @@ def read_description(document: Document, source: Source) -> Description:
             "a dataset cannot allow itself to read files elsewhere",
             "say --allow-outside on the command line instead, where you trust it",
         )
-    tables = _tables(form)
+    tables, references = _tables(form), read_references(form)
     many = "runs" in form or "tables" in form or not source.file
     nodes, defaults = _many_runs(form) if many else _single_run(form)
     form.close()
     declarations = tuple(_declare(nodes, defaults, source.file, problems))
     names = tuple(filter(None, (name_of(node, source.file) for node in nodes)))
-    return Description(name, folder, declarations, names, tuple(problems), tables)
+    return Description(name, folder, declarations, names, tuple(problems), tables, references)
 
 
 def _tables(form: Form) -> tuple[TableDeclaration, ...]:

@@ -21,6 +21,7 @@ def dataset_schema(readers: Collection[str]) -> Schema:
         "format": s.choice((FORMAT,)),
         "name": s.text("the name of the dataset"),
         "folder": s.text("where the measured files lie, if not beside this file"),
+        "references": s.named(_reference(), "by the path of the parameter: no fit sees them, reports show them"),
     }
     many = s.mapping(
         {**head, "sensors": _sensors(), "defaults": s.part("defaults"), "runs": {"type": "array"}}, ("format",)
@@ -43,6 +44,16 @@ def dataset_schema(readers: Collection[str]) -> Schema:
     }
     about = "Measured runs and what their files hold. Without 'runs': the only run, beside whose file this text stands."
     return s.document("dataset", about, s.by_key({"runs": many, "tables": many}, alone), parts)
+
+
+def _reference() -> Schema:
+    by = {"by": s.text("how it was measured")}
+    number = s.mapping({"value": s.quantity("", "with its unit"), **by}, ("value",))
+    curve = {
+        key: s.items(s.quantity(unit), s.in_unit(about, unit), minItems=2)
+        for key, unit, about in (("velocity", "m/s", "growing"), ("force", "N", "one for each velocity"))
+    }
+    return s.by_key({"value": number}, s.mapping({**curve, **by}, ("velocity", "force")))
 
 
 def _table(readers: Collection[str]) -> Schema:

@@ -49,6 +49,7 @@ class RunStream:
         allow_outside: bool,
     ) -> None:
         self.name, self.source, self.document = description.name, source, document
+        self.references = description.references
         root = document.root
         place = root.entries.get("folder", root).place if isinstance(root, MappingNode) else root.place
         self.folder = measured_folder(source, description.folder, allow_outside, place)

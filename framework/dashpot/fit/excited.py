@@ -42,7 +42,7 @@ class VelocityCurve:
 
 def velocity_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> list[VelocityCurve]:
     """The tables over velocity of a network, identified or known, with what its simulation reaches in ``runs``."""
-    curves = {path: curve for path, curve in spec.curves().items() if _is_over_velocity(curve)}
+    curves = {path: curve for path, curve in spec.curves().items() if is_over_velocity(curve)}
     if not curves:
         return []
     speeds: dict[str, list[Array]] = {path: [] for path in curves}
@@ -52,7 +52,8 @@ def velocity_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> list[Veloci
     return [_told(path, curve, np.concatenate(speeds[path])) for path, curve in curves.items()]
 
 
-def _is_over_velocity(curve: Characteristic) -> bool:
+def is_over_velocity(curve: Characteristic) -> bool:
+    """Whether a curve is a table of a force over velocity."""
     return curve.form == "table" and curve.curve.over[1] == VELOCITY
 
 

@@ -18,7 +18,7 @@ from dashpot.model.network import Characteristic, NetworkSpec, Value
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-9
-ROW_KNOTS = 8  # of a curve that tables alone tell
+ROW_KNOTS = 8  # of a curve that tables alone tell, at most
 NORMAL = 1.959964  # standard errors on either side of a 95 % interval
 
 
@@ -115,7 +115,7 @@ def _covered(at: Array, slow: ScoredRun) -> NDArray[np.bool_]:
 def _taken(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:
     slow, records = widest(runs), [run for run in runs if run.kind != STEADY]
     if not records:
-        return _taken_from_rows(runs, knots or ROW_KNOTS)
+        return _taken_from_rows(runs, knots)
     if slow is None:
         motions = [(run.drive.displacement, run.drive.velocity, run.force) for run in records]
         curve = curve_from_sweeps(motions, knots) if knots else curve_from_sweeps(motions)
@@ -124,11 +124,12 @@ def _taken(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:
     return TakenCurve(line.deflection, line.force, np.full(line.force.size, line.error))
 
 
-def _taken_from_rows(runs: Sequence[ScoredRun], knots: int) -> TakenCurve:
-    """From tables alone: they tell the slope at each preload."""
+def _taken_from_rows(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:
+    """From tables alone: they tell the slope at each preload, and so no more knots than one more than preloads."""
     settings = [run.excitation.settings for run in runs]
     preloads, amplitudes = (np.array([each[key] for each in settings]) for key in ("preload", "amplitude"))
     storage = np.array([harmonic_of(run.force).real for run in runs]) / amplitudes
+    knots = knots or min(np.unique(preloads).size + 1, ROW_KNOTS)
     at = np.linspace(np.min(preloads - amplitudes), np.max(preloads + amplitudes), knots)
     return TakenCurve(at, curve_from_stiffness(preloads, storage, at), np.full(knots, np.inf))
 

@@ -14,6 +14,7 @@ from dashpot.text.digits import MISSING, number, quantity
 
 Json = Mapping[str, Any]
 
+OFF = 0.02  # share of the RMS of the force; test rigs for dampers repeat to about 1 %
 FIXINGS = {"rigid": "rigid", "elastic": "in rubber"}
 
 
@@ -43,13 +44,19 @@ def masses_grid(study: Json) -> Grid:
         Column("node", "node"),
         Column("value", "mass", "kg", 5),
         Column("interval", "95 % interval"),
+        Column("off", "off the reference", "%", 2),
         Column("without", "without the tire", "kg", 5),
         Column("without_interval", "its 95 % interval"),
         Column("rmse", "its RMSE", "N", 3),
     ]
-    rows = [_mass_row(model, mass) for model in study["models"] for mass in model["masses"]]
+    known = {each["parameter"]: each for each in study.get("references", ()) if "value" in each}
+    rows = [
+        _mass_row(model, mass, known.get(mass["parameter"])) for model in study["models"] for mass in model["masses"]
+    ]
     used = [column for column in columns if any(row.get(column.key) is not None for row in rows)]
-    return Grid("Identified masses", used, rows, csv_name="masses.csv")
+    names = {f"{mass['node']}: {_reference(mass)}." for mass in study["masses"] if mass["reference"]}
+    caption = f"References, which no model has seen: {' '.join(sorted(names))}" if names else ""
+    return Grid("Identified masses", used, rows, caption, "masses.csv")
 
 
 def wheels_grid(axle: Json) -> Grid:
@@ -102,6 +109,57 @@ def excited_grid(study: Json) -> Grid:
         )
     ]
     return Grid("Knots of the damper curves", columns, rows, csv_name="velocity_curves.csv")
+
+
+def deviations_grid(measured: Sequence[Json], models: Sequence[Json]) -> Grid:
+    """How far identified and known curves of models are from those that were measured by other means."""
+    columns = [
+        Column("model", "model"),
+        Column("curve", "curve"),
+        Column("by", "measured by"),
+        Column("within", "from and to", "m/s"),
+        Column("rms", "RMS of the difference", "N", 3),
+        Column("share", "of the RMS of the measured force", "%", 3),
+    ]
+    rows = [
+        {
+            "model": each["model"],
+            "curve": reference["parameter"],
+            "by": reference["by"],
+            "within": _pair(each["within"]) if each["within"] else None,
+            "rms": each["rms"],
+            "share": None if each["share"] is None else 100.0 * each["share"],
+        }
+        for reference in measured
+        for each in reference["deviations"]
+    ]
+    order = [model["name"] for model in models]
+    rows.sort(key=lambda row: order.index(row["model"]))
+    caption = "Over the velocities that the runs of a model reached and both tables hold, all alike."
+    return Grid("Identified beside measured curves", columns, rows, caption, "measured_curves.csv")
+
+
+def taken_as_known(study: Json) -> Iterator[str]:
+    """Damper curves that a model does not search, where nothing tells that they are those of the specimen."""
+    deviations = {
+        (each["model"], reference["parameter"]): each["share"]
+        for reference in study.get("references", ())
+        for each in reference.get("deviations", ())
+    }
+    for model in study["models"]:
+        for curve in model.get("velocity_curves", ()):
+            share = deviations.get((model["name"], curve["curve"]))
+            if curve["low"] != curve["high"] or (share is not None and share <= OFF):
+                continue
+            told = (
+                "the data state no measured curve"
+                if share is None
+                else f"{number(100.0 * share, 2)} % off the measured"
+            )
+            yield (
+                f"{model['name']} takes {curve['curve']} as known, {told}: its numbers hold if the curve in its file "
+                "is that of this specimen."
+            )
 
 
 def slow_grid(axle: Json) -> Grid:
@@ -162,7 +220,10 @@ def _masses(study: Json) -> Iterator[Part]:
 
 def _contact(study: Json, evidence: Evidence) -> Iterator[Part]:
     if evidence.get("contact_response"):
-        yield figures.contact_response(evidence["contact_response"], study["study"]["compared"][-1:])
+        compared = study["study"]["compared"]
+        yield figures.contact_response(evidence["contact_response"], compared[-1:])
+        if len(compared) > 1:
+            yield figures.contact_models(evidence["contact_response"])
 
 
 def _velocity(study: Json) -> Iterator[Part]:
@@ -173,11 +234,21 @@ def _velocity(study: Json) -> Iterator[Part]:
         for curve in model.get("velocity_curves", ())
     }
     if curves:
-        yield figures.velocity_curves(curves)
+        paths = {curve["curve"] for curve in curves.values()}
+        measured = [each for each in study.get("references", ()) if each["parameter"] in paths]
+        points = {f"{each['parameter']}, {each['by']}" if several else each["by"]: each for each in measured}
+        yield figures.velocity_curves(curves, points)
+        if measured:
+            yield deviations_grid(measured, study["models"])
+        yield from (Notice("warning", text) for text in taken_as_known(study))
         yield excited_grid(study)
 
 
-def _mass_row(model: Json, mass: Json) -> dict[str, Any]:
+def _reference(mass: Json) -> str:
+    return f"{number(mass['reference']['value'], 4)} kg {mass['reference']['by']}"
+
+
+def _mass_row(model: Json, mass: Json, known: Json | None) -> dict[str, Any]:
     without = next((each for each in model.get("masses_without_tire", ()) if each["node"] == mass["node"]), None)
     row = {
         "model": model["name"],
@@ -185,6 +256,7 @@ def _mass_row(model: Json, mass: Json) -> dict[str, Any]:
         "value": mass["value"],
         "interval": _pair(mass["interval"]) if mass["interval"] else None,
         "within": mass["interval"],
+        "off": 100.0 * (mass["value"] / known["value"] - 1.0) if known else None,
     }
     if without is None:
         return row

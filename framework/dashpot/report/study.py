@@ -29,10 +29,16 @@ def study_page(study: Json, evidence: Evidence) -> Page:
     compared = [model for model in study["models"] if model["name"] in study["study"]["compared"]]
     page = comparison_page({**study, "models": compared}, evidence)
     first, *others = page.sections
-    added = [*axle_sections(study, evidence), _at_amplitude(study, evidence), _conduct(study), _knowledge(study)]
+    added = [
+        _ladder(study),
+        *axle_sections(study, evidence),
+        _at_amplitude(study, evidence),
+        _conduct(study),
+        _knowledge(study),
+    ]
     sections = [first, *(section for section in added if section.parts), *others]
     about = study["study"]["about"]
-    headline = " ".join([*(f"{mass_sentence(mass)}." for mass in study["masses"]), page.headline])
+    headline = " ".join(f"{mass_sentence(mass)}." for mass in study["masses"]) or page.headline
     title, lead = f"Study {study['study']['name']}", f"{about} {page.lead}".strip()
     return replace(page, title=title, headline=headline, lead=lead, sections=sections)
 
@@ -77,6 +83,36 @@ def intervals_grid(model: Json) -> Grid:
     return Grid(model["name"], used, rows, csv_name=f"{model['name']}.csv")
 
 
+def ladder_grid(study: Json) -> Grid:
+    """How each model stands beside the one before it."""
+    columns = [
+        Column("model", "model"),
+        Column("before", "beside"),
+        Column("adds", "has or searches besides"),
+        Column("lacks", "does not search"),
+        Column("train", "RMSE, training runs", "%", 3),
+        Column("held_out", "RMSE, held-out runs", "%", 3),
+    ]
+    rows = [
+        {
+            "model": step["model"],
+            "before": step["before"],
+            "adds": ", ".join(step["adds"]) or None,
+            "lacks": ", ".join(step["lacks"]) or None,
+            **step["changes"],
+        }
+        for step in study["ladder"]
+    ]
+    used = [column for column in columns if any(row[column.key] is not None for row in rows)]
+    caption = "From the model beside it to each model, and in which parameters, or whole branches, they differ."
+    return Grid("Change of the RMSE", used, rows, caption, "ladder.csv")
+
+
+def _ladder(study: Json) -> Section:
+    reasons = [Notice("info", step["reason"]) for step in study["ladder"] if step["reason"]]
+    return Section("From model to model", parts=[ladder_grid(study), *reasons] if study["ladder"] else [])
+
+
 def _at_amplitude(study: Json, evidence: Evidence) -> Section:
     amplitude = study["study"]["amplitude"]
     if amplitude is None:
@@ -86,8 +122,8 @@ def _at_amplitude(study: Json, evidence: Evidence) -> Section:
         for curve in evidence.get("dynamic_stiffness", ())
         if math.isclose(curve.get("amplitude") or 0.0, amplitude, rel_tol=ALIKE)
     ]
-    best = best_model(study)
-    parts = figures.stiffness_figures(curves, [best["name"]] if best else []) if curves else []
+    best, last = best_model(study), study["study"]["compared"][-1:]
+    parts = figures.stiffness_figures(curves, [best["name"], *last] if best else last) if curves else []
     return Section(f"Dynamic stiffness at {set_value(amplitude, 'm')}", parts=list(parts))
 
 

@@ -13,24 +13,27 @@ PERCENT = 0.01
 NORMAL = 1.96  # standard errors between a known number and the end of its interval
 
 
-def identified_masses(models: Iterable[Json], noise_floor: float | None) -> list[dict[str, Any]]:
+def identified_masses(
+    models: Iterable[Json], noise_floor: float | None, references: Iterable[Json] = ()
+) -> list[dict[str, Any]]:
     """For each node whose mass was identified: its mass (kg), 95 % interval, model, and what other models say.
 
-    ``models`` are those of a study's result. The model is the one with the smallest error on held-out runs, or on the
-    training runs where there are none.
+    ``models`` and ``references`` are those of a study's result. The model is the one with the smallest error on
+    held-out runs, or on the training runs where there are none.
     """
     found: dict[str, list[tuple[Json, Json]]] = {}
     for model in models:
         for mass in model["masses"]:
             found.setdefault(mass["node"], []).append((model, mass))
-    return [_answer(node, pairs, noise_floor) for node, pairs in found.items()]
+    known = {reference["parameter"]: reference for reference in references}
+    return [_answer(node, pairs, noise_floor) | {"reference": _known(pairs, known)} for node, pairs in found.items()]
 
 
 def mass_sentence(mass: Json) -> str:
     """The answer in words."""
     within = f", 95 % interval {mass['interval'][0]:.2f} to {mass['interval'][1]:.2f} kg" if mass["interval"] else ""
     error = "" if mass["error"] is None else f", which has the lowest RMSE ({mass['error']:.3g} N{_floor(mass)})"
-    return f"{mass['node']}: {mass['value']:.2f} kg{within}; from {mass['model']}{error}"
+    return f"{mass['node']}: {mass['value']:.2f} kg{within}{_beside(mass)}; from {mass['model']}{error}"
 
 
 def mass_warnings(mass: Json) -> Iterator[str]:
@@ -74,6 +77,19 @@ def _answer(node: str, pairs: list[tuple[Json, Json]], noise_floor: float | None
         "owed_to_known": mass["owed_to_known"],
         "others": others,
     }
+
+
+def _known(pairs: list[tuple[Json, Json]], known: Json) -> dict[str, Any] | None:
+    found: Json | None = known.get(pairs[0][1]["parameter"])
+    return {"value": found["value"], "by": found["by"]} if found else None
+
+
+def _beside(mass: Json) -> str:
+    known = mass["reference"]
+    if not known:
+        return ""
+    off = 100.0 * (mass["value"] / known["value"] - 1.0)
+    return f", {abs(off):.1f} % {'above' if off > 0.0 else 'below'} the {known['value']:.2f} kg {known['by']}"
 
 
 def _error(model: Json) -> float:

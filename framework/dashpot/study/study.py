@@ -7,11 +7,14 @@ from typing import Any
 
 from dashpot.compare.comparison import Comparison
 from dashpot.fit.identifiability import Identifiability
+from dashpot.fit.study.declaration import ModelPlan
 from dashpot.fit.study.preview import Preview
 from dashpot.fit.study.run import ModelResult, StudyResult
 from dashpot.fit.study.stage import StageResult
 from dashpot.study.axle_study import axle_content, axle_evidence, model_content
+from dashpot.study.ladder import ladder_of
 from dashpot.study.masses import identified_masses
+from dashpot.study.references import references_content
 
 
 def comparison_of(result: StudyResult) -> Comparison:
@@ -25,7 +28,12 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
     content = comparison_of(result).as_dict()
     family = [model["name"] for model in content["models"]]
-    models = [{**_row(model, result.study.seed), **_model(model), **model_content(model)} for model in result.models]
+    plans = {plan.name: plan for plan in result.study.models}
+    models = [
+        {**_row(model, result.study.seed), **_model(model), **model_content(model)}
+        | _declared(plans[model.fit.declared.name])
+        for model in result.models
+    ]
     study = {
         "name": result.study.name,
         "about": result.study.about,
@@ -34,13 +42,16 @@ def study_content(result: StudyResult) -> dict[str, Any]:
         "compared": family,
     }
     axle = axle_content(result.models)
-    masses = identified_masses(models, result.models[-1].setting.floor.value)
+    references = _references(result, models)
+    masses = identified_masses(models, result.models[-1].setting.floor.value, references)
     return {
         **content,
         "format": "dashpot-study-result/1",
         "study": study,
         "models": models,
         "axle": axle,
+        "references": references,
+        "ladder": ladder_of([model for model in models if model["name"] in family]),
         "masses": masses,
     }
 
@@ -49,6 +60,11 @@ def study_evidence(result: StudyResult) -> Any:
     """Arrays and texts for the report: those of the comparison, and those of an axle."""
     evidence = comparison_of(result).evidence()
     return evidence | axle_evidence(result.models, evidence["dynamic_stiffness"])
+
+
+def _references(result: StudyResult, models: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    networks = [model.fit.fitted for model in result.models]
+    return references_content(result.setting.dataset.references.values(), networks, models)
 
 
 def preview_content(name: str, previews: Sequence[Preview]) -> dict[str, Any]:
@@ -74,6 +90,10 @@ def preview_text(previews: Sequence[Preview]) -> str:
     noise = "At the start values, with coloured noise of {:.3g} N, its correlation estimated from the records."
     noise = noise.format(previews[0].noise) if previews else ""
     return "\n".join([*blocks, noise])
+
+
+def _declared(plan: ModelPlan) -> dict[str, Any]:
+    return {"start_from": plan.start_from, "parts": dict(plan.parts)}
 
 
 def _row(model: ModelResult, seed: int) -> dict[str, Any]:
@@ -114,6 +134,7 @@ def _masses(model: ModelResult) -> list[dict[str, Any]]:
     return [
         {
             "node": path.rpartition(".")[0],
+            "parameter": path,
             "value": slots[path].number,
             "interval": list(slots[path].interval or ()),
             "owed": [

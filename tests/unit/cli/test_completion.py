@@ -40,7 +40,7 @@ def test_the_script_of_each_shell_asks_this_command(call, shell):
         ("dashpot fit kelv", ["plain,kelvin_voigt", "file,kelv"]),
         ("dashpot diagnose spring my", ["file,my"]),
         ("dashpot list elem", ["plain,elements"]),
-        ("dashpot study tire_l", ["plain,tire_ladder", "file,tire_l"]),
+        ("dashpot study paper_t", ["plain,paper_tire", "file,paper_t"]),
         ("dashpot fit spring data --out", ["plain,--output"]),
     ],
 )

@@ -608,12 +608,12 @@ COMMANDS = {
         "declare",
     ),
     "a study of no name": (
-        "study tire_laddr -o out",
+        "study papr_tire -o out",
         None,
-        "tire_laddr: ",
+        "papr_tire: ",
         "shipped study",
         "there is no such file",
-        "did you mean 'tire_ladder'",
+        "did you mean 'paper_tire'",
     ),
     "a model of no name": (
         "study x.yaml -o out",

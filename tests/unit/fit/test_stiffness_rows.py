@@ -172,6 +172,16 @@ def test_a_curve_that_tables_alone_tell_has_their_slopes():
     assert np.diff(force) == pytest.approx(np.diff(2e5 * at + 4e6 * at**2), rel=0.06)
 
 
+def test_a_table_at_one_preload_tells_a_straight_line():
+    rows = [row(f"r{k}", 2.0, amplitude, 2e5 + 0j, 3e-3) for k, amplitude in enumerate((1e-4, 1e-3))]
+    model = "  a: {element: spring, stiffness: {from: quasi_static}}\n"
+    fit = fit_network(network(model), Dataset("one", tuple(rows)), registry=REGISTRY)
+    table = fit.fitted.curves()["a.stiffness"]
+    assert table.at == pytest.approx((2e-3, 4e-3))
+    low, high = (value.number for value in table.values)
+    assert (high - low) / 2e-3 == pytest.approx(2e5, rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("law", "numbers", "start"),
     [

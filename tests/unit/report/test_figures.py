@@ -38,7 +38,8 @@ def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
         figures.gain_intervals([friction(title=label), relaxation(gain=None, gain_interval=None)]),
         figures.convergence_history({label: {"evaluations": [1, 2], "best": [9.0, 3.0]}}),
         figures.contact_response([contact(run, label, 0.0), contact(run, label, 5.0)]),
-        figures.velocity_curves({label: DAMPER}),
+        figures.contact_models([contact(run, label, 0.0), contact(run, label, 5.0)]),
+        figures.velocity_curves({label: DAMPER}, {run: DAMPER}),
         figures.slow_curves({"measured": SLOW, label: SLOW}),
     ]
 
@@ -128,6 +129,30 @@ def test_contact_forces_stand_in_a_panel_for_each_wheel_and_a_colour_for_each_ma
     assert {"xaxis", "xaxis2"} <= plot["layout"].keys()
     assert [trace["meta"]["mass"] for trace in plot["data"]] == ["0 kg"] * 2 + ["5 kg"] * 2 + ["0 kg"] * 2
     assert plot["data"][0]["marker"]["color"] != plot["data"][2]["marker"]["color"]
+
+
+def test_of_two_runs_with_one_mass_the_first_is_drawn_at_first():
+    plot = figures.contact_response([contact("a", "m", 0.0), contact("anti", "m", 0.0), contact("b", "m", 5.0)]).plot
+    shown = {trace["meta"]["run"] for trace in plot["data"] if trace["visible"] is True}
+    assert shown == {"a", "b"} and len(plot["data"]) == 6
+
+
+def test_models_stand_side_by_side_on_the_runs_with_the_least_mass():
+    curves = [contact("a", "m", 5.0), contact("b", "m", 0.0), contact("c", "m", 0.0)]
+    figure = figures.contact_models(
+        [{**curve, "simulated": {"n": curve["measured"], "m": curve["measured"]}} for curve in curves]
+    )
+    assert {trace["meta"]["run"] for trace in figure.plot["data"]} == {"b", "c"}
+    shown = [trace for trace in figure.plot["data"] if trace["visible"] is True]
+    assert [trace["meta"]["series"] for trace in shown] == ["measured", "n", "m"]
+    assert shown[1]["line"]["color"] != shown[2]["line"]["color"] and "0 kg added" in figure.caption
+
+
+def test_a_measured_damper_curve_stands_as_points_over_the_identified_one():
+    measured = {"velocity": [-1.0, 0.5], "force": [-95.0, 41.0]}
+    *_, points = plotly_figure(figures.velocity_curves({"model": DAMPER}, {"damper test rig": measured})).data
+    assert (points.mode, points.name) == ("markers", "damper test rig")
+    assert np.allclose(points.x, [-1.0, 0.5]) and np.allclose(points.y, [-95.0, 41.0])
 
 
 def test_loops_are_drawn_in_millimetres_and_newtons():

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pytest
 from unit.report.report_samples import comparison, comparison_evidence
 
-from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, wheels_grid
+from dashpot.report.axle import disagreements, excited_grid, masses_grid, slow_grid, taken_as_known, wheels_grid
 from dashpot.report.page import render
 from dashpot.report.parts import Notice
 from dashpot.report.study import convergence, intervals_grid, stages_grid, study_page
+from dashpot.study.ladder import ladder_of
 from dashpot.study.masses import identified_masses
 
 STAGE = {
@@ -22,6 +24,14 @@ STAGE = {
     "spread": [12.5, 12.6, 14.0],
 }
 NUMBER = {"value": 2e5, "unit": "N/m", "role": "free", "interval": [1.9e5, 2.1e5]}
+MASS = {
+    "node": "wheel",
+    "parameter": "wheel.mass",
+    "value": 40.0,
+    "interval": [39.0, 41.5],
+    "owed": [],
+    "owed_to_known": [],
+}
 PROFILE = {"parameter": "a.k", "value": [1.0], "loss": [1.0], "interval": [1.5e5, 3e5], "open": [False, True]}
 
 
@@ -33,7 +43,9 @@ def model(row: dict) -> dict:
         "at_bound": ["a.k"],
         "identifiability": {"condition": 1234.5, "deviations": {}, "weak": ["a and b trade off"]},
         "stages": [STAGE],
-        "masses": [{"node": "wheel", "value": 40.0, "interval": [39.0, 41.5], "owed": [], "owed_to_known": []}],
+        "masses": [MASS],
+        "start_from": None,
+        "parts": {},
         "bootstrap": {"a.k": [1.8e5, 2.2e5]},
         "profiles": [PROFILE],
         "held_out": ["b1"],
@@ -48,7 +60,8 @@ def study(amplitude: float | None = 5e-3) -> dict:
 
 
 def answered(content: dict) -> dict:
-    return {**content, "masses": identified_masses(content["models"], 9.0)}
+    masses = identified_masses(content["models"], 9.0, content.get("references", ()))
+    return {**content, "masses": masses, "ladder": ladder_of(content["models"])}
 
 
 def test_intervals_of_every_kind_stand_side_by_side_in_rig_units():
@@ -81,7 +94,7 @@ def test_the_page_holds_the_stiffness_at_the_amplitude_of_the_study_only():
 def test_masses_stand_side_by_side_and_what_the_structure_makes_of_them_is_told():
     content = study()
     assert [row["interval"] for row in masses_grid(content).rows] == ["39.00 to 41.50"] * len(content["models"])
-    content["models"][1]["masses"][0]["value"] = 44.0
+    content["models"][1]["masses"] = [{**MASS, "value": 44.0}]
     best = answered(content)["masses"][0]["model"]
     told = [
         part.text
@@ -98,8 +111,29 @@ def test_the_headline_of_a_study_of_masses_is_the_mass_with_its_interval():
     mass = content["masses"][0]
     headline = study_page(content, comparison_evidence()).headline
     assert headline.startswith(f"wheel: {mass['value']:.2f} kg, 95 % interval 39.00 to 41.50 kg; from {mass['model']}")
-    assert "has the lowest RMSE: 14.9 N" in headline
+    assert headline.endswith("which has the lowest RMSE (14.9 N at a noise floor of 9 N).")
     assert not study_page({**content, "masses": []}, comparison_evidence()).headline.startswith("wheel")
+
+
+def test_a_mass_that_was_weighed_stands_beside_the_identified_one():
+    weighed = {"parameter": "wheel.mass", "value": 41.0, "unit": "kg", "by": "weighed"}
+    content = answered({**study(), "references": [weighed]})
+    page = study_page(content, comparison_evidence())
+    assert "39.00 to 41.50 kg, 2.4 % below the 41.00 kg weighed; from" in page.headline
+    grid = masses_grid(content)
+    assert [row["off"] for row in grid.rows] == pytest.approx([100.0 * (40.0 / 41.0 - 1.0)] * len(grid.rows))
+    assert "wheel: 41.00 kg weighed." in grid.caption
+    assert "off" not in {column.key for column in masses_grid(study()).columns}
+
+
+def test_a_model_that_is_not_better_than_the_one_before_it_says_why():
+    content = study()
+    content["models"][1]["rmse"] = {**content["models"][1]["rmse"], "held_out": 1e3}
+    page = study_page(answered(content), comparison_evidence())
+    [section] = [section for section in page.sections if section.title == "From model to model"]
+    said = [part.text for part in section.parts if isinstance(part, Notice)]
+    first, second = (model["name"] for model in content["models"][:2])
+    assert any(text.startswith(f"{second} is not better on held-out runs than {first}, 1000 N") for text in said)
 
 
 def masses(without: float, interval: list[float]) -> dict:
@@ -157,6 +191,22 @@ def test_knots_that_no_run_reached_have_no_force():
     outside, inside, rest = excited_grid(content).rows
     assert (outside["force"], outside["interval"]) == (None, "not excited")
     assert (inside["force"], inside["interval"], rest["interval"]) == (-500.0, "-520 to -480", "–")
+
+
+def test_a_known_curve_is_told_of_unless_it_was_measured_so():
+    curve = {"curve": "oil.damping", "velocity": [-1.0, 1.0], "force": [-9.0, 9.0], "reached": [-1.0, 1.0]}
+    ends = {"low": [-9.0, 9.0], "high": [-9.0, 9.0], "excited": [True, True]}
+
+    def told(share: float | None) -> list[str]:
+        content = study()
+        content["models"][0]["velocity_curves"] = [curve | ends]
+        each = {"model": content["models"][0]["name"], "within": [-1.0, 1.0], "rms": 1.0, "share": share}
+        references = [{"parameter": "oil.damping", "by": "rig", "velocity": [], "force": [], "deviations": [each]}]
+        return list(taken_as_known({**content, "references": [] if share is None else references}))
+
+    assert told(0.004) == []
+    assert "oil.damping as known, 30 % off the measured: its numbers hold if" in told(0.3)[0]
+    assert "the data state no measured curve" in told(None)[0]
 
 
 def test_slow_curves_stand_in_numbers():

@@ -120,6 +120,15 @@ def test_the_dataset_reads_back_with_its_noise(folder):
     assert "displacement@wheel_right" in data.run("axle_m5").channels
 
 
+def test_balance_and_damper_test_rig_stand_in_the_dataset(folder):
+    data = read_dataset(folder, {word: reader() for word, reader in load_registry().formats.items()})
+    mass, shock = data.references["wheel_left.mass"], data.references["shock_absorber.damping"]
+    assert mass.number("kg") == pytest.approx(Car().wheel_mass, abs=5e-3)
+    for velocity, force in zip(shock.velocity, shock.force, strict=True):
+        slope, knee = Car().rebound if velocity < 0.0 else Car().compression
+        assert force == pytest.approx(slope * velocity / (1.0 + abs(velocity) / knee), abs=0.06)
+
+
 def test_the_same_seed_gives_the_same_bytes_and_another_dataset_is_kept(folder, seed, tmp_path):
     again = CarOnRig().measure(tmp_path, seed).parent
     files = sorted(path.name for path in folder.iterdir())

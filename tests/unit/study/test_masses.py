@@ -9,6 +9,7 @@ def model(name, train, held_out, value, moved=0.07):
     owed = [{"branch": "tire", "model": "tire_model_5", "share": 0.002, "moved": moved}]
     mass = {
         "node": "wheel",
+        "parameter": "wheel.mass",
         "value": value,
         "interval": [value - 0.25, value + 0.5],
         "owed": owed,
@@ -58,3 +59,11 @@ def test_the_sense_of_the_shift_is_told():
 
 def test_no_mass_no_answer():
     assert identified_masses([{"name": "tire", "rmse": {"train": 1.0, "held_out": None}, "masses": []}], 1.0) == []
+
+
+def test_a_mass_that_was_weighed_is_told_with_the_difference():
+    weighed = {"parameter": "wheel.mass", "value": 47.5, "unit": "kg", "by": "weighed"}
+    (mass,) = identified_masses([PLAIN, MOUNT], 9.0, [weighed])
+    assert "47.15 to 47.90 kg, 0.2 % below the 47.50 kg weighed; from mount" in mass_sentence(mass)
+    (other,) = identified_masses([MOUNT], 9.0, [{**weighed, "parameter": "hub.mass"}])
+    assert other["reference"] is None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -37,6 +37,7 @@ from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.declaration import ModelPlan, SearchStage, StudySpec
 from dashpot.fit.study.parts import with_parts
 from dashpot.fit.study.patterns import chosen
+from dashpot.fit.study.references import require_references
 from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
@@ -92,7 +93,8 @@ def run_study(
     """Identify every model of a study; what an earlier call left in the folder ``checkpoint`` is not done again.
 
     The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
-    number of interruptions. Raises InputError for patterns that name nothing and for networks that do not compile.
+    number of interruptions. Raises InputError for patterns that name nothing, for networks that do not compile, and for
+    references of another kind than the parameters of their paths.
 
     Examples:
         >>> found = dp.run_study(study, dp.load_dataset("mount"), registry=dp.load_registry())
@@ -100,6 +102,7 @@ def run_study(
         1
     """
     setting = study_setting(study, dataset)
+    require_references(study, dataset.references)
     records = Checkpoint(checkpoint)
     records.open(fingerprint(study, dataset))
     conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
@@ -205,7 +208,7 @@ class _Conduct:
             dataset=self.setting.dataset,
             optimizer=" then ".join(dict.fromkeys(stage.optimizer for stage in stages if stage.free)),
             seed=self.study.seed,
-            ending=next((s.ending for s in stages if not s.converged), Outcome.CONVERGED.value),
+            ending=ending_of(stages),
             evaluations=sum(stage.evaluations for stage in stages),
             at_bound=known.at_bound,
             idle=known.idle,
@@ -265,6 +268,18 @@ class _Conduct:
 
     def _tell(self, plan: ModelPlan, what: str) -> None:
         self.progress(f"{plan.name}: {what}", self.spent / max(self.study.budget, 1), None, self.setting.floor.value)
+
+
+def ending_of(stages: Sequence[StageResult]) -> str:
+    """How a model's search ended: as its first stage that did not converge, if no later one did with the same free.
+
+    What a stage left unfinished is finished by one after it that searches at least the same parameters.
+    """
+    for number, stage in enumerate(stages):
+        later = stages[number + 1 :]
+        if not stage.converged and not any(each.converged and {*stage.free} <= {*each.free} for each in later):
+            return stage.ending
+    return Outcome.CONVERGED.value
 
 
 def _refuse_priors(study: StudySpec) -> None:

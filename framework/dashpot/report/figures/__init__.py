@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dashpot.report.figures.causes import cause_map
 from dashpot.report.figures.conditions import over_conditions
-from dashpot.report.figures.contact import contact_response
+from dashpot.report.figures.contact import contact_models, contact_response
 from dashpot.report.figures.control import control_chart
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.curves import identified_curves
@@ -29,6 +29,7 @@ from dashpot.report.figures.velocity import velocity_curves
 __all__ = [
     "branch_loops",
     "cause_map",
+    "contact_models",
     "contact_response",
     "control_chart",
     "convergence_history",

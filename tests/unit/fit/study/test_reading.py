@@ -87,8 +87,8 @@ def test_every_shipped_study_can_be_read(name):
 
 
 def test_an_unknown_study_gets_the_nearest_name():
-    with pytest.raises(InputError, match="did you mean 'tire_ladder'"):
-        find_study("tire_lader")
+    with pytest.raises(InputError, match="did you mean 'paper_tire'"):
+        find_study("papr_tire")
 
 
 def test_the_study_of_the_reference_can_be_read():

@@ -16,6 +16,7 @@ from dashpot.fit.study.checkpoint import Checkpoint
 from dashpot.fit.study.preview import preview_study
 from dashpot.fit.study.reading import parse_study
 from dashpot.fit.study.run import run_study
+from dashpot.fit.study.stage import StageResult
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError
 
@@ -279,3 +280,13 @@ def test_a_model_is_fitted_to_its_own_runs(study):
     assert numbers(result, 1)["rubber.stiffness"] == pytest.approx(1e5, rel=0.01)
     with pytest.raises(InputError, match="the runs nothing leave 'one' none to train on"):
         run(study(f"models: [{{network: one.yaml, runs: nothing, {stages}}}]\n"))
+
+
+def test_what_a_stage_left_unfinished_is_finished_by_a_later_one_that_searches_as_much():
+    def stage(free: str, converged: bool) -> StageResult:
+        ending = "converged" if converged else "the budget is spent"
+        return StageResult("s", "", tuple(free), 1.0, 1, 0, ending, "", (1.0,), (), converged)
+
+    assert conduct.ending_of((stage("ab", False), stage("abc", True))) == "converged"
+    assert conduct.ending_of((stage("abc", False), stage("ab", True))) == "the budget is spent"
+    assert conduct.ending_of((stage("ab", True), stage("ab", False))) == "the budget is spent"
