@@ -70,7 +70,8 @@ def finished(
     """The same as it is finished: the number of a piece, and a future with its result or its error.
 
     ``memory`` is what a piece needs, in bytes, told to a scheduler whose workers say what they have. What is not begun
-    when the caller stops is not done.
+    when the caller stops is not done. A result that was handed out is let go of, so that a scheduler does not keep it
+    on its worker, and does not have it done again when that worker is lost.
     """
     if isinstance(jobs, int):
         threads(jobs)
@@ -80,7 +81,7 @@ def finished(
     futures = {pool.submit(work, shared, one): number for number, one in enumerate(each)}
     try:
         for future in as_completed(futures):
-            yield futures[future], future
+            yield futures.pop(future), future
     finally:
         for future in futures:
             future.cancel()
