@@ -23,7 +23,7 @@ class Campaign(CampaignResult):
     Examples:
         >>> campaign = dp.campaign("mounts.yaml")
         >>> print(campaign.headline)
-        None of 3 specimens is unlike the others.
+        None of 3 specimens is named; too few were fitted to hold each against the others.
         >>> [column.heading for column in campaign.table().columns][:2]
         ['specimen', 'data']
     """
