@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -60,8 +60,20 @@ def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: 
     On processes and clusters ``work`` is a function of a module, and what it takes and gives can be pickled. The first
     one that fails raises what it failed with.
     """
-    found = {number: future.result() for number, future in finished(work, shared, each, jobs)}
+    found = {number: result_of(future) for number, future in finished(work, shared, each, jobs)}
     return [found[number] for number in range(len(each))]
+
+
+def result_of(future: Future[Result]) -> Result:
+    """What a finished piece came to, or its error; InputError where its scheduler was lost."""
+    try:
+        return future.result()
+    except CancelledError:
+        raise InputError.at(
+            Place("scheduler"),
+            "the scheduler was lost; what a checkpoint holds is kept",
+            "start it again and say the same command, which goes on where it stopped",
+        ) from None
 
 
 def finished(
