@@ -19,6 +19,8 @@ from dashpot.text.problem import InputError
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
 
+KILLED = "every worker that tried it died, as where a job needs more memory than a worker has: "
+
 
 @dataclass(frozen=True, eq=False)
 class CampaignResult:
@@ -108,4 +110,5 @@ def _outcome_of(future: Future[Outcome]) -> Outcome:
     except InputError:
         raise
     except Exception as error:
-        return {"failed": f"{type(error).__name__}: {' '.join(str(error).split())}"}
+        killed = KILLED if type(error).__name__ == "KilledWorker" else ""
+        return {"failed": f"{killed}{type(error).__name__}: {' '.join(str(error).split())}"}
