@@ -1,9 +1,9 @@
 """What the jobs of a campaign cost: ``python tests/benchmarks/campaign.py``.
 
-Forty virtual bushings are fitted, and forty diagnosed, with one and two local workers in turn. Where other programs are
-at work the clock tells little, and processor time tells more: t1 and t2 of a job with one worker and with two, which differ
-where workers are in each other's way; o of all that client, scheduler and worker do for a job that does nothing; and the
-share b of a processor that a worker with its part of client and scheduler takes all the time. The efficiency of two
+Virtual bushings are fitted, and diagnosed, with one and two local workers in turn. Where other programs are at work the
+clock tells little, and processor time tells more: t1 and t2 of a job with one worker and with two, which differ where
+workers are in each other's way; o of all that client, scheduler and worker do for a job that does nothing; and the share
+b of a processor that a worker with its part of client and scheduler takes all the time. The efficiency of two
 workers from these is t1 / (t2 (1 + b) + o). It is a lower bound for processors of one's own: a worker is taken to wait
 for all of o, though most of it is done while others work.
 """
@@ -129,8 +129,8 @@ def report(verb: str, count: int, turns: Sequence[Turn], nothing: float, share: 
     by_clock = sorted(a.clock / (2.0 * b.clock) for a, b in zip(one, two, strict=True))
     print(
         f"{count} x {verb}: a job {1e3 * alone:.0f} ms of processor time, beside another one {1e3 * side:.0f} ms, "
-        f"with all around it {1e3 * whole:.0f} ms: efficiency of 2 workers {alone / whole:.3f}; by the clock, of a machine that "
-        f"others use, {', '.join(f'{each:.2f}' for each in by_clock)}; a worker has "
+        f"with all around it {1e3 * whole:.0f} ms: efficiency of 2 workers {alone / whole:.3f}; "
+        f"by the clock, of a machine that others use, {', '.join(f'{each:.2f}' for each in by_clock)}; a worker has "
         f"{max(each.memory for each in turns) / 1e6:.0f} MB at most, a result {max(each.result for each in turns)} B"
     )
     for planned, jobs in PLANS:
@@ -145,8 +145,8 @@ def overhead(client: Client) -> float:
     done = sum(1 for _ in finished(do_nothing, None, range(NOTHING), client))
     clock, spent = time.perf_counter() - began, processor_time(client) - before
     print(
-        f"  {done} jobs that do nothing, {len(client.nthreads())} workers: {1e3 * clock / done:.2f} ms each by the clock, "
-        f"{1e3 * spent / done:.2f} ms of processor time",
+        f"  {done} jobs that do nothing, {len(client.nthreads())} workers: "
+        f"{1e3 * clock / done:.2f} ms each by the clock, {1e3 * spent / done:.2f} ms of processor time",
         flush=True,
     )
     return spent / done
@@ -157,7 +157,7 @@ def idle(client: Client) -> float:
     before = processor_time(client)
     time.sleep(REST)
     share = (processor_time(client) - before) / REST / len(client.nthreads())
-    print(f"  without jobs {100.0 * share:.1f} % of a processor for each of {len(client.nthreads())} workers", flush=True)
+    print(f"  without jobs {100.0 * share:.1f} % of a processor for each of 2 workers", flush=True)
     return share
 
 

@@ -23,7 +23,8 @@ FEWEST = 3  # specimens that make a population
 class Population:
     """What is told of the specimens together: ``judged`` has means, scatter and who does not belong to it.
 
-    ``groups`` (n,) are those that are alike, 0 for a specimen that belongs to none; ``remarks`` say what cannot be told.
+    ``groups`` (n,) are those that are alike, 0 for a specimen that belongs to none; ``remarks`` say what cannot be
+    told.
     """
 
     numbers: Numbers

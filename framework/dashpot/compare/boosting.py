@@ -55,7 +55,7 @@ def boost(parts: Sequence[Array], left: Array, weights: Array, folds: NDArray[np
 
 def _one_thread() -> Any:
     import sklearn.ensemble  # noqa: F401 - only a library that is loaded can be limited
-    from threadpoolctl import threadpool_limits
+    from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
     return threadpool_limits(1, user_api="openmp")
 

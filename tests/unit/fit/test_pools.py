@@ -10,13 +10,13 @@ import pytest
 
 import dashpot as dp
 from dashpot import load_registry
-from dashpot.notebook.progress import Cancelled
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.fit.joint.reading import read_joint
 from dashpot.fit.joint.run import fit_joint
 from dashpot.fit.study.reading import read_study
 from dashpot.fit.study.run import run_study
+from dashpot.notebook.progress import Cancelled
 from dashpot.study.study import study_content
 
 ONE = "rubber: {element: spring, stiffness: {start: 150 N/mm}}"

@@ -121,9 +121,7 @@ def _fitted(spec: JointSpec, datasets: Mapping[str, Dataset], pool: Jobs, progre
     jobs = threads(pool)
     settings = {name: prepare(dataset, spec.seed) for name, dataset in datasets.items()}
     networks = [_with_first_priors(each.network, each.name, spec.ties) for each in spec.specimens]
-    found_alone = fit_each(
-        networks, [settings[each.name] for each in spec.specimens], None, spec.seed, pool, progress
-    )
+    found_alone = fit_each(networks, [settings[each.name] for each in spec.specimens], None, spec.seed, pool, progress)
     alone = {each.name: fitted_or_raised(fit) for each, fit in zip(spec.specimens, found_alone, strict=True)}
     progress("all together", 0.0, None, None)
     bodies = {name: _Body.of(fit.fitted, settings[name], jobs) for name, fit in alone.items()}
