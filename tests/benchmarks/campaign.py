@@ -2,8 +2,8 @@
 
 Virtual bushings are fitted, and diagnosed, with one and two local workers in turn. Where other programs are at work the
 clock tells little, and processor time tells more: t1 and t2 of a job with one worker and with two, which differ where
-workers are in each other's way; o of all that client, scheduler and worker do for a job that does nothing; and the share
-b of a processor that a worker with its part of client and scheduler takes all the time. The efficiency of two
+workers are in each other's way; o of all that client, scheduler and worker do for a job that does nothing; and the
+share b of a processor that a worker with its part of client and scheduler takes all the time. The efficiency of two
 workers from these is t1 / (t2 (1 + b) + o). It is a lower bound for processors of one's own: a worker is taken to wait
 for all of o, though most of it is done while others work.
 """

@@ -143,7 +143,8 @@ def report(count: int, rounds: int, seconds: float) -> None:
             ideal = length * jobs / count
             print(
                 f"  {jobs} jobs of {length:g} s: {spent:.1f} s where {ideal:.1f} s are ideal, "
-                f"{jobs / spent:.0f} jobs/s; processor time of a job: scheduler {1e3 * theirs:.2f} ms, client {1e3 * mine:.2f} ms",
+                f"{jobs / spent:.0f} jobs/s; processor time of a job: "
+                f"scheduler {1e3 * theirs:.2f} ms, client {1e3 * mine:.2f} ms",
                 flush=True,
             )
         memory = scheduler.memory_info().rss
