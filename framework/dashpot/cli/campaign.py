@@ -68,7 +68,7 @@ def claimed(output: Path, session: Session) -> OutputFolder:
 
 def count_of(workers: Jobs) -> int:
     """How many jobs are done at once."""
-    return 1 if isinstance(workers, int) else max(sum(workers.nthreads().values()), 1)
+    return max(sum(workers.nthreads().values()), 1) if hasattr(workers, "nthreads") else 1
 
 
 def preview(planned: CampaignSpec, session: Session) -> None:

@@ -186,9 +186,9 @@ def fit_each(
 def _fitted(
     shared: tuple[Sequence[Setting], Optimizer | None, int, int, Progress], one: tuple[NetworkSpec, int]
 ) -> FitResult | InputError:
-    (settings, *how), (spec, which) = shared, one
+    (settings, method, seed, jobs, progress), (spec, which) = shared, one
     try:
-        return fit_prepared(spec, settings[which], *how)
+        return fit_prepared(spec, settings[which], method, seed, jobs, progress)
     except InputError as error:
         return error
 
