@@ -152,7 +152,7 @@ def test_the_scheduler_was_lost_and_started_again(folder):
     where = f"tcp://127.0.0.1:{port}"
     with cluster(port) as scheduler:
         code, said = interfered(folder, "plain.yaml", "lost", where, 2, lambda _: scheduler.kill())
-    assert code == 1 and "the scheduler was lost, what was done is kept" in said, said
+    assert code == 1 and "the scheduler was lost; what a checkpoint holds is kept" in said, said
     with cluster(port):
         code, said = finished(folder, "plain.yaml", "-o", "lost", "--scheduler", where)
     assert code == 0, said

@@ -11,7 +11,7 @@ import dashpot
 from dashpot.campaign.causes import causes_found
 from dashpot.campaign.declaration import Job, Measured
 from dashpot.campaign.job import Outcome
-from dashpot.campaign.named import Named, named_by_error, named_by_faults, named_by_numbers
+from dashpot.campaign.named import Named, named_by_causes, named_by_error, named_by_faults, named_by_numbers
 from dashpot.campaign.numbers import depending, errors_of_model, models_of, numbers_of
 from dashpot.campaign.population import FEWEST, Population, population_of
 from dashpot.campaign.run import CampaignResult
@@ -25,6 +25,7 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
     fits = {model.name: models_of(result.outcomes, model.name) for model in campaign.models}
     numbers = {model: numbers_of(found) for model, found in fits.items() if len(found) >= FEWEST}
     told = {model: population_of(*depending(each, campaign), campaign) for model, each in numbers.items() if each.paths}
+    causes = causes_found(result.outcomes)
     return {
         "format": "dashpot-campaign-result/1",
         "version": dashpot.__version__,
@@ -38,8 +39,8 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
             {"model": model, **each.as_dict(), "shared": _shared(model, result.shared.get(model), result.outcomes)}
             for model, each in told.items()
         ],
-        "named": [vars(one) for one in _named(result, fits, told)],
-        "causes": causes_found(result.outcomes),
+        "named": [vars(one) for one in _named(result, fits, told, causes)],
+        "causes": causes,
         "failures": [{"job": job.name, "specimen": job.specimen, "reason": reason} for job, reason in _failed(result)],
     }
 
@@ -81,7 +82,10 @@ def _fit(specimen: str, fit: Outcome, population: Population | None) -> dict[str
 
 
 def _named(
-    result: CampaignResult, fits: Mapping[str, Mapping[str, Outcome]], told: Mapping[str, Population]
+    result: CampaignResult,
+    fits: Mapping[str, Mapping[str, Outcome]],
+    told: Mapping[str, Population],
+    causes: Sequence[Mapping[str, Any]],
 ) -> Sequence[Named]:
     """The surest first; a specimen may be named for several reasons."""
     found = [one for model, each in told.items() for one in named_by_numbers(model, each.numbers, each.judged)]
@@ -89,6 +93,7 @@ def _named(
         if len(some) >= FEWEST:
             errors = errors_of_model(some)
             found += named_by_error(model, errors, unlike(errors))
+    found += named_by_causes(causes)
     remarks: dict[str, list[str]] = {}
     for job, outcome in result.outcomes.items():
         remarks.setdefault(job.specimen, []).extend(outcome["remarks"])

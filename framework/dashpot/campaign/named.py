@@ -1,9 +1,11 @@
-"""Specimens to be named, with the evidence: unlike the others, badly described, or with a fault of the measurement."""
+"""Specimens to be named, with the evidence: unlike the others, badly described, with an effect that the others do not
+have, or with a fault of the measurement."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from dashpot.text.quantity import pretty
 NAMED = 0.95  # probability from which a specimen is named
 NOTABLE = 3.0  # standard deviations
 MOST_NOTABLE = 4
+MINORITY = 0.5
 KINDS = {
     FORCE: "wrong gain of the force",
     TRAVEL: "wrong gain of the travel",
@@ -50,6 +53,20 @@ def named_by_error(model: str, numbers: Numbers, found: Unlike) -> Iterator[Name
             error, ratio = pretty(float(np.exp(numbers.at[i, 0])), "N", 3), float(np.exp(found.shifts[i, 0]))
             told = f"the RMSE of the model is {error}, {ratio:.3g} times that of the others"
             yield Named(specimen, model, MISFIT, float(found.outside[i]), (told,))
+
+
+def named_by_causes(found: Sequence[Mapping[str, Any]]) -> Iterator[Named]:
+    """The specimens with an effect that most of the others do not have; ``found`` as of ``causes_found``.
+
+    What half of the specimens have or more is how they are made, and a matter of the model.
+    """
+    for row in found:
+        sure = row["certain"]
+        if row["class"] == "specimen" and len(sure) < MINORITY * len(row["probability"]):
+            for specimen, evidence in sure.items():
+                place = f" at {row['place']}" if row["place"] else ""
+                told = f"{row['title']}{place}, in {len(sure)} of {len(row['probability'])} specimens: {evidence}"
+                yield Named(specimen, row["model"], MISFIT, row["probability"][specimen], (told,))
 
 
 def named_by_faults(remarks: Mapping[str, Sequence[str]], outcomes: Sequence[tuple[str, Outcome]]) -> Iterator[Named]:

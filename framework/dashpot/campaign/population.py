@@ -23,8 +23,8 @@ FEWEST = 3  # specimens that make a population
 class Population:
     """What is told of the specimens together: ``judged`` has means, scatter and who does not belong to it.
 
-    ``groups`` (n,) are those that are alike, 0 for a specimen that belongs to none; ``remarks`` say which dependences
-    cannot be told.
+    ``groups`` (n,) are those that are alike, 0 for a specimen that belongs to none; ``remarks`` say what cannot be
+    told.
     """
 
     numbers: Numbers
@@ -51,6 +51,7 @@ class Population:
             "dependence": [
                 self._effect(k, row) for row in range(len(numbers.effects)) for k in range(len(numbers.paths))
             ],
+            "tested": self.judged.tested,
             "ways": list(self.judged.ways),
             "probability": self.judged.probability.tolist(),
             "groups": self.groups.tolist(),
@@ -91,6 +92,9 @@ class Population:
 def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec) -> Population:
     """The population of numbers over a campaign's batches; specimens that are unlike it count in nothing else."""
     judged = unlike(numbers)
+    if not judged.tested:
+        found = f"{len(numbers.specimens)} specimens are too few to hold each against the others"
+        remarks = [*remarks, f"{found}: {judged.needed} are needed"]
     sound = judged.outside < NAMED
     groups = np.zeros(len(sound), dtype=np.int64)
     groups[sound] = groups_alike(judged.population.deviations[sound], judged.population.between, campaign.seed)

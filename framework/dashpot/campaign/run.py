@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import Future
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,11 +13,13 @@ from dashpot.campaign.job import Outcome, Work, Write, inputs_of, run_job
 from dashpot.campaign.sharing import Shared, pooled
 from dashpot.fit.api import Progress, silent
 from dashpot.fit.study.checkpoint import Checkpoint
-from dashpot.kernel.workers import finished, threads
-from dashpot.text.problem import InputError, Place
+from dashpot.kernel.workers import finished, result_of, threads
+from dashpot.text.problem import InputError
 
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
+
+KILLED = "every worker that tried it died, as where a job needs more memory than a worker has: "
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,12 +106,9 @@ class _Conduct:
 
 def _outcome_of(future: Future[Outcome]) -> Outcome:
     try:
-        return future.result()
-    except CancelledError:
-        raise InputError.at(
-            Place("scheduler"),
-            "the scheduler was lost, what was done is kept",
-            "start it again and say the same command, which goes on where it stopped",
-        ) from None
+        return result_of(future)
+    except InputError:
+        raise
     except Exception as error:
-        return {"failed": f"{type(error).__name__}: {' '.join(str(error).split())}"}
+        killed = KILLED if type(error).__name__ == "KilledWorker" else ""
+        return {"failed": f"{killed}{type(error).__name__}: {' '.join(str(error).split())}"}

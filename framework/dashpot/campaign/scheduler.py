@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE = 20.0  # s until a scheduler must have answered
+# a look at what every worker is about, a hundred times a second, which nobody sees
+UNWATCHED = {"distributed.worker.profile.enabled": False}
 LOCAL, REMOTE = "local:", ("tcp://", "tls://", "ws://", "wss://")
 
 
@@ -46,13 +48,15 @@ def scheduled(word: str, memory: float | None = None) -> Iterator[Client]:
 
 
 def _local(word: str, memory: float | None) -> Any:
+    import dask
     from distributed import LocalCluster
 
     count = word.removeprefix(LOCAL)
     if not count.isdecimal() or int(count) < 1:
         raise _wrong(word, f"expected a number of workers as in local:8, got '{word}'")
     limits = {"memory_limit": int(memory), "resources": {MEMORY: memory}} if memory else {}
-    return LocalCluster(n_workers=int(count), threads_per_worker=1, dashboard_address=None, **limits)
+    with dask.config.set(UNWATCHED):
+        return LocalCluster(n_workers=int(count), threads_per_worker=1, dashboard_address=":0", **limits)
 
 
 def _refuse_small(client: Client, word: str, memory: float | None) -> None:

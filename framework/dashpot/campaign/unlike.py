@@ -32,7 +32,7 @@ class Unlike:
 
     ``ways`` names h ways to be unlike: a number alone by its path, several of them, or a gain; ``probability`` (n, h)
     is that of each. ``distances`` (n, p) are the deviations from what the others predict, in standard deviations, and
-    ``shifts`` (n, p) the same in coordinates.
+    ``shifts`` (n, p) the same in coordinates. With fewer specimens than ``needed`` none was ``tested``.
     """
 
     population: Mixed
@@ -40,6 +40,12 @@ class Unlike:
     probability: Array
     distances: Array
     shifts: Array
+    needed: int
+
+    @property
+    def tested(self) -> bool:
+        """Whether there are specimens enough to hold each against the others."""
+        return len(self.shifts) >= self.needed
 
     @property
     def outside(self) -> Array:
@@ -57,7 +63,7 @@ def unlike(numbers: Numbers) -> Unlike:
     Sources: Aitkin and Wilson, Technometrics 22 (1980) 325, for the mixture; Box and Tiao, Biometrika 55 (1968) 119.
     """
     weights = _screened(numbers)
-    few = len(numbers.specimens) < FEWEST + numbers.design.shape[1]
+    few = len(numbers.specimens) < needed(numbers)
     if few:
         weights = np.ones(len(weights))
     for _ in range(1 if few else MOST_ROUNDS):
@@ -85,7 +91,12 @@ def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
         distances[i] = shifts[i] / np.sqrt(expected.diagonal())
     shares = np.exp(odds - odds.max(axis=1, keepdims=True))
     shares /= shares.sum(axis=1, keepdims=True)
-    return Unlike(population, ways, shares[:, 1:], distances, shifts)
+    return Unlike(population, ways, shares[:, 1:], distances, shifts, needed(numbers))
+
+
+def needed(numbers: Numbers) -> int:
+    """The fewest specimens of which each can be held against the others."""
+    return FEWEST + numbers.design.shape[1]
 
 
 def _predicted(numbers: Numbers, between: Array, weights: Array, which: int) -> tuple[Array, Array]:

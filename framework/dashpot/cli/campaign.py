@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,16 +25,13 @@ FILES = ("campaign.json", "campaign.html", "specimens.csv", "population.csv", "s
 
 @click.command("campaign")
 @click.argument("campaign", shell_complete=complete.campaigns)
-@click.option("--scheduler", metavar="WHERE", help="local:N for N processes here, or the address of a Dask scheduler.")
 @click.option("--dry-run", is_flag=True, help="Run the first job of each kind, and estimate the time of all.")
 @click.option("--parquet", is_flag=True, help="Write the table of specimens as Parquet, too.")
 @output_option(
     "Folder for campaign.json, campaign.html, the tables, a folder for each job and the checkpoint.", required=False
 )
-@switches("jobs", "json", "quiet", "force", "backend")
-def verb(
-    campaign: str, scheduler: str | None, dry_run: bool, parquet: bool, output: Path | None, switches: Switches
-) -> None:
+@switches("jobs", "scheduler", "json", "quiet", "force", "backend")
+def verb(campaign: str, dry_run: bool, parquet: bool, output: Path | None, switches: Switches) -> None:
     """Evaluate many specimens as a population.
 
     Each is fitted, compared or diagnosed by itself. CAMPAIGN is a file. Without --scheduler jobs run one after the
@@ -53,12 +48,12 @@ def verb(
     session = Session(switches)
     planned = read_campaign(Path(campaign), session.registry)
     if dry_run:
-        return preview(planned, scheduler, session)
+        return preview(planned, session)
     if parquet:
         from dashpot.report.parquet import require_parquet
 
         require_parquet()
-    conduct(planned, claimed(output or Path(planned.name), session), scheduler, parquet, session)
+    conduct(planned, claimed(output or Path(planned.name), session), parquet, session)
 
 
 def claimed(output: Path, session: Session) -> OutputFolder:
@@ -71,39 +66,31 @@ def claimed(output: Path, session: Session) -> OutputFolder:
     return session.claim(output, *(() if unfinished else FILES))
 
 
-@contextmanager
-def workers(planned: CampaignSpec, scheduler: str | None, session: Session) -> Iterator[tuple[Jobs, int]]:
-    """Who does the jobs, and how many they are."""
-    if scheduler is None:
-        yield session.switches.jobs, 1
-        return
-    from dashpot.campaign.scheduler import scheduled
-
-    with session.watch("looking for workers"), scheduled(scheduler, planned.memory) as client:
-        yield client, max(sum(client.nthreads().values()), 1)
+def count_of(workers: Jobs) -> int:
+    """How many jobs are done at once."""
+    return max(sum(workers.nthreads().values()), 1) if hasattr(workers, "nthreads") else 1
 
 
-def preview(planned: CampaignSpec, scheduler: str | None, session: Session) -> None:
+def preview(planned: CampaignSpec, session: Session) -> None:
     """Tell what the campaign would cost."""
     from dashpot.campaign.preview import preview_campaign, preview_content, preview_text
 
-    with workers(planned, scheduler, session) as (jobs, count):
+    with session.workers(planned.memory) as jobs:
+        count = count_of(jobs)
         with session.watch("doing a first job of each kind"):
             costs = preview_campaign(planned, jobs)
     content = preview_content(planned, costs, count)
     session.talk.result(preview_text(content), content)
 
 
-def conduct(
-    planned: CampaignSpec, folder: OutputFolder, scheduler: str | None, parquet: bool, session: Session
-) -> None:
+def conduct(planned: CampaignSpec, folder: OutputFolder, parquet: bool, session: Session) -> None:
     """Do the jobs and write the results; the checkpoint goes when none has failed."""
     from dashpot.campaign.run import run_campaign
     from dashpot.fit.study.checkpoint import Checkpoint
 
     records = folder.path / RECORDS
     write = JobWriter(str(folder.path.resolve() / JOBS))
-    with workers(planned, scheduler, session) as (jobs, _), session.watch("jobs") as progress:
+    with session.workers(planned.memory) as jobs, session.watch("jobs") as progress:
         result = run_campaign(planned, jobs=jobs, checkpoint=records, write=write, progress=progress)
     write_campaign(result, folder, parquet, session)
     if not result.failures:

@@ -16,7 +16,7 @@ from dashpot.cli.switches import Switches, optimizer_options, output_option, swi
 @models_and_dataset()
 @output_option("Folder for compare.json, compare.csv and report.html.")
 @optimizer_options
-@switches("seed", "jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
+@switches("seed", "jobs", "scheduler", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(
     models: tuple[str, ...],
     dataset: str,

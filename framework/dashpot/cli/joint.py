@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @click.command("joint")
 @click.argument("file", metavar="JOINT", type=click.Path(path_type=Path))
 @output_option("Folder for the identified networks SPECIMEN.yaml, joint.json, shared.csv and report.html.")
-@switches("jobs", "json", "quiet", "force", "backend", "allow_outside")
+@switches("jobs", "scheduler", "json", "quiet", "force", "backend", "allow_outside")
 def verb(file: Path, output: Path, switches: Switches) -> None:
     """Identify specimens with parameters in common.
 
@@ -36,10 +36,10 @@ def verb(file: Path, output: Path, switches: Switches) -> None:
     session = Session(switches)
     spec = read_joint(file, session.registry)
     datasets = {each.name: session.sound_dataset(each.data) for each in spec.specimens}
-    names = (f"{escape(each.name)}.yaml" for each in spec.specimens)
+    names = [f"{escape(each.name)}.yaml" for each in spec.specimens]
     folder = session.claim(output, "joint.json", "shared.csv", "report.html", *names)
-    with session.watch("compiling") as progress:
-        found = fit_joint(spec, datasets, jobs=switches.jobs, progress=progress)
+    with session.workers() as jobs, session.watch("compiling", len(names) + 1) as progress:
+        found = fit_joint(spec, datasets, jobs=jobs, progress=progress)
     write(found, folder, session)
 
 

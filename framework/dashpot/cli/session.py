@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack, contextmanager
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from dashpot.contract.registry import Registry
     from dashpot.data.dataset import Dataset
     from dashpot.data.stream import RunStream
+    from dashpot.kernel.workers import Jobs
     from dashpot.model.network import NetworkSpec
     from dashpot.text.problem import Problem
 
@@ -139,16 +141,33 @@ class Session:
                     printed = print_report(report, report.with_name(name), part)
                 self.talk.say(f"printed: {printed}")
 
+    @contextmanager
+    def workers(self, memory: float | None = None) -> Iterator[Jobs]:
+        """Who does the work: threads of this process, or the workers of ``--scheduler``, a piece in ``memory`` bytes.
+
+        InputError where no such scheduler answers.
+        """
+        if self.switches.scheduler is None:
+            yield self.switches.jobs
+            return
+        from dashpot.campaign.scheduler import scheduled
+
+        with ExitStack() as open_until_the_end:
+            with self.watch("looking for workers"):
+                client = open_until_the_end.enter_context(scheduled(self.switches.scheduler, memory))
+            yield client
+
     def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
         """Do the work of a verb on a network (or several) and a dataset, showing its progress."""
-        with self.watch("compiling", len(subject) if isinstance(subject, list) else 1) as progress:
+        parts = len(subject) if isinstance(subject, list) else 1
+        with self.workers() as jobs, self.watch("compiling", parts) as progress:
             return work(
                 subject,
                 dataset,
                 optimizer=self.optimizer,
                 options=self.options,
                 seed=self.switches.seed,
-                jobs=self.switches.jobs,
+                jobs=jobs,
                 registry=self.registry,
                 progress=progress,
             )

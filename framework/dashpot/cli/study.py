@@ -26,7 +26,7 @@ RECORDS = "checkpoint"
 @study_and_dataset()
 @click.option("--dry-run", is_flag=True, help="Only predict what the data can and cannot identify.")
 @output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
-@switches("jobs", "json", "quiet", "force", "backend", "allow_outside", "pdf")
+@switches("jobs", "scheduler", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
     """Identify models in stages, as a study file says.
 
@@ -79,12 +79,12 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
     records = folder.path / RECORDS
     if session.switches.force:
         Checkpoint(records).discard()
-    with session.watch("compiling") as progress:
+    with session.workers() as jobs, session.watch("compiling") as progress:
         result = run_study(
             planned,
             measured,
             registry=session.registry,
-            jobs=session.switches.jobs,
+            jobs=jobs,
             checkpoint=records,
             progress=progress,
         )

@@ -21,6 +21,7 @@ class Switches:
 
     seed: int = 0
     jobs: int = 1
+    scheduler: str | None = None
     json: bool = False
     quiet: bool = False
     force: bool = False
@@ -72,6 +73,9 @@ SWITCHES = {
         type=click.IntRange(min=1),
         default=available_cores,
         help="Workers; all cores by default.",
+    ),
+    "scheduler": click.option(
+        "--scheduler", metavar="WHERE", help="local:N for N processes here, or the address of a Dask scheduler."
     ),
     "json": click.option("--json", is_flag=True, help="Result as JSON on standard output, messages on standard error."),
     "quiet": click.option("--quiet", is_flag=True, help="Only warnings and errors."),

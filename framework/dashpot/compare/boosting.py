@@ -1,4 +1,8 @@
-"""Boosted trees on what the ridge regression leaves, where scikit-learn is installed (the extra `boosting`)."""
+"""Boosted trees on what the ridge regression leaves, where scikit-learn is installed (the extra `boosting`).
+
+They grow on one thread: they are small, and threads that wait for each other at every split cost several times as much
+where other work shares the processors.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +34,8 @@ class Boosted:
 
     def predict(self, leaves: Array) -> Array:
         """What they add to the force (n,) N."""
-        return self.trees.predict(leaves)
+        with _one_thread():
+            return self.trees.predict(leaves)
 
 
 def boost(parts: Sequence[Array], left: Array, weights: Array, folds: NDArray[np.intp], seed: int) -> Boosted | None:
@@ -44,6 +49,19 @@ def boost(parts: Sequence[Array], left: Array, weights: Array, folds: NDArray[np
         return None
     thin = slice(None, None, max(1, -(-left.size // TAUGHT)))
     asked, left, weights, folds = np.vstack(parts)[thin], left[thin], weights[thin], folds[thin] % FOLDS
+    with _one_thread():
+        return _chosen(asked, left, weights, folds, seed)
+
+
+def _one_thread() -> Any:
+    import sklearn.ensemble  # noqa: F401 - only a library that is loaded can be limited
+    from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
+
+    return threadpool_limits(1, user_api="openmp")
+
+
+def _chosen(asked: Array, left: Array, weights: Array, folds: NDArray[np.intp], seed: int) -> Boosted | None:
+    """As many trees as predict best, or None."""
     gains = np.array([_gains(asked, left, weights, folds == fold, seed) for fold in np.unique(folds)])
     best = int(np.argmax(gains.sum(axis=0)))
     mean, scatter = gains[:, best].mean(), gains[:, best].std(ddof=1)

@@ -48,7 +48,7 @@ from dashpot.fit.thinned import thinned
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
-from dashpot.kernel.workers import pieces, threads
+from dashpot.kernel.workers import finished, result_of, threads
 from dashpot.model.network import NetworkSpec, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -144,7 +144,7 @@ def fit_network(
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     setting = prepare(dataset, seed)
     [found] = fit_each([spec], setting, method, seed, jobs, progress or silent)
-    fit = _or_raise(found)
+    fit = fitted_or_raised(found)
     if sampler is None:
         return fit
     watch = _Watch(progress or silent, spec.name, setting.floor.value)
@@ -160,20 +160,40 @@ def fit_network(
 
 
 def fit_each(
-    specs: Sequence[NetworkSpec], setting: Setting, method: Optimizer | None, seed: int, jobs: Jobs, progress: Progress
+    specs: Sequence[NetworkSpec],
+    setting: Setting | Sequence[Setting],
+    method: Optimizer | None,
+    seed: int,
+    jobs: Jobs,
+    progress: Progress,
 ) -> list[FitResult | InputError]:
-    """What each network comes to on a dataset made ready, or why it cannot be fitted."""
-    return pieces(_fitted, (setting, method, seed, threads(jobs), progress), specs, jobs)
+    """What each network comes to on a dataset made ready, one for all or one each, or why it cannot be fitted.
+
+    On a pool or a cluster ``progress`` hears of a network when it is fitted.
+    """
+    settings = [setting] if isinstance(setting, Setting) else list(setting)
+    each = [(spec, number % len(settings)) for number, spec in enumerate(specs)]
+    shared = (settings, method, seed, threads(jobs), progress if isinstance(jobs, int) else silent)
+    found: dict[int, FitResult | InputError] = {}
+    for number, future in finished(_fitted, shared, each, jobs):
+        found[number] = result_of(future)
+        if not isinstance(jobs, int):
+            progress(f"{specs[number].name}: fitted", 1.0)
+    return [found[number] for number in range(len(specs))]
 
 
-def _fitted(shared: tuple[Setting, Optimizer | None, int, int, Progress], spec: NetworkSpec) -> FitResult | InputError:
+def _fitted(
+    shared: tuple[Sequence[Setting], Optimizer | None, int, int, Progress], one: tuple[NetworkSpec, int]
+) -> FitResult | InputError:
+    (settings, method, seed, jobs, progress), (spec, which) = shared, one
     try:
-        return fit_prepared(spec, *shared)
+        return fit_prepared(spec, settings[which], method, seed, jobs, progress)
     except InputError as error:
         return error
 
 
-def _or_raise(found: FitResult | InputError) -> FitResult:
+def fitted_or_raised(found: FitResult | InputError) -> FitResult:
+    """The fit, or its InputError."""
     if isinstance(found, InputError):
         raise found
     return found

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Executor, Future, ThreadPoolExecutor, as_completed
+from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -60,8 +60,20 @@ def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: 
     On processes and clusters ``work`` is a function of a module, and what it takes and gives can be pickled. The first
     one that fails raises what it failed with.
     """
-    found = {number: future.result() for number, future in finished(work, shared, each, jobs)}
+    found = {number: result_of(future) for number, future in finished(work, shared, each, jobs)}
     return [found[number] for number in range(len(each))]
+
+
+def result_of(future: Future[Result]) -> Result:
+    """What a finished piece came to, or its error; InputError where its scheduler was lost."""
+    try:
+        return future.result()
+    except CancelledError:
+        raise InputError.at(
+            Place("scheduler"),
+            "the scheduler was lost; what a checkpoint holds is kept",
+            "start it again and say the same command, which goes on where it stopped",
+        ) from None
 
 
 def finished(
@@ -70,7 +82,8 @@ def finished(
     """The same as it is finished: the number of a piece, and a future with its result or its error.
 
     ``memory`` is what a piece needs, in bytes, told to a scheduler whose workers say what they have. What is not begun
-    when the caller stops is not done.
+    when the caller stops is not done. A result that was handed out is let go of, so that a scheduler does not keep it
+    on its worker, and does not have it done again when that worker is lost.
     """
     if isinstance(jobs, int):
         threads(jobs)
@@ -80,7 +93,7 @@ def finished(
     futures = {pool.submit(work, shared, one): number for number, one in enumerate(each)}
     try:
         for future in as_completed(futures):
-            yield futures[future], future
+            yield futures.pop(future), future
     finally:
         for future in futures:
             future.cancel()

@@ -41,8 +41,11 @@ def campaign_headline(content: Json) -> str:
     """The answer in a sentence."""
     names = list(dict.fromkeys(one["specimen"] for one in content["named"]))
     count = len(content["specimens"])
-    if not names:
+    tested = [population["tested"] for population in content["populations"]]
+    if not names and tested and all(tested):
         told = f"No outlier among {count} specimens"
+    elif not names:
+        told = f"None of {count} specimens is named; too few were fitted to hold each against the others"
     else:
         words = "is an outlier" if len(names) == 1 else "are outliers"
         told = f"{len(names)} of {count} specimens {words}: {', '.join(names)}"
@@ -96,6 +99,9 @@ def shown_grid(content: Json) -> Grid:
             row[name] = number(value, 4) if isinstance(value, float) else value
         for model, fit in one["models"].items():
             _show(columns, row, model, fit, model in grouped)
+        for model, verdict in one["verdicts"].items():
+            columns.setdefault(f"{model}: verdict", Column(f"{model}: verdict", f"{model}: verdict"))
+            row[f"{model}: verdict"] = verdict.replace("_", " ")
         rows.append(row)
     caption = "Values with 95 % intervals. A specimen opens its own report."
     used = [column for column in columns.values() if any(row.get(column.key) is not None for row in rows)]

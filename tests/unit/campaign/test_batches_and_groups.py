@@ -10,6 +10,7 @@ from dashpot.campaign.alike import groups_alike
 from dashpot.campaign.causes import causes_found
 from dashpot.campaign.charts import control_charts
 from dashpot.campaign.declaration import Job
+from dashpot.campaign.named import named_by_causes
 from dashpot.campaign.numbers import Numbers
 from dashpot.campaign.sharing import pooled
 
@@ -88,12 +89,37 @@ def test_numbers_in_common_are_weighted_means():
     assert pooled("m", ("x.*",), outcomes) is None
 
 
+def cause(title: str, probability: float, accepted: bool = True) -> dict:
+    return {
+        "cause": title,
+        "title": title,
+        "place": None,
+        "class": "specimen",
+        "probability": probability,
+        "accepted": accepted,
+        "evidence": "a flat spot",
+    }
+
+
 def test_causes_are_told_by_specimen_and_absent_ones_are_zero():
-    cause = {"cause": "play", "title": "play", "place": None, "class": "specimen", "probability": 0.9}
     outcomes = {
-        Job("a", "", "diagnose", ("m",)): {"causes": [cause]},
+        Job("a", "", "diagnose", ("m",)): {"causes": [cause("play", 0.9)]},
         Job("b", "", "diagnose", ("m",)): {"causes": []},
         Job("b", "", "fit", ("m",)): {},
     }
     [row] = causes_found(outcomes)
-    assert row["probability"] == {"a": 0.9, "b": 0.0}
+    assert row["probability"] == {"a": 0.9, "b": 0.0} and row["certain"] == {}
+
+
+def test_who_has_an_effect_that_most_others_lack_is_named():
+    # play is in one of four; creep in two of four is how they are made; friction was not accepted, gap is not sure
+    found = {
+        "a": [cause("play", 0.99), cause("creep", 1.0)],
+        "b": [cause("creep", 1.0), cause("friction", 0.99, accepted=False)],
+        "c": [cause("gap", 0.9)],
+        "d": [],
+    }
+    outcomes = {Job(name, "", "diagnose", ("m",)): {"causes": causes} for name, causes in found.items()}
+    [named] = named_by_causes(causes_found(outcomes))
+    assert (named.specimen, named.kind, named.probability) == ("a", "damaged or mounted otherwise", 0.99)
+    assert named.evidence == ("play, in 1 of 4 specimens: a flat spot",)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from seeds import seed_of
 from unit.campaign.bushings import (
+    CAMPAIGN,
     DAMAGED,
     LOOSE,
     MEAN,
@@ -16,6 +17,7 @@ from unit.campaign.bushings import (
     SCATTER,
     TREND,
     WRONG_GAIN,
+    Fault,
     draw_population,
     write_population,
 )
@@ -102,3 +104,18 @@ def test_none_of_a_hundred_sound_bushings_is_named(tmp_path):
     content = content_of(tmp_path, seed_of("sound bushings"), 100, faults={})
     assert named_of(content) == {}
     assert held(content).sum() >= 5
+
+
+@pytest.mark.slow
+def test_diagnoses_find_the_loose_among_eight_bushings(tmp_path):
+    faults = {2: Fault(play=0.3e-3), 5: Fault(play=0.2e-3)}
+    file = write_population(tmp_path, draw_population(4, 8, faults), 4, CAMPAIGN + "verbs: [diagnose]\n")
+    content = campaign_content(run_campaign(read_campaign(file, load_registry())))
+    [play] = [cause for cause in content["causes"] if cause["cause"] == "clearance"]
+    assert set(play["certain"]) == {"b02", "b05"} and len(play["probability"]) == 8
+    assert all(sure == 0.0 for name, sure in play["probability"].items() if name not in play["certain"])
+    named = [one for one in content["named"] if "clearance" in one["evidence"][0]]
+    assert set(named_of(content)) == {one["specimen"] for one in named} == {"b02", "b05"}
+    assert all("in 2 of 8 specimens" in one["evidence"][0] for one in named)
+    # eight are too few to hold their parameters against each other
+    assert not content["populations"][0]["tested"]

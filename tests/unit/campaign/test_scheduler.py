@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from dashpot.campaign.scheduler import scheduled
@@ -11,6 +13,7 @@ from dashpot.text.problem import InputError
 distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
 
 GB = 1e9
+PATIENCE = 20.0
 
 
 def doubled(_: None, number: int) -> int:
@@ -43,3 +46,16 @@ def test_a_job_that_no_worker_has_the_memory_for_is_refused():
         with pytest.raises(InputError, match=r"expected a worker with 4e\+09 B .* got at most 1e\+09 B"):
             with scheduled(cluster.scheduler_address, 4.0 * GB):
                 pass
+
+
+def test_a_result_that_was_handed_out_is_not_kept_by_its_worker():
+    local = {"n_workers": 1, "threads_per_worker": 1, "processes": False, "dashboard_address": None}
+    with distributed.Client(**local) as client:
+        for count, (_, future) in enumerate(finished(doubled, None, range(12), client), 1):
+            assert future.result() % 2 == 0
+            if count == 12:
+                # what all share, and at most the last result
+                deadline = time.monotonic() + PATIENCE
+                while (kept := sum(map(len, client.has_what().values()))) > 2 and time.monotonic() < deadline:
+                    time.sleep(0.01)
+                assert kept <= 2

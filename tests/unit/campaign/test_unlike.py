@@ -60,7 +60,10 @@ def test_outliers_do_not_hide_each_other_nor_widen_the_population():
 def test_few_specimens_are_not_doubted():
     numbers = population(5, 7)
     numbers.at[2] += 3.0
-    assert not unlike(numbers).outside.any()
+    found = unlike(numbers)
+    assert not found.outside.any()
+    # eight and one for each of mean and slope
+    assert (found.tested, found.needed) == (False, 10) and unlike(population(5, 10)).tested
 
 
 def test_sound_specimens_are_not_named():

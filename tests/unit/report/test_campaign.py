@@ -72,6 +72,7 @@ def content(**more) -> dict:
         "numbers": [number],
         "correlation": [[1.0]],
         "dependence": [effect],
+        "tested": True,
         "ways": [],
         "probability": [],
         "groups": [1, 2],
@@ -86,6 +87,7 @@ def content(**more) -> dict:
         "place": None,
         "class": "specimen",
         "probability": {"a": 0.9, "b": 0.0},
+        "certain": {},
     }
     return {
         "format": "dashpot-campaign-result/1",
@@ -103,6 +105,10 @@ def content(**more) -> dict:
 def test_the_headline_counts_and_names():
     assert campaign_headline(content()) == "1 of 2 specimens is an outlier: a; 1 job failed."
     assert campaign_headline(content(named=[], failures=[])) == "No outlier among 2 specimens."
+    few = {**content()["populations"][0], "tested": False}
+    for populations in ([few], []):
+        told = campaign_headline(content(named=[], failures=[], populations=populations))
+        assert told == "None of 2 specimens is named; too few were fitted to hold each against the others."
 
 
 def test_the_page_holds_all_parts_and_its_links():

@@ -4,14 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
-from dashpot.fit.api import POLISH_STEPS, Progress, Setting, fit_prepared, measure_errors, prepare, silent
+from dashpot.fit.api import (
+    POLISH_STEPS,
+    Progress,
+    Setting,
+    fit_each,
+    fitted_or_raised,
+    measure_errors,
+    prepare,
+    silent,
+)
 from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.joint.declaration import JointSpec, Tie
@@ -28,6 +37,9 @@ from dashpot.kernel.network import compile_network
 from dashpot.kernel.workers import threads
 from dashpot.model.network import NetworkSpec, Slot, Value
 from dashpot.text.problem import InputError, Problem
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 
@@ -94,20 +106,23 @@ def fit_joint(
     spec: JointSpec,
     datasets: Mapping[str, Dataset],
     *,
-    jobs: int = 1,
+    jobs: Jobs = 1,
     progress: Progress | None = None,
 ) -> JointResult:
-    """Identify the specimens of a joint file on their ``datasets``, by name. InputError for one that has no fit."""
-    return _fitted(spec, datasets, threads(jobs), progress or silent)
+    """Identify the specimens of a joint file on their ``datasets``, by name. InputError for one that has no fit.
+
+    On a pool or a cluster each specimen is fitted alone as a piece of work, and all together in this process.
+    """
+    return _fitted(spec, datasets, jobs, progress or silent)
 
 
 @single_threaded_algebra
-def _fitted(spec: JointSpec, datasets: Mapping[str, Dataset], jobs: int, progress: Progress) -> JointResult:
+def _fitted(spec: JointSpec, datasets: Mapping[str, Dataset], pool: Jobs, progress: Progress) -> JointResult:
+    jobs = threads(pool)
     settings = {name: prepare(dataset, spec.seed) for name, dataset in datasets.items()}
-    alone: dict[str, FitResult] = {}
-    for each in spec.specimens:
-        network = _with_first_priors(each.network, each.name, spec.ties)
-        alone[each.name] = fit_prepared(network, settings[each.name], None, spec.seed, jobs, progress)
+    networks = [_with_first_priors(each.network, each.name, spec.ties) for each in spec.specimens]
+    found_alone = fit_each(networks, [settings[each.name] for each in spec.specimens], None, spec.seed, pool, progress)
+    alone = {each.name: fitted_or_raised(fit) for each, fit in zip(spec.specimens, found_alone, strict=True)}
     progress("all together", 0.0, None, None)
     bodies = {name: _Body.of(fit.fitted, settings[name], jobs) for name, fit in alone.items()}
     whole = JointObjective([body.member for body in bodies.values()])

@@ -63,6 +63,11 @@ class ModelPlan:
         return self.network.name
 
     @property
+    def needs(self) -> set[str]:
+        """The models of the study that it starts from or has as parts."""
+        return {*self.parts.values(), *([self.start_from] if self.start_from else [])}
+
+    @property
     def budget(self) -> int:
         """The parameter vectors of all its stages."""
         return sum(stage.budget for stage in self.stages if isinstance(stage, SearchStage))

@@ -42,7 +42,7 @@ from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import threads
+from dashpot.kernel.workers import finished, result_of
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
@@ -95,6 +95,8 @@ def run_study(
     The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
     number of interruptions. Raises InputError for patterns that name nothing, for networks that do not compile, and for
     references of another kind than the parameters of their paths.
+    On a pool or a cluster models that do not build on each other are pieces of work, which reach the ``checkpoint``
+    under the same path; of a model alone its starts, bootstrap and profiles are.
 
     Examples:
         >>> found = dp.run_study(study, dp.load_dataset("mount"), registry=dp.load_registry())
@@ -103,7 +105,7 @@ def run_study(
     """
     setting = study_setting(study, dataset)
     require_references(study, dataset.references)
-    records = Checkpoint(checkpoint)
+    records = Checkpoint(checkpoint and checkpoint.absolute())
     records.open(fingerprint(study, dataset))
     conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
     return StudyResult(study, setting, tuple(conduct.models()), tuple(registry.metrics.values()))
@@ -135,13 +137,38 @@ class _Conduct:
         """Every model; those identified before may be starting points."""
         _refuse_priors(self.study)
         done: dict[str, ModelResult] = {}
-        whole = self.setting
-        for plan in self.study.models:
-            self.setting = restricted(whole, plan)
-            texts = {name: result.fit.identified_text for name, result in done.items()}
-            network = with_parts(plan.network, plan.parts, texts, self.registry) if plan.parts else plan.network
-            done[plan.name] = self._model(replace(plan, network=network), done)
-            yield done[plan.name]
+        while left := [plan for plan in self.study.models if plan.name not in done]:
+            ready = [plan for plan in left if plan.needs <= done.keys()]
+            if isinstance(self.jobs, int) or len(ready) == 1:
+                done[ready[0].name] = self.model_of(ready[0], done)
+            else:
+                done |= self._apart(ready, done)
+        yield from (done[plan.name] for plan in self.study.models)
+
+    def model_of(self, plan: ModelPlan, done: Mapping[str, ModelResult]) -> ModelResult:
+        """A model whose starting point and parts are among those that are ``done``."""
+        texts = {name: done[name].fit.identified_text for name in plan.needs}
+        network = with_parts(plan.network, plan.parts, texts, self.registry) if plan.parts else plan.network
+        alone = replace(self, setting=restricted(self.setting, plan))
+        found = alone._model(replace(plan, network=network), done)
+        self.spent = alone.spent
+        return found
+
+    def _apart(self, ready: Sequence[ModelPlan], done: Mapping[str, ModelResult]) -> dict[str, ModelResult]:
+        """Several models, each as a piece of work on one thread."""
+        each = [(plan, {name: done[name] for name in plan.needs}) for plan in ready]
+        found = {}
+        for number, future in finished(_model_apart, replace(self, jobs=1, progress=silent), each, self.jobs):
+            plan, result = ready[number], result_of(future)
+            if isinstance(result, InputError):
+                raise result
+            setting = restricted(self.setting, plan)
+            # one dataset for all, not a copy with each
+            fit = replace(result.fit, dataset=setting.dataset)
+            found[plan.name] = replace(result, setting=setting, fit=fit)
+            self.spent += plan.budget
+            self._tell(plan, "identified")
+        return found
 
     def _model(self, plan: ModelPlan, done: Mapping[str, ModelResult]) -> ModelResult:
         train = self.setting.train
@@ -168,7 +195,7 @@ class _Conduct:
         seed = zlib.crc32(label.encode()) ^ self.study.seed
         weights, optimizers = run_weights(self.study, runs), self.registry.optimizers
         noise, swing = self.setting.floor.value, self.setting.swing
-        task = Task(runs, weights, seed, threads(self.jobs), optimizers, noise, swing)
+        task = Task(runs, weights, seed, self.jobs, optimizers, noise, swing)
 
         def watch(evaluations: int, loss: float) -> None:
             done = (self.spent + min(evaluations, stage.budget)) / max(self.study.budget, 1)
@@ -280,6 +307,14 @@ def ending_of(stages: Sequence[StageResult]) -> str:
         if not stage.converged and not any(each.converged and {*stage.free} <= {*each.free} for each in later):
             return stage.ending
     return Outcome.CONVERGED.value
+
+
+@single_threaded_algebra
+def _model_apart(shared: _Conduct, one: tuple[ModelPlan, Mapping[str, ModelResult]]) -> ModelResult | InputError:
+    try:
+        return shared.model_of(*one)
+    except InputError as error:
+        return error
 
 
 def _refuse_priors(study: StudySpec) -> None:

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
+from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
@@ -22,7 +23,11 @@ from dashpot.fit.starts import refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
 from dashpot.kernel.network import compile_network
+from dashpot.kernel.workers import pieces, threads
 from dashpot.model.network import NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
 Watch = Callable[[int, float], None]
@@ -55,7 +60,7 @@ class Task:
     runs: Sequence[ScoredRun]
     weights: Sequence[float]
     seed: int
-    jobs: int
+    jobs: Jobs
     known: Mapping[str, type[Optimizer]]
     noise: float | None
     swing: float
@@ -69,7 +74,7 @@ def search(
     KeyboardInterrupt leaves the records as far as they came.
     """
     coordinates = search_coordinates(spec, stage.frees)
-    objective = Objective(compile_network(spec), task.runs, task.jobs, weights=task.weights)
+    objective = Objective(compile_network(spec), task.runs, threads(task.jobs), weights=task.weights)
     if not coordinates.paths:
         return spec, _nothing(stage, objective, coordinates)
     if stage.optimizer == OWN_METHOD and stage.starts == 1:
@@ -82,21 +87,24 @@ def search(
             _recorded(record(0), lambda keep: _refine_starts(objective, loss, coordinates, stage, task.seed, watch))
         ]
     else:
-        found = [_start(number, stage, task, loss, coordinates, record, watch) for number in range(stage.starts)]
+        here = isinstance(task.jobs, int)
+        shared = (stage, replace(task, jobs=1), loss, coordinates, watch if here else _unwatched)
+        found = pieces(_start, shared, [(number, record(number)) for number in range(stage.starts)], task.jobs)
     found = sorted(found, key=lambda each: each["loss"])
     fitted = with_point(spec, coordinates, np.array(found[0]["point"]))
     return fitted, _summed(stage, coordinates, found)
 
 
+def _unwatched(evaluations: int, loss: float) -> None:
+    """How a start goes on that nobody watches."""
+
+
+@single_threaded_algebra
 def _start(
-    number: int,
-    stage: SearchStage,
-    task: Task,
-    loss: Objective | WithPriors,
-    coordinates: Coordinates,
-    record: Callable[[int], Record],
-    watch: Watch,
+    shared: tuple[SearchStage, Task, Objective | WithPriors, Coordinates, Watch], one: tuple[int, Record]
 ) -> dict[str, Any]:
+    """One start with a plugged-in optimizer, by its number and its record."""
+    (stage, task, loss, coordinates, watch), (number, kept) = shared, one
     rng = np.random.default_rng([task.seed, number])
     begin = coordinates.to_cube(coordinates.start) if number == 0 else rng.random(len(coordinates.paths))
     budget = stage.budget // stage.starts
@@ -131,7 +139,7 @@ def _start(
             "spread": [found.loss],
         }
 
-    return _recorded(record(number), work)
+    return _recorded(kept, work)
 
 
 def _refine(whole: Refinement, objective: Objective, stage: SearchStage, noise: float | None) -> dict[str, Any]:
