@@ -86,10 +86,14 @@ class Pursuer:
             look = onward
 
     def _ends_better(self, again: Pursuit, found: Pursuit) -> bool:
-        """Whether one search ends at a better structure than another, under the noise of the look at either."""
-        odds = Odds(again.look.layout.bank), Odds(found.look.layout.bank)
-        there = self._better(again.best, self.scored(again.look, found.best.model, odds[0]))
-        return there and self._better(self.scored(found.look, again.best.model, odds[1]), found.best)
+        """Whether one search ends at a better structure than another, the noise of the look at either counting alike.
+
+        Under its own noise alone each might be better: it weighs least where its model errs.
+        """
+        there = again.best, self.scored(again.look, found.best.model, Odds(again.look.layout.bank))
+        here = self.scored(found.look, again.best.model, Odds(found.look.layout.bank)), found.best
+        likelier = sum(one.score - other.score for one, other in (there, here)) < 0.0
+        return likelier and sum(float(one.exact.sum() - other.exact.sum()) for one, other in (there, here)) < 0.0
 
     def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool, list[Scored]]:
         """The look at a structure than which none of those refitted is better, whether it was reached, and these."""

@@ -32,16 +32,29 @@ class TakenCurve:
 
 
 def ground_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
-    """The network with every curve that is to come from data as a table.
+    """The network with every curve that is to come from data as a table; one that has knots keeps them where they fit.
 
     The mid line of the widest quasi-static run, which is kept, known as well as its scatter says; knots beyond that run
     are searched. Without such a run a smooth curve through all runs, of which all knots are searched. The knots cover
     the deflections of all runs.
     """
     for path, curve in spec.data_curves().items():
-        if curve.form == "data":
+        if curve.form == "data" or not _spans(curve, runs):
             spec = spec.with_curve(path, table_of(curve, _widen(_taken(runs, curve.knots or None), runs)))
     return spec
+
+
+def _spans(curve: Characteristic, runs: Sequence[ScoredRun]) -> bool:
+    """Whether the knots of a table reach as far as these runs, to a quarter of their distance.
+
+    A table that ends before, from another test or from the literature, cannot follow the slow loop: it is taken anew.
+    """
+    if widest(runs) is None:
+        return True
+    slack = 0.25 * (curve.at[-1] - curve.at[0]) / (len(curve.at) - 1)
+    low = min(run.drive.displacement.min() for run in runs)
+    high = max(run.drive.displacement.max() for run in runs)
+    return bool(curve.at[0] - slack <= low and high <= curve.at[-1] + slack)
 
 
 def correct_ends(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:

@@ -56,6 +56,18 @@ def test_the_number_of_knots_may_be_given():
     assert len(curve_of(ground_curves(spec, [loop(20e-3, 0.0)])).at) == 11
 
 
+@pytest.mark.parametrize(("deflection", "anew"), [("[0 mm, 10 mm, 20 mm]", False), ("[-4 mm, 0 mm, 4 mm]", True)])
+def test_a_table_that_does_not_span_the_runs_is_taken_anew(deflection, anew):
+    """A curve of the literature about zero on a test that presses one way only."""
+    spec = network(
+        f"rubber: {{element: spring, stiffness: {{from: quasi_static, deflection: {deflection}, force: [-9, 0, 9]}}}}"
+    )
+    found = ground_curves(spec, [loop(20e-3, 0.0)])
+    assert (force_of(found).tolist() == [-9.0, 0.0, 9.0]) is not anew
+    if anew:
+        assert force_of(found) == pytest.approx(progressive(np.array(curve_of(found).at)), abs=2.0)
+
+
 def test_the_widest_loop_counts_and_the_knots_cover_all_runs():
     short, long = loop(5e-3, 0.0, "short"), loop(20e-3, 0.0, "long")
     dynamic = run("fast", 4e-3, 5.0, elastic, middle=22e-3)
