@@ -23,7 +23,6 @@ RIDGE = 1e-9
 REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
-NOBODY = -1
 NONE = frozenset[int]()
 
 
@@ -48,7 +47,7 @@ class Beside:
 class Front:
     """``grams`` (groups, e + c, e + c) of columns beside the base, of which ``base_moves`` (b, e + c) take up each.
 
-    The first e have a ``precision`` (e,) known beforehand; ``owners`` (e,) are the terms of whose form they are errors.
+    The first e have a ``precision`` (e,) known beforehand; ``owners`` (e,) are the terms of whose form they are errors, -1 where they are none.
     The next columns are the residual and ``tangents`` of terms.
     """
 
@@ -96,7 +95,8 @@ def front_of(
     errors, precision, owners = form_errors(np.einsum("gii->i", grams), first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
     left, moves, _, _ = beside_base(grams[:, order][:, :, order] if errors else grams, np.zeros(free), free)
-    owned = np.array([*[NOBODY] * known.size, *owners], dtype=np.intp)
+    # faults are of no term
+    owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)
     return Front(left, moves, np.append(known, precision), owned, layout.tangents)
 
 
