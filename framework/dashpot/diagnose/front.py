@@ -47,8 +47,8 @@ class Beside:
 class Front:
     """``grams`` (groups, e + c, e + c) of columns beside the base, of which ``base_moves`` (b, e + c) take up each.
 
-    The first e have a ``precision`` (e,) known beforehand; ``owners`` (e,) are the terms of whose form they are errors, -1 where they are none.
-    The next columns are the residual and ``tangents`` of terms.
+    The first e have a ``precision`` (e,) known beforehand; ``owners`` (e,) are the terms of whose form they are errors,
+    -1 for those of none. The next columns are the residual and ``tangents`` of terms.
     """
 
     grams: Array
