@@ -15,7 +15,6 @@ from dashpot.text.quantity import pretty
 Array = NDArray[np.float64]
 LONGEST = 0.05
 LAGS = tuple(float(lag) for lag in np.geomspace(5e-5, 2e-2, 20))  # s
-DELAYS = tuple(float(sign * lag) for sign in (1.0, -1.0) for lag in np.geomspace(1e-4, 2e-2, 10))  # s
 
 
 class Delay(Cause):
@@ -33,26 +32,21 @@ class Delay(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A shift of the model's force in time or a low-pass, unless the network has one of them already.
+        """A shift of the model's force by a small time or a low-pass, unless the network has one of them already.
 
-        To first order in the frequency they are the same: both together, one against the other, would be any law. The
-        shifts are finite: what a delay does to a stiffness in second order is that of a mass.
+        To first order in the frequency they are the same: both together, one against the other, would be any law.
         """
         if not {"force.delay", "force.lag"} & set(network.measurement):
-            yield Suspect("delay", DELAYS, _shifted, _extend, unknowns=0, measured=True, quantity="delay", unit="s")
+            yield Suspect(
+                "delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay", unit="s"
+            )
             yield Suspect(
                 "low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share", unit="1"
             )
 
 
-def _shifted(view: View, run: str) -> Array:
-    """What each of the delays changes, per second of it; beyond the ends of the run the force does not change."""
-    from scipy.interpolate import make_interp_spline
-
-    force = view.force(run)
-    time = view.step(run) * np.arange(force.size)
-    spline = make_interp_spline(time, force)
-    return np.array([(spline(np.clip(time - delay, 0.0, time[-1])) - force) / abs(delay) for delay in DELAYS])
+def _slope(view: View, run: str) -> Array:
+    return -np.gradient(view.force(run), view.step(run), edge_order=2)[None]
 
 
 def _lagging(view: View, run: str) -> Array:
@@ -74,7 +68,6 @@ def _low_pass(text: str, atoms: Sequence[Atom]) -> str:
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:
-    size, place = atoms[0]
-    lag = float(np.clip(np.copysign(size, place), -0.9 * LONGEST, 0.9 * LONGEST))
+    lag = float(np.clip(atoms[0][0], -0.9 * LONGEST, 0.9 * LONGEST))
     bounds = f"[{pretty(-LONGEST, 's')}, {pretty(LONGEST, 's')}]"
     return add_measurement(text, "delay", f"{{start: {pretty(lag, 's', 6)}, bounds: {bounds}}}")

@@ -29,7 +29,6 @@ Array = NDArray[np.float64]
 REFITTED = 2  # structures with one change, and as many with more, at each look
 TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
 MOST_LOOKS = 12
-FAR = 1.1  # times what all candidates together leave: another path is searched
 DRAWS = 200
 
 
@@ -45,27 +44,10 @@ class Pursuer:
     watch: Callable[[int, int], None] = lambda looks, terms: None
     doubted: Sequence[Doubt] = ()
     refused: list[tuple[Term, str]] = field(default_factory=list)
-    passed: list[Scored] = field(default_factory=list)
 
     def run(self, model: Model, look: Look | None = None) -> Pursuit:
-        """Search from a fitted model until no refitted structure scores better, then let go what is not needed.
-
-        Where that leaves much more than all candidates together would, another path is searched: from the second best
-        structure of the first look. The better end counts.
-        """
-        look = look or self.look(model)
-        found = self.pursued(look, model, 0)
-        if found.ended and _error_of(found.look) > FAR * found.look.rich:
-            for other in self.passed[:1]:
-                again = self.pursued(self.look(other.model), model, found.looks)
-                if self._ends_better(again, found):
-                    return again
-                found = replace(found, looks=again.looks)
-        return found
-
-    def pursued(self, look: Look, first: Model, looks: int) -> Pursuit:
-        """The search from a look until no refitted structure scores better, and what is needed of it."""
-        ended = False
+        """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
+        first, look, ended, looks = model, look or self.look(model), False, 0
         seen: set[frozenset[object]] = set()
         while True:
             look, looks, ended, others = self.climbed(look, looks)
@@ -85,16 +67,6 @@ class Pursuer:
                 )
             look = onward
 
-    def _ends_better(self, again: Pursuit, found: Pursuit) -> bool:
-        """Whether one search ends at a better structure than another, the noise of the look at either counting alike.
-
-        Under its own noise alone each might be better: it weighs least where its model errs.
-        """
-        there = again.best, self.scored(again.look, found.best.model, Odds(again.look.layout.bank))
-        here = self.scored(found.look, again.best.model, Odds(found.look.layout.bank)), found.best
-        likelier = sum(one.score - other.score for one, other in (there, here)) < 0.0
-        return likelier and sum(float(one.exact.sum() - other.exact.sum()) for one, other in (there, here)) < 0.0
-
     def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool, list[Scored]]:
         """The look at a structure than which none of those refitted is better, whether it was reached, and these."""
         trials: list[Scored] = []
@@ -105,8 +77,6 @@ class Pursuer:
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
             onward = self._next_look(trials, present)
-            if looks == 1:
-                self.passed = [one for one in sorted(trials, key=_score) if onward and one.model is not onward.model]
             if onward is None:
                 return look, looks, True, trials
             look = onward
@@ -114,7 +84,7 @@ class Pursuer:
 
     def _next_look(self, trials: Iterable[Scored], present: Scored) -> Look | None:
         """The look at the best of some structures than the present one, under the noise of the look at either."""
-        for trial in sorted(trials, key=_score):
+        for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
                 scores = Scores(self.look(trial.model))
                 before = self.scored(scores.look, present.model, scores.odds)
@@ -262,15 +232,6 @@ class Pursuer:
                     wanted[number] = 0 if trial else wanted[number] - 1
                     if trial:
                         yield look.model.terms[number], trial
-
-
-def _score(trial: Scored) -> float:
-    return trial.score
-
-
-def _error_of(look: Look) -> float:
-    """The RMS in N of what the model of a look leaves."""
-    return float(np.sqrt(np.mean([row[0] ** -2.0 for row in look.noise.filters.values()])))
 
 
 def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:
