@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
-
 import numpy as np
 import pytest
+from unit.pools import two_workers
 
 import dashpot as dp
 from dashpot import load_registry
@@ -41,12 +39,7 @@ shared: [oil.damping]
 @pytest.fixture(scope="module", params=["processes", "dask"])
 def pool(request):
     """Two workers."""
-    if request.param == "processes":
-        made = ProcessPoolExecutor(2, mp_context=get_context("spawn"))
-    else:
-        distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
-        made = distributed.Client(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None)
-    with made:
+    with two_workers(request.param) as made:
         yield made
 
 

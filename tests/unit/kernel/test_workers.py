@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from multiprocessing import get_context
-
 import numpy as np
 import pytest
+from unit.pools import two_workers
 
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
@@ -34,14 +32,7 @@ branches:
 @pytest.fixture(scope="module", params=["threads", "processes", "dask"])
 def pool(request):
     """Two workers of each kind."""
-    if request.param == "threads":
-        made = ThreadPoolExecutor(2)
-    elif request.param == "processes":
-        made = ProcessPoolExecutor(2, mp_context=get_context("spawn"))
-    else:
-        distributed = pytest.importorskip("distributed", reason="the extra cluster is not installed")
-        made = distributed.Client(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None)
-    with made:
+    with two_workers(request.param) as made:
         yield made
 
 
