@@ -54,7 +54,8 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether every number of the term is the same in each group of runs: at every amplitude, preload and speed.
 
     Most of what tells it has to come from runs whose force is in phase with the deflection: where losses prevail, a
-    shift of the phase is that of friction, relaxation or a spring in series as well.
+    shift of the phase is that of friction, relaxation or a spring in series as well. What delays the force has to be
+    tried at more than one frequency: at a single one every loss does the same.
 
     One step of each group from what all share, in parts of the number itself, less what noise makes of it; the laws
     are taken as they are.
@@ -75,12 +76,35 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
         weights = np.einsum("i,gij,j->g", along, grams, along)
         if weights @ in_phase < 0.5 * weights.sum():
             return False
+        if look.model.terms[number].suspect.measured and not _shows_frequency(refitter, look, weights):
+            return False
         pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
         scatter = np.sqrt(max(excess, 0.0)) * scale[0] / scale[column]
         if scatter > AGREE * _size_in_steps(look.model, path):
             return False
     return True
+
+
+def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
+    """Whether folds that weigh so much (folds,) tell a delay from a loss angle that does not change with frequency.
+
+    A delay moves the force along the velocity, such an angle along the deflection, each frequency shifted by a quarter
+    of its period (Hilbert transform). They have to differ by more than a delay may scatter between runs. A tenth
+    of a record at each end, of which the transform knows one side only, is faded out.
+    """
+    from scipy.signal import hilbert
+    from scipy.signal.windows import tukey
+
+    squares = np.zeros((2, 2))
+    for run in refitter.runs:
+        path, velocity = run.drive.displacement[run.first :], run.drive.velocity[run.first :]
+        pair = np.array([velocity - velocity.mean(), hilbert(path - path.mean()).imag]) * tukey(path.size, 0.2)
+        gram = pair @ pair.T
+        at = list(look.folds.parts[run.name][1])
+        squares += float(weights[at].mean()) * gram / max(float(gram[0, 0]), 1e-300)
+    along = float(squares[0, 1]) ** 2
+    return float(squares[0, 0] * squares[1, 1]) - along > AGREE**2 * along
 
 
 def _in_phase(refitter: Refitter, look: Look) -> Array:

@@ -57,7 +57,6 @@ class Front:
     owners: NDArray[np.intp]
     tangents: int
     _known: dict[frozenset[int], Beside] = field(default_factory=dict)
-    _last: tuple[frozenset[int], Array] | None = None
 
     @cached_property
     def _sum(self) -> Array:
@@ -78,13 +77,15 @@ class Front:
             self._known[gone] = Beside(columns, moves, base, total[0], prior, occam)
         return self._known[gone]
 
-    def groups(self, gone: frozenset[int] = NONE) -> Array:
-        """The Gram matrices (groups, c, c) of the same; the last ones are kept."""
-        if self._last is None or self._last[0] != gone:
-            found = self.beside(gone)
-            at = np.ix_(found.columns, found.columns)
-            self._last = gone, np.array([_beside(gram[at], found.moves) for gram in self.grams])
-        return self._last[1]
+    def groups(self, combined: Array, gone: frozenset[int] = NONE) -> Array:
+        """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, where some terms are ``gone``."""
+        found, kept = self.beside(gone), self.precision.size
+        used = np.flatnonzero(combined.any(axis=1))
+        front = found.columns[: len(found.moves)]
+        at = np.concatenate([front, kept + used])
+        whole = np.vstack([-found.moves[:, used] @ combined[used], combined[used]])
+        left: Array = whole.T @ self.grams[:, at[:, None], at] @ whole
+        return left
 
 
 def front_of(

@@ -24,6 +24,7 @@ from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
 from dashpot.diagnose.whitening import Noise, independent_share, learn_filter
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.workers import streamed
 
 Array = NDArray[np.float64]
 
@@ -95,7 +96,7 @@ def look_at(
     alone, rich = noise, 0.0
     if noise is None:
         noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
-    grams, samples, squares = _grams(rows, noise, folds)
+    grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
     del rows
     terms = 1 + layout.tangents
     exact = beside_base(grams[:, : first + terms, : first + terms], precision, free)[0]
@@ -133,19 +134,28 @@ def _shown_at_rest(
     return {run.name: shapes_of(still, view, run, noise) for run in runs}
 
 
-def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds) -> tuple[Array, Array, Array]:
+def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds, jobs: int) -> tuple[Array, Array, Array]:
     """Gram matrices (folds, c, c) of whitened rows, the number (folds,) of their samples, the mean squares (c,) in N^2.
 
     Samples that are not independent weigh less in both.
     """
+
+    def seen(run: str) -> tuple[Array, list[tuple[int, Array, float]]]:
+        found = rows[run]
+        white, share = noise.filter(run, found), noise.independent.get(run, 1.0)
+        parts = folds.of_run(run, white.shape[1])
+        return np.mean(found**2, axis=1), [
+            (fold, share * (white[:, part] @ white[:, part].T), share * (part.stop - part.start))
+            for fold, part in parts
+        ]
+
     size = len(next(iter(rows.values())))
     grams, samples, squares = np.zeros((len(folds.names), size, size)), np.zeros(len(folds.names)), np.zeros(size)
-    for run, found in rows.items():
-        squares += np.mean(found**2, axis=1) / len(rows)
-        white, share = noise.filter(run, found), noise.independent.get(run, 1.0)
-        for fold, part in folds.of_run(run, white.shape[1]):
-            grams[fold] += share * (white[:, part] @ white[:, part].T)
-            samples[fold] += share * (part.stop - part.start)
+    for mean, found in streamed(seen, rows, jobs):
+        squares += mean / len(rows)
+        for fold, gram, count in found:
+            grams[fold] += gram
+            samples[fold] += count
     return grams, samples, squares
 
 
@@ -162,10 +172,15 @@ def learn_noise(
     """
     from scipy.linalg import cho_factor, cho_solve
 
-    gram, count = np.zeros((0, 0)), 0
-    for found in rows.values():
-        weight = 1.0 / max(float(np.mean(found[first] ** 2)), 1e-300)
-        gram, count = weight * (found @ found.T) + (gram if count else 0.0), count + found.shape[1]
+    def weighed(run: str) -> tuple[Array, int]:
+        found = rows[run]
+        return (found @ found.T) / max(float(np.mean(found[first] ** 2)), 1e-300), found.shape[1]
+
+    size = len(next(iter(rows.values())))
+    gram, count = np.zeros((size, size)), 0
+    for found, samples in streamed(weighed, rows, refitter.jobs):
+        gram += found
+        count += samples
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     matrix, others = gram / np.outer(scale, scale), np.arange(len(scale)) != first
     steadied = matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1)

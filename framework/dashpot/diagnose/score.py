@@ -154,7 +154,7 @@ class Scores:
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
         at, target, gone = self.columns(structure), self.target(structure), structure.dropped
         front, gram, samples = self.look.front, self.gram(gone), self.look.samples
-        left = _left_out(front.groups(gone), self.scale, gram, at, target)
+        left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target)
         rest = target.copy()
         rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
         rest *= self.scale[0] / self.scale
@@ -168,7 +168,9 @@ class Scores:
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
         unit = np.outer(scale, scale)
         known = np.diag(np.append(0.0, np.full(scale.size - 1, REACH**-2)))
-        left = _left_out(self.look.exact, scale, (total + known) / unit, alive, np.eye(scale.size)[0])
+        target = np.eye(scale.size)[0]
+        combined = _scaled(scale, alive, target)
+        left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target)
         squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
         return 0.5 * self.look.samples * np.log(squares)
 
@@ -195,15 +197,21 @@ class Scores:
         return np.inf if found is None or nats is None else float(nats.sum()) + found[1] + self.price(structure)
 
 
-def _left_out(grams: Array, scale: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
+def _scaled(scale: Array, at: NDArray[np.intp], target: Array) -> Array:
+    """Columns ``at`` divided by their ``scale`` (c,) and a ``target`` (c,) of such ones, as combinations (c, k + 1)."""
+    found = np.zeros((scale.size, at.size + 1))
+    found[at, np.arange(at.size)] = 1.0 / scale[at]
+    found[:, -1] = target / scale
+    return found
+
+
+def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
     """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
 
-    ``gram`` (c, c) is the sum of ``grams`` (groups, c, c), and what is known of the strengths beforehand; it and the
-    ``target`` (c,) are of columns divided by their ``scale`` (c,), ``grams`` of the columns as they are.
+    ``grams`` (groups, k + 1, k + 1) are those of the columns and the target; ``gram`` (c, c), of all columns, is their
+    sum over the groups, and what is known of the strengths beforehand.
     """
-    inner = grams[:, at[:, None], at] / np.outer(scale[at], scale[at])
-    against = grams @ (target / scale) / scale
-    cross, square = against[:, at], against @ target
+    inner, cross, square = grams[:, :-1, :-1], grams[:, :-1, -1], grams[:, -1, -1]
     whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)

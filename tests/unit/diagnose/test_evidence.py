@@ -6,7 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from scipy.signal import lfilter
-from unit.diagnose.rig import STIFFNESS, TIME, bench, causes, dataset, friction, plain
+from unit.diagnose.rig import MOTIONS, NETWORK, STIFFNESS, TIME, bench, causes, dataset, friction, plain
 
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
@@ -20,9 +20,9 @@ def refitter_of(made, sheet):
     return replace(made.refitter, sensors={run.name: sheet for run in made.refitter.runs})
 
 
-def proven(data, word, sheet=MappingProxyType({})):
+def proven(data, word, sheet=MappingProxyType({}), text=NETWORK):
     """Whether the best form of a cause, refitted beside the network, has its evidence."""
-    made = bench(data)
+    made = bench(data, text)
     refitter = refitter_of(made, sheet)
     folds, chosen = folds_of(refitter.runs, made.groups), causes(word)
     look = look_at(refitter, made.model, chosen, folds)
@@ -62,6 +62,18 @@ def test_a_late_channel_is_proven_where_the_force_is_in_phase(lag):
 def test_dry_friction_behind_a_spring_is_no_delay():
     """Its force lags behind the velocity alike in all runs, and no phase of a spring is there to prove a delay."""
     assert not proven(dataset(late(rubbing, 1.2e-3)), "delay")
+
+
+@pytest.mark.parametrize("fastest, shown", [(1.0, False), (12.0, True)])
+def test_a_delay_does_not_show_at_one_frequency(fastest, shown):
+    """From a spring alone: at 1 Hz a delay of 6 ms is a loss angle of 2 degrees, up to 12 Hz it is a delay."""
+    motions = {name: replace(motion, fastest=fastest) for name, motion in MOTIONS.items()}
+    springs = "\n".join(line for line in NETWORK.splitlines() if "damping" not in line)
+
+    def late_spring(motion):
+        return STIFFNESS * motion.x(TIME - 6e-3)
+
+    assert proven(dataset(late_spring, motions=motions), "delay", text=springs) is shown
 
 
 def heavy(motion, stiffness=40e3, damping=800.0, mass=28.0):
