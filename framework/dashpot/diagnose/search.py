@@ -128,11 +128,11 @@ def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, .
         return _jointly(own, alive, left, bool(suspect.sign))
     chosen: list[int] = []
     best: tuple[float, tuple[int, ...]] | None = None
+    matrix, right = left.gram[own[:, None], own], left.right[own]
     while len(chosen) < min(suspect.most, alive.size):
-        rest = [int(j) for j in alive if j not in chosen]
-        tried = [(_gain(left, own[[*chosen, j]], bool(suspect.sign)), j) for j in rest]
-        gain, j = max(tried)
-        nats = gain * left.nats - (len(chosen) + 1) * (1 + suspect.unknowns)
+        gains = _gains(matrix, right, chosen, bool(suspect.sign))
+        j = int(alive[np.argmax(gains[alive])])
+        nats = float(gains[j]) * left.nats - (len(chosen) + 1) * (1 + suspect.unknowns)
         if nats <= (best[0] if best else 0.0):
             break
         chosen.append(j)
@@ -158,9 +158,17 @@ def _jointly(
     return (gain * left.nats - kept.size, tuple(int(j) for j in kept)) if kept.size else None
 
 
-def _gain(left: _Projected, at: NDArray[np.intp], positive: bool) -> float:
-    matrix, right = left.gram[np.ix_(at, at)], left.right[at]
-    strengths = right / matrix[0] if at.size == 1 else np.linalg.lstsq(matrix, right, rcond=1e-9)[0]
-    if positive and (strengths < 0.0).any():
-        return -np.inf
-    return float(2.0 * right @ strengths - strengths @ matrix @ strengths)
+def _gains(matrix: Array, right: Array, chosen: list[int], positive: bool) -> Array:
+    """What each column (m,) explains together with those ``chosen``; -inf for one of these or of the wrong sign."""
+    inner, across = matrix[np.ix_(chosen, chosen)], matrix[chosen]
+    solved = np.linalg.solve(inner, np.column_stack([across, right[chosen]]))
+    across_solved, alone = solved[:, :-1], solved[:, -1]
+    sizes = np.diag(matrix) - np.sum(across * across_solved, axis=0)
+    rest = right - alone @ across
+    free = sizes > LEFT
+    strengths = np.divide(rest, sizes, out=np.zeros_like(rest), where=free)
+    gains = np.where(free, right[chosen] @ alone + strengths * rest, -np.inf)
+    if positive:
+        gains[(strengths < 0.0) | (alone[:, None] < across_solved * strengths).any(axis=0)] = -np.inf
+    gains[chosen] = -np.inf
+    return gains

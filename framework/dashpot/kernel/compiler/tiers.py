@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from enum import IntFlag
 
 from dashpot.expr.node import Node, apply, constant, symbol, walk, with_arguments
 from dashpot.kernel.compiler.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
@@ -19,13 +18,9 @@ from dashpot.kernel.ir.program import Lookup, Program
 ONE, ZERO = constant(1.0), constant(0.0)
 
 
-class Tier(IntFlag):
-    """What a node depends on; ``NOTHING`` is a constant or the step, ``LANE | DRIVE`` belongs to the inner loop."""
-
-    NOTHING = 0
-    LANE = 1
-    DRIVE = 2
-    STATE = 7
+Tier = int  # what a node depends on, as bits
+NOTHING, LANE, DRIVE, STATE = 0, 1, 2, 7  # nothing: a constant or the step; LANE | DRIVE: part of the inner loop
+INNER = (LANE | DRIVE, STATE)
 
 
 def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
@@ -76,7 +71,7 @@ def hoist(
     edges = [argument for node in inner if node.operation != "table" for argument in node.arguments]
     edges += [root for root in roots if not _is_inner(tiers[root.serial])]
     return (
-        _unique([*(node for node in edges if tiers[node.serial] == Tier.DRIVE), *events]),
+        _unique([*(node for node in edges if tiers[node.serial] == DRIVE), *events]),
         _unique(node for node in edges if _is_lane(node, tiers[node.serial])),
         tuple(Lookup(node.payload[0], node.arguments[0]) for node in inner if node.operation == "table"),
     )
@@ -91,11 +86,11 @@ def shared_nodes(roots: Sequence[Node]) -> set[int]:
 
 
 def _is_inner(tier: Tier) -> bool:
-    return tier in (Tier.LANE | Tier.DRIVE, Tier.STATE)
+    return tier in INNER
 
 
 def _is_lane(node: Node, tier: Tier) -> bool:
-    return node.operation != "constant" and tier in (Tier.LANE, Tier.NOTHING)
+    return node.operation != "constant" and tier in (LANE, NOTHING)
 
 
 def _unique(nodes: Iterable[Node]) -> tuple[Node, ...]:
@@ -134,9 +129,9 @@ class Regrouping:
     def tier(self, node: Node) -> Tier:
         if node.operation == "symbol":
             if node.payload in self.states:
-                return Tier.STATE
-            return Tier.NOTHING if node.payload == "dt" else Tier.DRIVE if node.payload in self.known else Tier.LANE
-        found = Tier.LANE if node.operation in ("table", "lookup") else Tier.NOTHING
+                return STATE
+            return NOTHING if node.payload == "dt" else DRIVE if node.payload in self.known else LANE
+        found = LANE if node.operation in ("table", "lookup") else NOTHING
         for argument in node.arguments:
             found |= self.tiers[argument.serial]
         return found
@@ -156,15 +151,15 @@ class Regrouping:
         above: dict[Tier, Node] = {}
         below: dict[Tier, Node] = {}
         self.collect_factors(node, above, below)
-        hoisted = [tier for tier in (Tier.NOTHING, Tier.LANE, Tier.DRIVE) if tier in above or tier in below]
+        hoisted = [tier for tier in (NOTHING, LANE, DRIVE) if tier in above or tier in below]
         groups = [apply("divide", above.pop(tier, ONE), below.pop(tier, ONE)) for tier in hoisted]
         for group in groups:
             self.settle(group)
         inner = [part for part in above.values() if part is not ONE]
-        if len(inner) == 1 and Tier.LANE in hoisted and not below:
-            spread = self.spread(groups[hoisted.index(Tier.LANE)], inner[0])
+        if len(inner) == 1 and LANE in hoisted and not below:
+            spread = self.spread(groups[hoisted.index(LANE)], inner[0])
             if spread is not None:
-                groups.pop(hoisted.index(Tier.LANE))
+                groups.pop(hoisted.index(LANE))
                 inner = [spread]
         total = groups[0] if groups else ONE
         for part in (*groups[1:], *inner):
@@ -180,11 +175,11 @@ class Regrouping:
             first, second = (self.spread(factor, argument) for argument in total.arguments)
             return None if first is None or second is None else apply(total.operation, first, second)
         if not _is_inner(self.tiers[total.serial]):
-            return None if Tier.DRIVE in self.tiers[total.serial] else self.settle(apply("multiply", factor, total))
+            return None if self.tiers[total.serial] & DRIVE else self.settle(apply("multiply", factor, total))
         if total.operation == "negative":
             rest = self.spread(factor, total.arguments[0])
             return None if rest is None else apply("negative", rest)
-        if total.operation != "multiply" or self.tiers[total.arguments[0].serial] not in (Tier.NOTHING, Tier.LANE):
+        if total.operation != "multiply" or self.tiers[total.arguments[0].serial] not in (NOTHING, LANE):
             return None
         lane, rest = total.arguments
         return apply("multiply", self.settle(apply("multiply", factor, lane)), rest)
@@ -194,7 +189,7 @@ class Regrouping:
         if node.serial in self.kept and _is_inner(self.tiers[node.serial]):
             self.count_factor(node, above)
         elif node.operation == "negative":
-            above[Tier.NOTHING] = apply("multiply", above.get(Tier.NOTHING, ONE), constant(-1.0))
+            above[NOTHING] = apply("multiply", above.get(NOTHING, ONE), constant(-1.0))
             self.collect_factors(node.arguments[0], above, below)
         elif node.operation == "multiply":
             for argument in node.arguments:
