@@ -151,7 +151,9 @@ def find_causes(
     kinds = kinds_of(causes, first)
     doubted = doubts(refitter, first, kinds, groups)
     pairs = repeats_of(refitter, groups)
-    pursuit = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted).run(model, None if doubted else first)
+    pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
+    del first  # a look is large
+    pursuit = pursuer.run(model)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
     accused = accuse(refitter, pursuit.look, kinds, groups, measured, doubted, relevance)
     if accused:

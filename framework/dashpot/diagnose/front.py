@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,51 +30,68 @@ class Beside:
     """Columns with those in front fitted to each on all runs.
 
     ``moves`` (e, c) are the strengths of the columns in front that take up one of each, ``base_moves`` (b, c) those of
-    the base; ``total`` (c, c) is the Gram matrix of all runs, ``prior`` (c, c) how unlikely the strengths are, and
-    ``occam`` the nats by which the marginal likelihood is below that of the best strengths.
+    the base, ``squares`` (c,) what is left of the columns. ``gram`` (c, c) is the Gram matrix of all runs, and of what
+    is known beforehand, of columns divided by their ``scale`` (c,). ``precision`` (e,) is that of the columns in front,
+    ``tangents`` how many numbers of terms there are, and ``occam`` the nats by which the marginal likelihood is below
+    that of the best strengths.
     """
 
     columns: NDArray[np.intp]
     moves: Array
     base_moves: Array
-    total: Array
-    prior: Array
+    squares: Array
+    scale: Array
+    gram: Array
+    precision: Array
+    tangents: int
     occam: float
+
+    def unlikely(self, strengths: Array) -> float:
+        """How unlikely a combination (c,) of the columns is beforehand, in nats."""
+        in_front = self.precision @ (self.moves @ strengths) ** 2
+        numbers = np.sum((strengths[1 : 1 + self.tangents] / REACH) ** 2)
+        return 0.5 * float(in_front + numbers) + self.occam
 
 
 @dataclass(eq=False)
 class Front:
     """``grams`` (groups, e + c, e + c) of columns beside the base, of which ``base_moves`` (b, e + c) take up each.
 
-    The first e have a ``precision`` (e,) known beforehand; ``owners`` (e,) are the terms of whose form they are errors,
-    -1 for those of none. The next columns are the residual and ``tangents`` of terms.
+    ``total`` (e + c, e + c) is their sum in double precision. The first e have a ``precision`` (e,) known beforehand;
+    ``owners`` (e,) are the terms of whose form they are errors, -1 for those of none. The next columns are the residual
+    and ``tangents`` of terms.
     """
 
-    grams: Array
+    grams: NDArray[np.floating]
+    total: Array
     base_moves: Array
     precision: Array
     owners: NDArray[np.intp]
     tangents: int
     _known: dict[frozenset[int], Beside] = field(default_factory=dict)
 
-    @cached_property
-    def _sum(self) -> Array:
-        return self.grams.sum(axis=0)
-
     def beside(self, gone: frozenset[int] = NONE) -> Beside:
         """The columns where some terms are ``gone``, and with them the errors of their forms."""
         if gone not in self._known:
-            first = self.precision.size
-            kept = np.flatnonzero(~np.isin(self.owners, list(gone)))
-            columns = np.concatenate([kept, np.arange(first, len(self._sum))])
-            total, moves, prior, occam = beside_base(
-                self._sum[np.ix_(columns, columns)][None], self.precision[kept], free=0
-            )
-            numbers = range(1, 1 + self.tangents)
-            prior[numbers, numbers] += REACH**-2.0
-            base = self.base_moves[:, first:] - self.base_moves[:, kept] @ moves
-            self._known[gone] = Beside(columns, moves, base, total[0], prior, occam)
+            self._known[gone] = self._without(gone)
         return self._known[gone]
+
+    def _without(self, gone: frozenset[int]) -> Beside:
+        first = self.precision.size
+        kept = np.flatnonzero(~np.isin(self.owners, list(gone)))
+        columns, precision = np.concatenate([kept, np.arange(first, len(self.total))]), self.precision[kept]
+        total = self.total[np.ix_(columns, columns)]
+        moves = in_front(total, precision)
+        gram = beside(total, moves)
+        squares = np.diag(gram).copy()
+        gram += moves.T @ (precision[:, None] * moves)
+        numbers = range(1, 1 + self.tangents)
+        gram[numbers, numbers] += REACH**-2.0
+        scale = np.sqrt(np.maximum(self.beside().squares if gone else squares, 1e-300))
+        gram /= np.outer(scale, scale)
+        base = self.base_moves[:, first:] - self.base_moves[:, kept] @ moves
+        nats = occam(total, precision, free=0)
+        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, nats)
 
     def groups(self, combined: Array, gone: frozenset[int] = NONE) -> Array:
         """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, where some terms are ``gone``."""
@@ -95,10 +111,14 @@ def front_of(
     first = free + known.size
     errors, precision, owners = form_errors(np.einsum("gii->i", grams), first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
-    left, moves, _, _ = beside_base(grams[:, order][:, :, order] if errors else grams, np.zeros(free), free)
-    # faults are of no term
-    owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)
-    return Front(left, moves, np.append(known, precision), owned, layout.tangents)
+    owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
+    at = np.ix_(order, order)
+    total = grams.sum(axis=0)[at]
+    moves = in_front(total, np.zeros(free))
+    left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
+    for number, gram in enumerate(grams):
+        left[number] = beside(gram[at], moves)
+    return Front(left, beside(total, moves), moves, np.append(known, precision), owned, layout.tangents)
 
 
 def form_errors(
@@ -125,36 +145,44 @@ def form_errors(
     return places, precision, owners
 
 
-def beside_base(grams: Array, precision: Array, free: int) -> tuple[Array, Array, Array, float]:
-    """Gram matrices (groups, c, c) of all columns behind the first ones, with these fitted to each on all runs.
+def in_front(total: Array, precision: Array) -> Array:
+    """The strengths (f, c) with which the first columns of a Gram matrix (f + c, f + c) take up each of the others.
 
-    ``precision`` (f,) is what is known of the strengths of the first columns beforehand, nothing of the ``free`` ones.
-    Also the strengths (f, c) of that fit, their prior (c, c), and the nats by which the marginal likelihood is below
-    that of the best strengths. The base itself is not left out with a group: where a run alone reaches a deflection,
-    its curve there is not to be foretold by others, and says nothing of the terms.
+    ``precision`` (f,) is what is known of them beforehand. They are fitted on all runs, and not left out with a group:
+    where a run alone reaches a deflection, the curve of the base there is not to be foretold by others, and says
+    nothing of the terms.
     """
-    first = precision.size
-    total = grams.sum(axis=0)
-    inner = total[:first, :first] + np.diag(precision)
-    scale = np.sqrt(np.maximum(np.diag(inner), 1e-300))
-    unit = inner / np.outer(scale, scale)
-    moves = np.linalg.pinv(unit, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None])
-    moves /= scale[:, None]
-    left = np.array([_beside(gram, moves) for gram in grams])
-    prior = moves[free:].T @ (precision[free:, None] * moves[free:])
-    outside = np.linalg.pinv(unit[:free, :free], rcond=1e-11, hermitian=True)
-    beside = unit[free:, free:] - unit[free:, :free] @ outside @ unit[:free, free:]
-    sizes = np.linalg.eigvalsh(
-        beside * np.outer(scale[free:], scale[free:]) / np.sqrt(np.outer(precision[free:], precision[free:]))
+    first, inner, scale = precision.size, *_scaled(total, precision)
+    return (
+        np.linalg.pinv(inner, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None]) / scale[:, None]
     )
-    return left, moves, prior, 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
 
 
-def _beside(gram: Array, moves: Array) -> Array:
+def occam(total: Array, precision: Array, free: int) -> float:
+    """The nats by which the marginal likelihood is below that of the best strengths of the first columns.
+
+    Nothing is known beforehand of the ``free`` ones among them.
+    """
+    inner, scale = _scaled(total, precision)
+    outside = np.linalg.pinv(inner[:free, :free], rcond=1e-11, hermitian=True)
+    beside = inner[free:, free:] - inner[free:, :free] @ outside @ inner[:free, free:]
+    deviations = scale[free:] / np.sqrt(precision[free:])
+    sizes = np.linalg.eigvalsh(beside * np.outer(deviations, deviations))
+    return 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
+
+
+def _scaled(total: Array, precision: Array) -> tuple[Array, Array]:
+    """The Gram matrix (f, f) of the first columns, with what is known of them, divided by their scale (f,)."""
+    inner = total[: precision.size, : precision.size] + np.diag(precision)
+    scale = np.sqrt(np.maximum(np.diag(inner), 1e-300))
+    return inner / np.outer(scale, scale), scale
+
+
+def beside(gram: Array, moves: Array) -> Array:
     """The Gram matrix (c, c) of columns after the first ones take up ``moves`` (f, c) of each."""
     first = len(moves)
     cross = gram[first:, :first] @ moves
-    left = gram[first:, first:] + moves.T @ gram[:first, :first] @ moves
+    left: Array = gram[first:, first:] + moves.T @ gram[:first, :first] @ moves
     left -= cross
     left -= cross.T
     return left

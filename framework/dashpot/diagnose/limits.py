@@ -36,7 +36,7 @@ def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | N
     """
     found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
     odds, first = Odds(look.layout.bank), look.layout.first_candidate
-    left = np.diag(look.front.beside().total)
+    left = look.front.beside().squares
     noise = np.sqrt(float(left[0]) / float(look.samples.sum()))
     for candidate in look.candidates:
         _, best = found.setdefault(candidate.name, (candidate, None))

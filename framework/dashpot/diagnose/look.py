@@ -16,7 +16,7 @@ from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.columns import Layout, Rows, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.front import RIDGE, Front, beside_base, front_of
+from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
@@ -95,11 +95,18 @@ def look_at(
     rows = Rows(columns, refitter.jobs)
     alone, rich = noise, 0.0
     if noise is None:
-        noise, alone, rich = learn_noise(rows, first, plain, refitter, _shown_at_rest(causes, view, runs, plain))
-    grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
+        lines = _shown_at_rest(causes, view, runs, plain)
+        left = {run.name: _beside_lines(columns.residual[run.name], lines[run.name]) for run in runs}
+        noise = searched_noise(left, plain, runs)
+        grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
+        alone, rich = recorded_noise(rows, grams.sum(axis=0), first, plain, runs, lines)
+    else:
+        grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
     del rows
     terms = 1 + layout.tangents
-    exact = beside_base(grams[:, : first + terms, : first + terms], precision, free)[0]
+    plainly = grams[:, : first + terms, : first + terms]
+    moves = in_front(plainly.sum(axis=0), precision)
+    exact = np.array([beside(gram, moves) for gram in plainly])
     front = front_of(grams, precision[free:], free, layout, model, candidates)
     return Look(
         model=model,
@@ -135,72 +142,80 @@ def _shown_at_rest(
 
 
 def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds, jobs: int) -> tuple[Array, Array, Array]:
-    """Gram matrices (folds, c, c) of whitened rows, the number (folds,) of their samples, the mean squares (c,) in N^2.
+    """Gram matrices (folds, c, c) of rows under white ``noise``, the number (folds,) of their samples, and the mean
+    squares (c,) of the rows in N^2.
 
     Samples that are not independent weigh less in both.
     """
 
-    def seen(run: str) -> tuple[Array, list[tuple[int, Array, float]]]:
+    def seen(run: str) -> list[tuple[int, Array, int]]:
         found = rows[run]
-        white, share = noise.filter(run, found), noise.independent.get(run, 1.0)
-        parts = folds.of_run(run, white.shape[1])
-        return np.mean(found**2, axis=1), [
-            (fold, share * (white[:, part] @ white[:, part].T), share * (part.stop - part.start))
-            for fold, part in parts
-        ]
+        parts = folds.of_run(run, found.shape[1])
+        return [(fold, found[:, part] @ found[:, part].T, part.stop - part.start) for fold, part in parts]
 
     size = len(next(iter(rows.values())))
     grams, samples, squares = np.zeros((len(folds.names), size, size)), np.zeros(len(folds.names)), np.zeros(size)
-    for mean, found in streamed(seen, rows, jobs):
-        squares += mean / len(rows)
-        for fold, gram, count in found:
+    for run, found in zip(rows, streamed(seen, rows, jobs), strict=True):
+        share, precision = noise.independent.get(run, 1.0), noise.filters[run][0] ** 2
+        count = sum(kept for _, _, kept in found)
+        for fold, gram, kept in found:
+            squares += np.diag(gram) / (count * len(rows))
+            samples[fold] += share * kept
+            gram *= share * precision
             grams[fold] += gram
-            samples[fold] += count
     return grams, samples, squares
 
 
-def learn_noise(
-    rows: Mapping[str, Array], first: int, plain: Noise, refitter: Refitter, lines: Mapping[str, Array]
-) -> tuple[Noise, Noise, float]:
-    """How far the model is from each run, the noise of the records alone, and its RMS in N.
+def _beside_lines(signal: Array, shapes: Array) -> Array:
+    """A signal (kept,) less the shapes (k, kept) in it."""
+    return signal - np.linalg.lstsq(shapes.T, signal, rcond=1e-9)[0] @ shapes
 
-    The first weighs runs and counts independent samples in the search: a model that errs repeats its error with every
-    cycle, and whitening that error would judge it by its fastest part. The second is an autoregressive model of what
-    all columns together leave. The residual is row ``first``; ``lines`` (k, kept) that a run may show at rest are
-    neither. What the columns take up of the noise itself is made up for by the degrees of freedom, where more than
+
+def _smallest(run: ScoredRun) -> float:
+    """The deviation in N below which nothing is believed."""
+    return RESOLUTION * max(float(np.std(run.force)), 1e-12)
+
+
+def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[ScoredRun]) -> Noise:
+    """How far a model with such residuals (kept,) in N is from each run, as white noise.
+
+    It weighs runs and counts independent samples in the search: a model that errs repeats its error with every cycle,
+    and whitening that error would judge it by its fastest part.
+    """
+    deviations = {run.name: max(float(np.sqrt(np.mean(residual[run.name] ** 2))), _smallest(run)) for run in runs}
+    shares = {run: independent_share(rest) for run, rest in residual.items()}
+    return replace(plain.with_white(deviations), independent=shares)
+
+
+def recorded_noise(
+    rows: Mapping[str, Array],
+    gram: Array,
+    first: int,
+    plain: Noise,
+    runs: Sequence[ScoredRun],
+    lines: Mapping[str, Array],
+) -> tuple[Noise, float]:
+    """The noise of the records alone, an autoregressive model of what all columns together leave, and its RMS in N.
+
+    The residual is row ``first``, ``gram`` (c, c) that of all runs; the ``lines`` (k, kept) that a run may show at rest
+    are no noise. What the columns take up of the noise itself is made up for by the degrees of freedom, where more than
     half of them are left.
     """
     from scipy.linalg import cho_factor, cho_solve
 
-    def weighed(run: str) -> tuple[Array, int]:
-        found = rows[run]
-        return (found @ found.T) / max(float(np.mean(found[first] ** 2)), 1e-300), found.shape[1]
-
-    size = len(next(iter(rows.values())))
-    gram, count = np.zeros((size, size)), 0
-    for found, samples in streamed(weighed, rows, refitter.jobs):
-        gram += found
-        count += samples
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     matrix, others = gram / np.outer(scale, scale), np.arange(len(scale)) != first
-    steadied = matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1)
-    factor = cho_factor(steadied)
+    factor = cho_factor(matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1))
     strengths = np.zeros(len(scale))
     strengths[others] = cho_solve(factor, matrix[others, first])
     strengths *= scale[first] / scale
-    used = len(steadied) - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(steadied)))))
-    left = 1.0 - used / count
-    deviations, shares, filters, squares = {}, {}, {}, []
-    for run in refitter.runs:
+    used = len(scale) - 1 - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(scale) - 1))))
+    rests, residuals = {}, {}
+    for run in runs:
         found = rows[run.name]
-        rest, shapes = found[first] - strengths @ found, lines[run.name]
-        line = np.linalg.lstsq(shapes.T, rest, rcond=1e-9)[0] @ shapes
-        residual, rest = found[first] - line, rest - line
-        smallest = RESOLUTION * max(float(np.std(run.force)), 1e-12)
-        deviations[run.name] = max(float(np.sqrt(np.mean(residual**2))), smallest)
-        shares[run.name] = independent_share(residual)
-        freed = rest / np.sqrt(left) if left > LEFT else residual
-        filters[run.name] = learn_filter(freed, smallest)
-        squares.append(float(np.mean(freed**2)))
-    noise = replace(plain.with_white(deviations), independent=shares)
-    return noise, replace(plain, filters=filters), float(np.sqrt(np.mean(squares)))
+        rests[run.name], residuals[run.name] = found[first] - strengths @ found, found[first].copy()
+    left = 1.0 - used / sum(rest.size for rest in rests.values())
+    freed = {run: rest / np.sqrt(left) for run, rest in rests.items()} if left > LEFT else residuals
+    noise = {run.name: _beside_lines(freed[run.name], lines[run.name]) for run in runs}
+    filters = {run.name: learn_filter(noise[run.name], _smallest(run)) for run in runs}
+    return replace(plain, filters=filters), float(np.sqrt(np.mean([np.mean(rest**2) for rest in noise.values()])))

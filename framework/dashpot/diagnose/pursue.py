@@ -34,7 +34,7 @@ DRAWS = 200
 
 @dataclass(eq=False)
 class Pursuer:
-    """What the steps of a pursuit share."""
+    """What the steps of a pursuit share; ``looked`` is the first look where there is one, let go when it is used."""
 
     refitter: Refitter
     causes: Sequence[type[Cause]]
@@ -43,11 +43,13 @@ class Pursuer:
     seed: int
     watch: Callable[[int, int], None] = lambda looks, terms: None
     doubted: Sequence[Doubt] = ()
+    looked: Look | None = None
     refused: list[tuple[Term, str]] = field(default_factory=list)
 
-    def run(self, model: Model, look: Look | None = None) -> Pursuit:
+    def run(self, model: Model) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
-        first, look, ended, looks = model, look or self.look(model), False, 0
+        first, look, ended, looks = model, self.looked or self.look(model), False, 0
+        self.looked = None
         seen: set[frozenset[object]] = set()
         while True:
             look, looks, ended, others = self.climbed(look, looks)
@@ -57,6 +59,7 @@ class Pursuer:
                 look, others = self.look(present.model), []
             scores = Scores(look)
             rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
+            del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
             onward = self._next_look(fresh, present) if ended else None
@@ -76,6 +79,7 @@ class Pursuer:
             scores = Scores(look)
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
+            del scores  # a look is large
             onward = self._next_look(trials, present)
             if onward is None:
                 return look, looks, True, trials

@@ -70,12 +70,11 @@ class Scores:
 
     look: Look
     odds: Odds = field(init=False)
-    grams: dict[frozenset[int], Array] = field(default_factory=dict)
     known: dict[Structure, tuple[Array, float] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.odds = Odds(self.look.layout.bank)
-        self.scale = np.sqrt(np.maximum(np.diag(self.look.front.beside().total), 1e-300))
+        self.scale = self.look.front.beside().scale
         self.kinds = [term.cause.kind for term in self.look.model.terms]
 
     def gram(self, gone: frozenset[int] = NONE) -> Array:
@@ -83,17 +82,14 @@ class Scores:
 
         With what is known of the strengths beforehand.
         """
-        if gone not in self.grams:
-            found = self.look.front.beside(gone)
-            self.grams[gone] = (found.total + found.prior) / np.outer(self.scale, self.scale)
-        return self.grams[gone]
+        return self.look.front.beside(gone).gram
 
     def columns(self, structure: Structure) -> NDArray[np.intp]:
         """The columns that a structure fits: the tangents of the terms that stay, then what joins."""
         paths = self.look.model.coordinates.paths
         gone = {path for number in structure.dropped for path in self.look.model.owned[number]}
         kept = [1 + k for k, at in enumerate(self.look.own) if paths[at] not in gone]
-        alive = [at for at in kept if self.look.front.beside().total[at, at] > 0.0]
+        alive = [at for at in kept if self.look.front.beside().squares[at] > 0.0]
         return np.array([*alive, *self.atoms(structure)], dtype=np.intp)
 
     def atoms(self, structure: Structure) -> list[int]:
@@ -158,8 +154,7 @@ class Scores:
         rest = target.copy()
         rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
         rest *= self.scale[0] / self.scale
-        unlikely = 0.5 * float(rest @ front.beside(gone).prior @ rest) + front.beside(gone).occam
-        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), unlikely
+        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
     def exact_nats(self) -> Array:
         """The nats (groups,) of the present structure with the laws as they are, no errors of forms allowed for."""

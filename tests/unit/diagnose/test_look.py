@@ -6,7 +6,7 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
-from dashpot.diagnose.front import Front, beside_base
+from dashpot.diagnose.front import Front, beside, in_front, occam
 from dashpot.diagnose.look import look_at
 
 
@@ -64,7 +64,7 @@ def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, column
     base = np.concatenate([tangents for tangents, _ in columns.values()], axis=1)
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
-    scale = np.sqrt(np.diag(look.front.beside().total))
+    scale = np.sqrt(look.front.beside().squares)
     left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
     seen = set()
     for run, rows in left.items():
@@ -126,13 +126,14 @@ def block():
 def test_projection_is_the_schur_complement(block):
     rows, _ = block
     grams = np.array([each @ each.T for each in rows])
-    left, moves, prior, occam = beside_base(grams, np.zeros(5), 5)
     total = grams.sum(axis=0)
+    moves = in_front(total, np.zeros(5))
     expected = total[5:, 5:] - total[5:, :5] @ np.linalg.solve(total[:5, :5], total[:5, 5:])
-    assert left.sum(axis=0) == pytest.approx(expected)
+    assert beside(total, moves) == pytest.approx(expected)
+    assert sum(beside(gram, moves) for gram in grams) == pytest.approx(expected)
     whole = np.concatenate(rows, axis=1)
     assert moves == pytest.approx(np.linalg.lstsq(whole[:5].T, whole[5:].T, rcond=None)[0])
-    assert not prior.any() and occam == 0.0
+    assert occam(total, np.zeros(5), 5) == 0.0
 
 
 def test_errors_of_forms_are_marginalised(block):
@@ -140,12 +141,14 @@ def test_errors_of_forms_are_marginalised(block):
     rows, precision = block
     whole = np.concatenate(rows, axis=1)
     free, forms, target = whole[:2], whole[2:5], whole[5:]
-    left, _, prior, occam = beside_base(np.array([each @ each.T for each in rows]), precision, 2)
+    total = whole @ whole.T
+    moves = in_front(total, precision)
+    prior = moves.T @ (precision[:, None] * moves)
     outside = np.eye(whole.shape[1]) - free.T @ np.linalg.solve(free @ free.T, free)
     target, forms = target @ outside, forms @ outside
     covariance = np.eye(whole.shape[1]) + forms.T @ (forms / precision[2:, None])
-    assert left.sum(axis=0) + prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
-    assert occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
+    assert beside(total, moves) + prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
+    assert occam(total, precision, 2) == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
 
 
 @pytest.mark.parametrize(("gone", "kept"), [((), [0, 1, 2]), ((0,), [1]), ((1,), [0, 2]), ((0, 1), [])])
@@ -154,13 +157,19 @@ def test_errors_of_a_form_go_with_its_term(block, gone, kept):
     whole = np.concatenate(rows, axis=1)
     forms, target, known = whole[2:5][kept], whole[5:], precision[2:][kept]
     grams = np.array([each[2:] @ each[2:].T for each in rows])
-    front = Front(grams, np.zeros((0, 7)), precision[2:], np.array([0, 1, 0]), 0)
+    front = Front(grams, grams.sum(axis=0), np.zeros((0, 7)), precision[2:], np.array([0, 1, 0]), 0)
     found = front.beside(frozenset(gone))
     covariance = np.eye(whole.shape[1]) + forms.T @ (forms / known[:, None])
     mixed = np.arange(8.0).reshape(4, 2) % 3.0 - 1.0
-    assert front.groups(np.eye(4), frozenset(gone)).sum(axis=0) == pytest.approx(found.total)
-    assert front.groups(mixed, frozenset(gone)).sum(axis=0) == pytest.approx(mixed.T @ found.total @ mixed)
-    assert found.total + found.prior == pytest.approx(target @ np.linalg.solve(covariance, target.T))
+    strengths = np.linalg.solve(forms @ forms.T + np.diag(known), forms @ target.T)
+    left = target - strengths.T @ forms
+    assert found.squares == pytest.approx(np.sum(left**2, axis=1))
+    assert front.groups(np.eye(4), frozenset(gone)).sum(axis=0) == pytest.approx(left @ left.T)
+    assert front.groups(mixed, frozenset(gone)).sum(axis=0) == pytest.approx(mixed.T @ left @ left.T @ mixed)
+    gram = found.gram * np.outer(found.scale, found.scale)
+    assert gram == pytest.approx(target @ np.linalg.solve(covariance, target.T))
+    some = np.array([1.0, -2.0, 0.0, 3.0])
+    assert found.unlikely(some) == pytest.approx(0.5 * known @ (strengths @ some) ** 2 + found.occam)
     assert found.occam == pytest.approx(0.5 * np.linalg.slogdet(covariance)[1])
 
 
