@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -89,13 +89,21 @@ class Population:
         }
 
 
-def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec) -> Population:
-    """The population of numbers over a campaign's batches; specimens that are unlike it count in nothing else."""
-    judged = unlike(numbers)
+def population_of(
+    numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec, apart: Collection[str] = ()
+) -> Population:
+    """The population of numbers over a campaign's batches.
+
+    Specimens that are unlike it count in nothing else, nor do those that are ``apart`` for another reason, as long as
+    enough others are left.
+    """
+    left = len(numbers.specimens) - len(set(apart).intersection(numbers.specimens))
+    apart = apart if left >= FEWEST + len(numbers.effects) else ()
+    judged = unlike(numbers, apart)
     if not judged.tested:
         found = f"{len(numbers.specimens)} specimens are too few to hold each against the others"
         remarks = [*remarks, f"{found}: {judged.needed} are needed"]
-    sound = judged.outside < NAMED
+    sound = (judged.outside < NAMED) & np.array([name not in apart for name in numbers.specimens])
     groups = np.zeros(len(sound), dtype=np.int64)
     groups[sound] = groups_alike(judged.population.deviations[sound], judged.population.between, campaign.seed)
     batch_of = {one.name: one.properties.get(campaign.batch) for one in campaign.specimens}

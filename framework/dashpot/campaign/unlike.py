@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,26 +53,26 @@ class Unlike:
         return self.probability.sum(axis=1)
 
 
-def unlike(numbers: Numbers) -> Unlike:
+def unlike(numbers: Numbers, apart: Container[str] = ()) -> Unlike:
     """Fit the population and judge every specimen by the others, until both agree.
 
     A specimen that belongs to it is predicted by the others with a multivariate t distribution; one that does not
     scatters ``FAR`` times as far in one number or in all, or has every number times a power of one factor, as where the
-    gain of a sensor is wrong. Specimens count as far as they belong. With fewer than ``FEWEST`` none is doubted.
+    gain of a sensor is wrong. Specimens count as far as they belong, those that are known to be ``apart`` not at all.
+    With fewer than ``FEWEST`` none is doubted.
 
     Sources: Aitkin and Wilson, Technometrics 22 (1980) 325, for the mixture; Box and Tiao, Biometrika 55 (1968) 119.
     """
-    weights = _screened(numbers)
+    counting = np.array([float(name not in apart) for name in numbers.specimens])
     few = len(numbers.specimens) < needed(numbers)
-    if few:
-        weights = np.ones(len(weights))
+    weights = counting * (1.0 if few else _screened(numbers))
     for _ in range(1 if few else MOST_ROUNDS):
         population = fit_mixed(numbers.at, numbers.errors, numbers.design, np.maximum(weights, 1e-6))
         found = _judged(numbers, population, weights)
-        settled = np.abs(1.0 - found.outside - weights).max() < SETTLED
-        if settled or few:
+        belonging = counting * np.clip(1.0 - found.outside, 0.0, 1.0)
+        if few or np.abs(belonging - weights).max() < SETTLED:
             break
-        weights = np.clip(1.0 - found.outside, 0.0, 1.0)
+        weights = belonging
     return replace(found, probability=np.zeros_like(found.probability)) if few else found
 
 

@@ -100,6 +100,14 @@ def test_means_batches_and_groups(content):
     assert max(population["groups"]) == 1
 
 
+def test_outliers_count_in_no_batch_and_no_group(content):
+    # b03, b12, b17 by their parameters, b22 by the error of the model
+    [population] = content["populations"]
+    assert {tuple(batch["count"] for batch in chart["batches"]) for chart in population["charts"]} == {(4, 5, 4, 4, 3)}
+    groups = dict(zip(population["specimens"], population["groups"], strict=True))
+    assert {name for name, group in groups.items() if group == 0} == {*DAMAGED, LOOSE, WRONG_GAIN}
+
+
 @pytest.mark.slow
 def test_over_seeds_faults_are_found_and_intervals_hold(tmp_path):
     base = seed_of("populations of bushings")
@@ -113,7 +121,7 @@ def test_over_seeds_faults_are_found_and_intervals_hold(tmp_path):
     # of intervals that hold the truth in 95 % of cases, so few hold it once in a thousand tests at most
     for hits, count in ((trend, 30), (scatter, 30), (trend + scatter, 60)):
         assert binom.cdf(hits, count, 0.95) > 1e-3, (trend, scatter)
-    # the scatter of 34 degrees of freedom is known to 12 %
+    # the scatter of 34 degrees of freedom is known to 12 %: four standard deviations
     for content, seed in zip(found, range(base, base + 10), strict=True):
         assert widths_of_trend(content) == pytest.approx(widths_by_hand(draw_population(seed, 40)), rel=0.5)
 

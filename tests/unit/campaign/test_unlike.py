@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from seeds import seed_of
@@ -55,6 +57,21 @@ def test_outliers_do_not_hide_each_other_nor_widen_the_population():
     found = unlike(numbers)
     assert list(np.flatnonzero(found.outside >= NAMED)) == [3, 8, 9, 30]
     assert np.sqrt(found.population.between[1, 1]) == pytest.approx(SIZES[1], rel=0.35)
+
+
+def test_who_is_apart_for_another_reason_does_not_count():
+    numbers = population(6, 30)
+    rest = population(6, 30)
+    kept = np.arange(30) != 4
+    rest = replace(
+        rest,
+        specimens=tuple(name for name in rest.specimens if name != "s4"),
+        **{key: getattr(rest, key)[kept] for key in ("at", "errors", "design")},
+    )
+    numbers.at[4] += 0.08
+    found, alone = unlike(numbers, {"s4"}).population, unlike(rest).population
+    assert found.means == pytest.approx(alone.means, rel=1e-5)
+    assert found.between == pytest.approx(alone.between, rel=1e-3, abs=1e-8)
 
 
 def test_few_specimens_are_not_doubted():
