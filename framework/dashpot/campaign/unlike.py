@@ -76,9 +76,24 @@ def unlike(numbers: Numbers, apart: Container[str] = ()) -> Unlike:
     return replace(found, probability=np.zeros_like(found.probability)) if few else found
 
 
+def detectable(found: Unlike, probability: float) -> float:
+    """How many standard deviations a number alone must be off, so that a specimen is outside with a ``probability``.
+
+    That of a number that is correlated with no other, and of a specimen that the others predict without error; infinite
+    where they are too few for that. Few others know their own scatter badly, so that it takes more.
+    """
+    numbers = found.shifts.shape[1]
+    freedom = _freedom(found.population.freedom - 1.0, numbers)
+    wider = 1.0 + FAR**2
+    odds = probability / (1.0 - probability) * (1.0 - PRIOR) / (PRIOR / len(found.ways))
+    # (1 + u) / (1 + u / wider) to the power of (freedom + numbers) / 2 is the ratio of the two densities
+    ratio = (odds * np.sqrt(wider)) ** (2.0 / (freedom + numbers))
+    return float(np.sqrt(freedom * (ratio - 1.0) / (1.0 - ratio / wider))) if ratio < wider else float("inf")
+
+
 def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     ways, spreads = _ways(numbers, population)
-    freedom = max(float(weights.sum()) - numbers.design.shape[1] - len(numbers.paths), 2.0)
+    freedom = _freedom(float(weights.sum()) - numbers.design.shape[1], len(numbers.paths))
     total = np.einsum("n,njk->jk", weights, population.moments)
     odds = np.empty((len(weights), 1 + len(ways)))
     distances, shifts = np.empty_like(numbers.at), np.empty_like(numbers.at)
@@ -92,6 +107,11 @@ def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     shares = np.exp(odds - odds.max(axis=1, keepdims=True))
     shares /= shares.sum(axis=1, keepdims=True)
     return Unlike(population, ways, shares[:, 1:], distances, shifts, needed(numbers))
+
+
+def _freedom(others: float, numbers: int) -> float:
+    """The degrees of freedom of a prediction of so many numbers."""
+    return max(others - numbers, 2.0)
 
 
 def needed(numbers: Numbers) -> int:
