@@ -2,7 +2,7 @@
 
 The parameters of virtual bushings with known truth, and errors of the size that their fits have, are drawn instead of
 fitted, so that many campaigns can be judged: outliers among sound specimens, how many specimens it takes until one with
-a fault is named, and how often the 95 % intervals of trend and scatter hold the truth.
+a fault is named, how often the 95 % intervals of trend and scatter hold the truth, and whether two groups are found.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from unit.campaign.bushings import FAULTS, PATHS, SCATTER, TREND, Fault, draw_population
 
+from dashpot.campaign.alike import groups_alike
 from dashpot.campaign.named import NAMED
 from dashpot.campaign.numbers import Numbers
 from dashpot.campaign.unlike import Unlike, unlike
@@ -25,6 +26,7 @@ ERRORS = np.array([0.0008, 0.002, 0.005])  # standard errors of the logarithms i
 UNITS = ("N/m", "N/m", "s")
 SOUND = 100  # specimens of a sound campaign
 COUNTS = (10, 12, 16, 20, 30, 40)
+FACTORS = (1.15, 1.3, 1.6)
 WRONG = {
     "stiffness less by 35 %": Fault(factors=(0.65, 1.0, 1.0)),
     "stiffness less by 20 %": Fault(factors=(0.8, 1.0, 1.0)),
@@ -74,6 +76,23 @@ def covered(campaigns: int, count: int) -> None:
     print(f"{campaigns} campaigns of {count} specimens: intervals hold the trend in {trend}, the scatter in {scatter}")
 
 
+def grouped(campaigns: int, count: int) -> None:
+    """Print how often specimens are one group, and two, where every second one has other stiffnesses."""
+    for factor in (1.0, *FACTORS):
+        other = Fault(factors=(factor, 1.0 / factor, 1.0))
+        found = [groups_of(drawn(seed, count, {k: other for k in range(0, count, 2)})) for seed in range(campaigns)]
+        one = sum(len(set(each)) == 1 for each in found)
+        two = sum(len(set(each[::2])) == len(set(each[1::2])) == 1 for each in found) - one
+        print(f"{count} specimens, every second one by {factor:g}: one group {one}, these two {two} of {campaigns}")
+
+
+def groups_of(numbers: Numbers) -> list[int]:
+    """The group of each specimen, without any that is named."""
+    judged = unlike(numbers)
+    sound = judged.outside < NAMED
+    return groups_alike(judged.population.deviations[sound], judged.population.between, 0).tolist()
+
+
 def main() -> None:
     """Draw, judge and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -82,6 +101,7 @@ def main() -> None:
     covered(options.campaigns, 40)
     sound(options.campaigns)
     wrong(options.campaigns)
+    grouped(options.campaigns, 40)
 
 
 if __name__ == "__main__":
