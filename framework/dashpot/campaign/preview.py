@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from dashpot.campaign.declaration import CampaignSpec, Job
-from dashpot.campaign.job import Outcome, Work, run_job
+from dashpot.campaign.job import Outcome, Work, Write, run_job
 from dashpot.kernel.workers import pieces, threads
 
 if TYPE_CHECKING:
@@ -31,12 +31,13 @@ class Cost:
     failed: str = ""
 
 
-def preview_campaign(campaign: CampaignSpec, jobs: Jobs = 1) -> list[Cost]:
-    """Do the first job of each verb and model; nothing is kept."""
+def preview_campaign(campaign: CampaignSpec, jobs: Jobs = 1, write: Write | None = None) -> list[Cost]:
+    """Do the first job of each verb and model, with its report where ``write`` is given; nothing is kept."""
     kinds: dict[tuple[str, tuple[str, ...]], list[Job]] = {}
     for job in campaign.jobs:
         kinds.setdefault((job.verb, job.models), []).append(job)
-    work = Work({model.name: model for model in campaign.models}, campaign.seed, threads(jobs))
+    models = {model.name: model for model in campaign.models}
+    work = Work(models, campaign.seed, threads(jobs), write if campaign.reports else None)
     first = [alike[0] for alike in kinds.values()]
     return [
         Cost(job, len(alike), seconds, memory, len(json.dumps(outcome)), outcome.get("failed", ""))

@@ -131,6 +131,13 @@ def test_a_preview_does_one_job_of_each_kind(campaign):
     assert all(cost.result < 20_000 and not cost.failed for cost in costs)
 
 
+def test_a_preview_counts_the_reports_that_will_be_written(campaign):
+    written = []
+    preview_campaign(campaign, write=lambda found, job, registry: written.append(job))
+    preview_campaign(replace(campaign, reports=False), write=lambda *_: pytest.fail("no report is asked for"))
+    assert set(written) == {"b00-fit-solid"}
+
+
 @pytest.mark.parametrize(("spent", "told"), [([4.0, 0.25], 0.25), ([90.0], 90.0)])
 def test_what_a_process_does_once_is_no_cost_of_each_job(monkeypatch, spent, told):
     # clock readings before and after each job; a long one is not done twice
