@@ -1,11 +1,11 @@
 """What the jobs of a campaign cost: ``python tests/benchmarks/campaign.py``.
 
-Virtual bushings are fitted, and diagnosed, with one and two local workers in turn. Where other programs are at work the
-clock tells little, and processor time tells more: t1 and t2 of a job with one worker and with two, which differ where
-workers are in each other's way; o of all that client, scheduler and worker do for a job that does nothing; and the
-share b of a processor that a worker with its part of client and scheduler takes all the time. The efficiency of two
-workers from these is t1 / (t2 (1 + b) + o). It is a lower bound for processors of one's own: a worker is taken to wait
-for all of o, though most of it is done while others work.
+Virtual bushings are fitted, and diagnosed, with one and two local workers in turn: see the load that is printed. Where
+other programs are at work the clock tells little, and processor time tells more: t1 and t2 of a job with one worker and
+with two, which differ where workers are in each other's way; o of all that client, scheduler and worker do for a job
+that does nothing; and the share b of a processor that a worker with its part of client and scheduler takes all the
+time. The efficiency of two workers from these is t1 / (t2 (1 + b) + o). It is a lower bound for processors of one's
+own: a worker is taken to wait for all of o, though most of it is done while others work.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def report(verb: str, count: int, turns: Sequence[Turn], nothing: float, share: 
     print(
         f"{count} x {verb}: a job {1e3 * alone:.0f} ms of processor time, beside another one {1e3 * side:.0f} ms, "
         f"with all around it {1e3 * whole:.0f} ms: efficiency of 2 workers {alone / whole:.3f}; "
-        f"by the clock, of a machine that others use, {', '.join(f'{each:.2f}' for each in by_clock)}; a worker has "
+        f"by the clock {', '.join(f'{each:.2f}' for each in by_clock)}; a worker has "
         f"{max(each.memory for each in turns) / 1e6:.0f} MB at most, a result {max(each.result for each in turns)} B"
     )
     for planned, jobs in PLANS:

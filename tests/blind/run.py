@@ -180,8 +180,14 @@ def workers(options: argparse.Namespace) -> Iterator[Jobs]:
         yield options.jobs
         return
     with scheduled(options.scheduler) as client:
-        client.run(sys.path.insert, 0, str(Path(__file__).parent))
+        for everywhere in (client.run, client.run_on_scheduler):
+            everywhere(find, str(Path(__file__).parent))
         yield client
+
+
+def find(folder: str) -> None:
+    """Let this process find the modules of a folder. By name, as a list that is sent elsewhere is a copy."""
+    sys.path.insert(0, folder)
 
 
 def case_of(shared: tuple[argparse.Namespace, Bench, int], number: int) -> Outcome:

@@ -105,7 +105,7 @@ def test_all_workers_died(folder):
 @pytest.mark.slow
 def test_an_interrupted_campaign_says_so(folder):
     code, said = interfered(folder, "plain.yaml", "stopped", "local:2", 1, lambda pid: os.kill(pid, signal.SIGINT))
-    assert code == 3 and "interrupted; what was done is kept" in said
+    assert code == 3 and "interrupted; the same command goes on" in said
     code, said = finished(folder, "plain.yaml", "-o", "stopped", "--jobs", "1")
     assert code == 0, said
     assert_alike(folder / "stopped", folder / "plain")

@@ -61,7 +61,8 @@ def file_system(address: str) -> tuple[Any, str]:
 
 
 def _unreachable(address: str, error: Exception) -> InputError:
-    told = " ".join(str(error).split()) or type(error).__name__
+    missing = isinstance(error, FileNotFoundError)
+    told = "nothing is there" if missing else " ".join(str(error).split()) or type(error).__name__
     return InputError.at(Place(address), f"the data cannot be fetched: {told}", "check the address and your rights")
 
 

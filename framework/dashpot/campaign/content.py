@@ -24,8 +24,15 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
     campaign = result.campaign
     fits = {model.name: models_of(result.outcomes, model.name) for model in campaign.models}
     numbers = {model: numbers_of(found) for model, found in fits.items() if len(found) >= FEWEST}
-    told = {model: population_of(*depending(each, campaign), campaign) for model, each in numbers.items() if each.paths}
     causes = causes_found(result.outcomes)
+    misfits = [*_badly_described(fits), *named_by_causes(causes)]
+    told = {
+        model: population_of(
+            *depending(each, campaign), campaign, {one.specimen for one in misfits if one.model == model}
+        )
+        for model, each in numbers.items()
+        if each.paths
+    }
     return {
         "format": "dashpot-campaign-result/1",
         "version": dashpot.__version__,
@@ -39,7 +46,7 @@ def campaign_content(result: CampaignResult) -> dict[str, Any]:
             {"model": model, **each.as_dict(), "shared": _shared(model, result.shared.get(model), result.outcomes)}
             for model, each in told.items()
         ],
-        "named": [vars(one) for one in _named(result, fits, told, causes)],
+        "named": [vars(one) for one in _named(result, told, misfits)],
         "causes": causes,
         "failures": [{"job": job.name, "specimen": job.specimen, "reason": reason} for job, reason in _failed(result)],
     }
@@ -81,24 +88,21 @@ def _fit(specimen: str, fit: Outcome, population: Population | None) -> dict[str
     return {"numbers": numbers, **{key: fit[key] for key in ("rmse", "noise_floor", "ending")}, **place}
 
 
-def _named(
-    result: CampaignResult,
-    fits: Mapping[str, Mapping[str, Outcome]],
-    told: Mapping[str, Population],
-    causes: Sequence[Mapping[str, Any]],
-) -> Sequence[Named]:
-    """The surest first; a specimen may be named for several reasons."""
-    found = [one for model, each in told.items() for one in named_by_numbers(model, each.numbers, each.judged)]
+def _badly_described(fits: Mapping[str, Mapping[str, Outcome]]) -> Iterator[Named]:
     for model, some in fits.items():
         if len(some) >= FEWEST:
             errors = errors_of_model(some)
-            found += named_by_error(model, errors, unlike(errors))
-    found += named_by_causes(causes)
+            yield from named_by_error(model, errors, unlike(errors))
+
+
+def _named(result: CampaignResult, told: Mapping[str, Population], misfits: Sequence[Named]) -> Sequence[Named]:
+    """The surest first; a specimen may be named for several reasons."""
+    found = [one for model, each in told.items() for one in named_by_numbers(model, each.numbers, each.judged)]
     remarks: dict[str, list[str]] = {}
     for job, outcome in result.outcomes.items():
         remarks.setdefault(job.specimen, []).extend(outcome["remarks"])
-    found += named_by_faults(remarks, [(job.specimen, outcome) for job, outcome in result.outcomes.items()])
-    return sorted(found, key=lambda one: -one.probability)
+    faults = named_by_faults(remarks, [(job.specimen, outcome) for job, outcome in result.outcomes.items()])
+    return sorted([*found, *misfits, *faults], key=lambda one: -one.probability)
 
 
 def _shared(model: str, shared: Shared | None, outcomes: Mapping[Job, Outcome]) -> dict[str, Any] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,7 +14,7 @@ from dashpot.campaign.charts import control_charts
 from dashpot.campaign.declaration import CampaignSpec
 from dashpot.campaign.named import NAMED
 from dashpot.campaign.numbers import Numbers
-from dashpot.campaign.unlike import Unlike, unlike
+from dashpot.campaign.unlike import Unlike, detectable, unlike
 
 FEWEST = 3  # specimens that make a population
 
@@ -52,12 +52,17 @@ class Population:
                 self._effect(k, row) for row in range(len(numbers.effects)) for k in range(len(numbers.paths))
             ],
             "tested": self.judged.tested,
+            "detectable": self._detectable(),
             "ways": list(self.judged.ways),
             "probability": self.judged.probability.tolist(),
             "groups": self.groups.tolist(),
             "charts": list(self.charts),
             "remarks": list(self.remarks),
         }
+
+    def _detectable(self) -> float | None:
+        found = detectable(self.judged, NAMED) if self.judged.tested else np.inf
+        return found if np.isfinite(found) else None
 
     def _number(self, which: int) -> dict[str, Any]:
         mixed, numbers = self.judged.population, self.numbers
@@ -89,13 +94,23 @@ class Population:
         }
 
 
-def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec) -> Population:
-    """The population of numbers over a campaign's batches; specimens that are unlike it count in nothing else."""
-    judged = unlike(numbers)
+def population_of(
+    numbers: Numbers, remarks: Sequence[str], campaign: CampaignSpec, apart: Collection[str] = ()
+) -> Population:
+    """The population of numbers over a campaign's batches.
+
+    Specimens that are unlike it count in nothing else, nor do those that are ``apart`` for another reason, as long as
+    enough others are left.
+    """
+    left = len(numbers.specimens) - len(set(apart).intersection(numbers.specimens))
+    apart = apart if left >= FEWEST + len(numbers.effects) else ()
+    judged = unlike(numbers, apart)
     if not judged.tested:
         found = f"{len(numbers.specimens)} specimens are too few to hold each against the others"
         remarks = [*remarks, f"{found}: {judged.needed} are needed"]
-    sound = judged.outside < NAMED
+    else:
+        remarks = [*remarks, _least(detectable(judged, NAMED))]
+    sound = (judged.outside < NAMED) & np.array([name not in apart for name in numbers.specimens])
     groups = np.zeros(len(sound), dtype=np.int64)
     groups[sound] = groups_alike(judged.population.deviations[sound], judged.population.between, campaign.seed)
     batch_of = {one.name: one.properties.get(campaign.batch) for one in campaign.specimens}
@@ -105,3 +120,10 @@ def population_of(numbers: Numbers, remarks: Sequence[str], campaign: CampaignSp
     ]
     charts = control_charts(numbers, judged.population.means, batches, sound)
     return Population(numbers, judged, groups, charts, remarks)
+
+
+def _least(deviations: float) -> str:
+    """From where on one parameter makes an outlier."""
+    if not np.isfinite(deviations):
+        return "The specimens are too few to name one for a single parameter"
+    return f"A specimen is an outlier where one parameter is about {deviations:.2g} standard deviations off, or more"

@@ -75,7 +75,11 @@ def with_properties(found: tuple[Measured, ...], table: Path) -> tuple[Measured,
     known = {row.name: row.properties for row in specimens_of_table(table, data_needed=False)}
     missing = [one.name for one in found if one.name not in known]
     if missing:
-        raise InputError.at(Place(str(table)), f"expected a row for every specimen, got none for '{missing[0]}'")
+        raise InputError.at(
+            Place(str(table)),
+            f"expected a row for every specimen, got none for '{missing[0]}'",
+            "a specimen is called after what the * of the pattern stands for",
+        )
     return tuple(replace(one, properties=known[one.name]) for one in found)
 
 

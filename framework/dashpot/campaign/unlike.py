@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -53,32 +53,47 @@ class Unlike:
         return self.probability.sum(axis=1)
 
 
-def unlike(numbers: Numbers) -> Unlike:
+def unlike(numbers: Numbers, apart: Container[str] = ()) -> Unlike:
     """Fit the population and judge every specimen by the others, until both agree.
 
     A specimen that belongs to it is predicted by the others with a multivariate t distribution; one that does not
     scatters ``FAR`` times as far in one number or in all, or has every number times a power of one factor, as where the
-    gain of a sensor is wrong. Specimens count as far as they belong. With fewer than ``FEWEST`` none is doubted.
+    gain of a sensor is wrong. Specimens count as far as they belong, those that are known to be ``apart`` not at all.
+    With fewer than ``FEWEST`` none is doubted.
 
     Sources: Aitkin and Wilson, Technometrics 22 (1980) 325, for the mixture; Box and Tiao, Biometrika 55 (1968) 119.
     """
-    weights = _screened(numbers)
+    counting = np.array([float(name not in apart) for name in numbers.specimens])
     few = len(numbers.specimens) < needed(numbers)
-    if few:
-        weights = np.ones(len(weights))
+    weights = counting * (1.0 if few else _screened(numbers))
     for _ in range(1 if few else MOST_ROUNDS):
         population = fit_mixed(numbers.at, numbers.errors, numbers.design, np.maximum(weights, 1e-6))
         found = _judged(numbers, population, weights)
-        settled = np.abs(1.0 - found.outside - weights).max() < SETTLED
-        if settled or few:
+        belonging = counting * np.clip(1.0 - found.outside, 0.0, 1.0)
+        if few or np.abs(belonging - weights).max() < SETTLED:
             break
-        weights = np.clip(1.0 - found.outside, 0.0, 1.0)
+        weights = belonging
     return replace(found, probability=np.zeros_like(found.probability)) if few else found
+
+
+def detectable(found: Unlike, probability: float) -> float:
+    """How many standard deviations a number alone must be off, so that a specimen is outside with a ``probability``.
+
+    That of a number that is correlated with no other, and of a specimen that the others predict without error; infinite
+    where they are too few for that. Few others know their own scatter badly, so that it takes more.
+    """
+    numbers = found.shifts.shape[1]
+    freedom = _freedom(found.population.freedom - 1.0, numbers)
+    wider = 1.0 + FAR**2
+    odds = probability / (1.0 - probability) * (1.0 - PRIOR) / (PRIOR / len(found.ways))
+    # (1 + u) / (1 + u / wider) to the power of (freedom + numbers) / 2 is the ratio of the two densities
+    ratio = (odds * np.sqrt(wider)) ** (2.0 / (freedom + numbers))
+    return float(np.sqrt(freedom * (ratio - 1.0) / (1.0 - ratio / wider))) if ratio < wider else float("inf")
 
 
 def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     ways, spreads = _ways(numbers, population)
-    freedom = max(float(weights.sum()) - numbers.design.shape[1] - len(numbers.paths), 2.0)
+    freedom = _freedom(float(weights.sum()) - numbers.design.shape[1], len(numbers.paths))
     total = np.einsum("n,njk->jk", weights, population.moments)
     odds = np.empty((len(weights), 1 + len(ways)))
     distances, shifts = np.empty_like(numbers.at), np.empty_like(numbers.at)
@@ -92,6 +107,11 @@ def _judged(numbers: Numbers, population: Mixed, weights: Array) -> Unlike:
     shares = np.exp(odds - odds.max(axis=1, keepdims=True))
     shares /= shares.sum(axis=1, keepdims=True)
     return Unlike(population, ways, shares[:, 1:], distances, shifts, needed(numbers))
+
+
+def _freedom(others: float, numbers: int) -> float:
+    """The degrees of freedom of a prediction of so many numbers."""
+    return max(others - numbers, 2.0)
 
 
 def needed(numbers: Numbers) -> int:

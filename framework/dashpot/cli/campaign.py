@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -78,7 +79,7 @@ def preview(planned: CampaignSpec, session: Session) -> None:
     with session.workers(planned.memory) as jobs:
         count = count_of(jobs)
         with session.watch("doing a first job of each kind"):
-            costs = preview_campaign(planned, jobs)
+            costs = preview_campaign(planned, jobs, write_and_discard)
     content = preview_content(planned, costs, count)
     session.talk.result(preview_text(content), content)
 
@@ -116,6 +117,12 @@ class JobWriter:
             write_comparison(found, folder)
         else:
             write_fit(found, folder)
+
+
+def write_and_discard(found: Any, job: str, registry: Registry) -> None:
+    """The same for the time that it takes."""
+    with TemporaryDirectory(prefix="dashpot-") as folder:
+        JobWriter(folder)(found, job, registry)
 
 
 def write_campaign(result: CampaignResult, folder: OutputFolder, parquet: bool, session: Session) -> None:

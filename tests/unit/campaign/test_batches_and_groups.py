@@ -55,6 +55,15 @@ def test_two_suppliers_are_two_groups_and_one_is_one():
     assert set(groups) == {1, 2} and len(set(groups[::2])) == len(set(groups[1::2])) == 1
 
 
+@pytest.mark.parametrize("share", [2, 3])
+def test_groups_are_found_beside_numbers_that_do_not_tell_them_apart(share):
+    rng = np.random.default_rng(seed_of("groups beside others"))
+    other = np.arange(40) % share == 0
+    rows = rng.normal(size=(40, 4)) * 0.05 + np.where(other[:, None], [0.3, -0.3, 0.0, 0.0], 0.0)
+    groups = groups_alike(rows - rows.mean(axis=0), np.cov(rows.T), 0)
+    assert set(groups[other]) == {1} and set(groups[~other]) == {2}
+
+
 def test_one_population_is_seldom_split():
     rng = np.random.default_rng(seed_of("one group"))
     split = sum(groups_alike(rows := rng.normal(size=(40, 3)), np.cov(rows.T), 0).max() > 1 for _ in range(40))

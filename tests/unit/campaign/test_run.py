@@ -7,11 +7,13 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from unit.campaign.bushings import CAMPAIGN, draw_population, write_population
 
 from dashpot import load_registry
+from dashpot.campaign import preview as preview_module
 from dashpot.campaign import run as run_module
 from dashpot.campaign.address import at_hand, state_of
 from dashpot.campaign.content import campaign_content
@@ -127,6 +129,23 @@ def test_a_preview_does_one_job_of_each_kind(campaign):
     assert content["seconds"] == pytest.approx(sum(FEW * cost.seconds for cost in costs) / 2.0)
     assert "3 specimens, 6 jobs" in preview_text(content)
     assert all(cost.result < 20_000 and not cost.failed for cost in costs)
+
+
+def test_a_preview_counts_the_reports_that_will_be_written(campaign):
+    written = []
+    preview_campaign(campaign, write=lambda found, job, registry: written.append(job))
+    preview_campaign(replace(campaign, reports=False), write=lambda *_: pytest.fail("no report is asked for"))
+    assert set(written) == {"b00-fit-solid"}
+
+
+@pytest.mark.parametrize(("spent", "told"), [([4.0, 0.25], 0.25), ([90.0], 90.0)])
+def test_what_a_process_does_once_is_no_cost_of_each_job(monkeypatch, spent, told):
+    # clock readings before and after each job; a long one is not done twice
+    readings = iter([reading for each in spent for reading in (10.0, 10.0 + each)])
+    monkeypatch.setattr(preview_module, "time", SimpleNamespace(perf_counter=lambda: next(readings)))
+    monkeypatch.setattr(preview_module, "run_job", lambda work, job: {})
+    assert preview_module.timed_job(None, None)[1] == told
+    assert next(readings, None) is None
 
 
 def test_a_diagnosis_tells_its_causes_by_specimen(campaign):
