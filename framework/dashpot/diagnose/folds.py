@@ -1,7 +1,8 @@
 """What is left out at a time: groups of runs, and where there are few of them pieces of whole cycles.
 
 A run is left out with its repeats. Of fewer than six groups each is cut into pieces, so that at least six parts are
-left out in turn: they tell whether a law is there, but little of whether it holds in runs of other conditions.
+left out in turn: they tell whether a law is there, but little of whether it holds in runs of other conditions. Of many
+groups several are left out together.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
-FEWEST = 6  # parts that are left out in turn
+FEWEST, MOST = 6, 24  # parts that are left out in turn
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,8 @@ def folds_of(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> Folds:
     for run in runs:
         path = run.drive.displacement[run.first :]
         edges = whole_cycles(path, pieces)
-        mine = [f"{groups[run.name]}, part {k + 1}" if pieces > 1 else groups[run.name] for k in range(len(edges) - 1)]
+        group = known[known.index(groups[run.name]) % MOST]
+        mine = [f"{group}, part {k + 1}" if pieces > 1 else group for k in range(len(edges) - 1)]
         numbers = tuple(names.setdefault(name, len(names)) for name in mine)
         parts[run.name] = tuple(edge / path.size for edge in edges), numbers
     return Folds(tuple(names), len(known), parts)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dashpot.diagnose.folds import FEWEST, folds_of, whole_cycles
+from dashpot.diagnose.folds import FEWEST, MOST, folds_of, whole_cycles
 
 SINE = np.sin(2.0 * np.pi * np.arange(4000) / 200.0 - 0.1)
 
@@ -35,6 +35,16 @@ def test_enough_groups_are_left_out_whole_with_their_repeats():
     assert folds.names == tuple(f"r{k}" for k in range(FEWEST))
     assert folds.of_run("again", 1000) == [(0, slice(0, 1000))]
     assert folds.of_run("r3", 700) == [(3, slice(0, 700))]
+
+
+def test_of_many_groups_several_are_left_out_together():
+    """As evenly as may be, repeats with what they repeat."""
+    count = 2 * MOST + 5
+    groups = {**{f"r{k}": f"r{k}" for k in range(count)}, "again": f"r{count - 1}"}
+    folds = folds_of([run(name) for name in groups], groups)
+    sizes = np.bincount([folds.parts[f"r{k}"][1][0] for k in range(count)])
+    assert sizes.size == len(folds.names) == MOST and set(sizes) == {2, 3}
+    assert folds.parts["again"] == folds.parts[f"r{count - 1}"] and folds.groups == count
 
 
 def test_of_few_groups_parts_of_whole_cycles_are_left_out():
