@@ -171,12 +171,12 @@ def _newton(
 ) -> None:
     """Steps until every lane is done, ``most`` of them at most; what is left then has failed, if there is a code.
 
-    A lane that has failed in an earlier step is not waited for.
+    A lane that was not solved in an earlier step is not waited for.
     """
 
     def undone() -> Bundle:
         left = a.load(_places(a, space, vectors), row * LANES * vectors).compare("oeq", 0.0)
-        return left & a.load(_places(a, "%status", vectors)).compare("oeq", 0.0)
+        return left & a.load(_places(a, "%status", vectors)).compare("une", float(UNSOLVED))
 
     def going_on() -> str:
         left = a.new("load i64, ptr %left")
