@@ -27,9 +27,9 @@ Schemas = dict[str, Callable[["Registry"], dict[str, Any]]]
 def verb(kind: str | None, every: bool, output: Path | None, switches: Switches) -> None:
     """Print the JSON schema of a kind of file.
 
-    With it an editor completes and checks YAML files. KIND is network, dataset, rig, study, joint or campaign. The
-    schema knows the elements, rigs, optimizers and formats that are installed. Editors with the yaml-language-server
-    use it where the first line of a file says:
+    With it an editor completes and checks YAML files. KIND is network, dataset, rig, study, sensitivity, joint or
+    campaign. The schema knows the elements, rigs, optimizers and formats that are installed. Editors with the
+    yaml-language-server use it where the first line of a file says:
 
     \b
       # yaml-language-server: $schema=schemas/network.schema.json
@@ -91,6 +91,13 @@ def study(registry: Registry) -> dict[str, Any]:
     return study_schema(registry.optimizers, tuple(registry.specimens))
 
 
+def sensitivity(registry: Registry) -> dict[str, Any]:
+    """The schema of a sensitivity study."""
+    from dashpot.study.sensitivity.schema import sensitivity_schema
+
+    return sensitivity_schema(tuple(registry.metrics))
+
+
 def campaign(_: Registry) -> dict[str, Any]:
     """The schema of a campaign file."""
     from dashpot.campaign.schema import campaign_schema
@@ -110,6 +117,7 @@ KINDS: Schemas = {
     "dataset": dataset,
     "rig": rig,
     "study": study,
+    "sensitivity": sensitivity,
     "joint": joint,
     "campaign": campaign,
 }

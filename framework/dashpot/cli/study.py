@@ -1,4 +1,4 @@
-"""``dashpot study``: a staged identification from a file."""
+"""``dashpot study``: a staged identification, or a sensitivity study, from a file."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from dashpot.data.dataset import Dataset
     from dashpot.fit.study.declaration import StudySpec
     from dashpot.fit.study.run import StudyResult
+    from dashpot.study.sensitivity.declaration import SensitivitySpec
 
 RECORDS = "checkpoint"
 
@@ -25,29 +26,72 @@ RECORDS = "checkpoint"
 @click.command("study")
 @study_and_dataset()
 @click.option("--dry-run", is_flag=True, help="Only predict what the data can and cannot identify.")
-@output_option("Folder for study.json, the identified networks, report.html and the checkpoint.", required=False)
+@output_option(
+    "Folder for study.json, the identified networks, report.html and the checkpoint; of a sensitivity study for "
+    "sensitivity.json, curves.csv, bands.csv and report.html.",
+    required=False,
+)
 @switches("jobs", "scheduler", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
-    """Identify models in stages, as a study file says.
+    """Identify models in stages, or vary a test, as a study file says.
 
     STUDY is a file or the name of a shipped study; DATASET takes the place of the one that the study names. After an
     interruption the same command goes on where it stopped, and the results are the same to the last byte.
+
+    A sensitivity study, such as `inspection`, varies the parameters of a network and tells what becomes of the metrics
+    of a test, with bands for specimens that scatter; the metrics of the runs in a DATASET stand beside them.
 
     \b
     Example:
       dashpot study paper_tire --dry-run
       dashpot study paper_tire -o tire
+      dashpot study inspection -o inspection
     """
-    from dashpot.fit.study.reading import find_study, read_study
+    from dashpot.fit.study.reading import find_study, parse_study
+    from dashpot.model.shipped import read_specification
+    from dashpot.study.sensitivity.reading import is_sensitivity, parse_sensitivity
 
     session = Session(switches)
-    planned = read_study(find_study(study), session.registry)
+    path = find_study(study)
+    document = read_specification(path)
+    if is_sensitivity(document):
+        return vary(parse_sensitivity(document, path.parent, session.registry), dataset, dry_run, output, session)
+    planned = parse_study(document, path.parent, session.registry)
     if dry_run:
         with TemporaryDirectory() as scratch:
             return preview(planned, data_of(planned, dataset, Path(scratch), session), session)
     names = (f"{escape(plan.name)}.yaml" for plan in planned.models)
     folder = session.claim(output or Path(planned.name), "study.json", "report.html", "models.csv", *names)
     conduct(planned, data_of(planned, dataset, folder.path, session), folder, session)
+
+
+def vary(planned: SensitivitySpec, dataset: str | None, dry_run: bool, output: Path | None, session: Session) -> None:
+    """Run a sensitivity study and write its results."""
+    from dashpot.compare.metrics import named_rows
+    from dashpot.data.ends import one_force_each
+    from dashpot.report.json_text import json_text
+    from dashpot.report.page import render
+    from dashpot.report.sensitivity import bands_grid, curves_grid, sensitivity_page, sensitivity_text
+    from dashpot.report.tables import to_csv
+    from dashpot.study.sensitivity.content import sensitivity_content
+    from dashpot.study.sensitivity.run import run_sensitivity
+
+    if dry_run:
+        told = {"format": "dashpot-sensitivity-preview/1", "study": planned.name, "parameter_vectors": planned.lanes}
+        return session.talk.result(f"{planned.name}: {planned.lanes} parameter vectors are simulated", told)
+    measured = named_rows(planned.metrics, one_force_each(session.dataset(dataset)).runs) if dataset else []
+    names = ("sensitivity.json", "curves.csv", "bands.csv", "report.html")
+    folder = session.claim(output or Path(planned.name), *names)
+    with session.watch("compiling") as progress:
+        result = run_sensitivity(planned, progress)
+    content = sensitivity_content(result, measured)
+    with folder.together() as results:
+        results.write("sensitivity.json", json_text(content))
+        for grid in (curves_grid(content), bands_grid(content)):
+            results.write(grid.csv_name, to_csv(grid.rows, grid.columns))
+        report = results.write("report.html", render(sensitivity_page(content)))
+    session.talk.result(sensitivity_text(content), content)
+    session.tell_report(report)
 
 
 def data_of(planned: StudySpec, dataset: str | None, folder: Path, session: Session) -> Dataset:

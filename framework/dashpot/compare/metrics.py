@@ -18,7 +18,17 @@ Array = NDArray[np.float64]
 def metric_rows(
     metrics: Iterable[type[Metric]], runs: Sequence[Run], simulated: Mapping[str, Mapping[str, Array]] | None = None
 ) -> list[dict[str, Any]]:
-    """A row in plain values for every metric and run that has it; ``simulated``: model -> run -> force (n,) in N."""
+    """A row in plain values for every metric and run that has it; ``simulated``: model -> run -> force (n,) in N.
+
+    Metrics that are told only where they are named are left out.
+    """
+    return named_rows([made for made in metrics if made.everywhere], runs, simulated)
+
+
+def named_rows(
+    metrics: Iterable[type[Metric]], runs: Sequence[Run], simulated: Mapping[str, Mapping[str, Array]] | None = None
+) -> list[dict[str, Any]]:
+    """The same of all metrics that are named."""
     found = []
     for made in metrics:
         metric = made()

@@ -114,7 +114,8 @@ def _error(grams: Sequence[Gram], others: Sequence[Gram], penalty: Array, lowest
     total = 0.0
     for (gram, right, square), other in zip(grams, others, strict=True):
         solved = _solve(other, penalty)
-        total += float(square - 2.0 * right @ solved + solved @ gram @ solved)
+        # a force that is explained to the last digit leaves rounding alone, of either sign
+        total += max(0.0, float(square - 2.0 * right @ solved + solved @ gram @ solved))
         if total > lowest:
             return np.inf
     return total

@@ -28,6 +28,9 @@ class Metric(ABC):
     unit: ClassVar[str]
     """The unit of the number, as a report shows it."""
 
+    everywhere: ClassVar[bool] = True
+    """Whether it is told of every run that has it; False: only where a sensitivity study names it."""
+
     @abstractmethod
     def measure(self, run: Run) -> float | None:
         """The number of a run with ``displacement`` (n,) m and ``force`` (n,) N; None for a run of another test."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.linear import Linear, Loss, linearise
+from dashpot.fit.rising_step import rising_step
 
 Array = NDArray[np.float64]
 
@@ -95,10 +96,17 @@ def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: fl
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
     low, high = (side[free] * scale for side in _reach(coordinates, point))
     steps = np.zeros((len(DAMPINGS), point.size))
+    place, rising = (point[free], coordinates.unit[free] / scale), _among(coordinates.rising, free)
     for each, damping in zip(steps, DAMPINGS * slack, strict=True):
         damped = matrix + damping * np.eye(free.sum())
-        each[free] = least_within(damped, downhill[free] / scale, low, high) / scale
+        each[free] = rising_step(least_within, damped, downhill[free] / scale, (low, high), place, rising) / scale
     return coordinates.allowed(coordinates.moved(point, steps), np.where(free, np.diag(normal), 0.0))
+
+
+def _among(rising: tuple[tuple[int, ...], ...], free: NDArray[np.bool_]) -> list[list[int]]:
+    """The groups of knots by their places among the numbers that are free."""
+    place = np.cumsum(free) - 1
+    return [[int(place[knot]) for knot in knots if free[knot]] for knots in rising]
 
 
 def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:

@@ -73,3 +73,11 @@ def test_a_record_over_time_is_no_table(call, tmp_path):
     (tmp_path / "record.csv").write_text(RECORD)
     out = json.loads(call("import", tmp_path / "record.csv", "--json")[1])
     assert out["tables"] == [] and len(out["runs"]) == 1
+
+
+@pytest.mark.parametrize("unit", ["", " (N/m)"])
+def test_a_loss_without_unit_has_that_of_the_storage(call, tmp_path, unit):
+    (tmp_path / "si.csv").write_text(f"f,A (mm),K'{unit},K''\n1,0.1,724732,46405\n10,0.1,780000,52000\n")
+    _, out, _ = call("import", tmp_path / "si.csv")
+    assert "the loss 'K''' is taken to be in N/m: no unit is stated" in out
+    assert "loss: {column: \"K''\", unit: N/m}" in (tmp_path / "dataset.yaml").read_text()

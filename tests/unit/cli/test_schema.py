@@ -25,6 +25,7 @@ from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.reading import build_network
 from dashpot.model.schema import network_schema
 from dashpot.model.shipped import spec_folder
+from dashpot.study.sensitivity.reading import is_sensitivity, parse_sensitivity
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError, Problem
 
@@ -49,6 +50,8 @@ def problems_of(kind: str, content: Any) -> tuple[Problem, ...]:
             read_bench(document, REGISTRY.rigs)
         elif kind == "study":
             parse_study(document, STUDY, REGISTRY)
+        elif kind == "sensitivity":
+            parse_sensitivity(document, STUDY, REGISTRY)
         else:
             many = isinstance(content, dict) and "runs" in content
             return read_description(document, Source(Path("x.yaml"), Path(), None if many else "x.csv")).problems
@@ -59,9 +62,11 @@ def problems_of(kind: str, content: Any) -> tuple[Problem, ...]:
 
 def shipped() -> Iterator[Any]:
     files = {"network": ["networks/*/*.yaml", "studies/*/*.yaml"], "rig": ["rigs/*.yaml"], "study": ["studies/*.yaml"]}
-    for kind, patterns in files.items():
+    for folder, patterns in files.items():
         for path in sorted(path for pattern in patterns for path in spec_folder().glob(pattern)):
-            yield pytest.param(kind, Document.read(path).root.plain(), id=f"{kind}-{path.stem}")
+            document = Document.read(path)
+            kind = "sensitivity" if is_sensitivity(document) else folder
+            yield pytest.param(kind, document.root.plain(), id=f"{kind}-{path.stem}")
 
 
 def documented() -> Iterator[Any]:
@@ -188,7 +193,7 @@ def test_one_schema_is_printed_and_all_are_written(schema_call, tmp_path):
     "arguments, hint",
     [
         (["netwrk"], "No schema of 'netwrk', did you mean 'network'?"),
-        ([], "Say either a kind (network, dataset, rig, study, joint, campaign) or --all"),
+        ([], "Say either a kind (network, dataset, rig, study, sensitivity, joint, campaign) or --all"),
         (["--all"], "say -o FOLDER"),
     ],
 )

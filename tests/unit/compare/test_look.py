@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from unit.compare.specimens import DAMPING, DT, NOISE, STIFFNESS, run, slide, sweep, sweeps
 
+import dashpot as dp
 from dashpot.compare import boosting
 from dashpot.compare.look import look, spectra
 from dashpot.compare.strokes import see
@@ -110,3 +111,11 @@ def test_a_random_motion_can_be_looked_at():
     seen = look(Dataset("random", (run("noise", x, STIFFNESS * x + slide(x), "random"),)))
     assert not seen.as_dict()["runs"][0]["gives_back"]
     assert sweep(1e-3, 0.0).size and len(look_figures(seen.evidence())) >= 6
+
+
+@pytest.mark.parametrize(("duration", "samples"), [(20.0, 10_000), (200.0, 10_000)])
+def test_a_force_that_is_explained_to_the_last_digit_leaves_a_number(duration, samples):
+    time = np.linspace(0.0, duration, samples)
+    x = 2e-3 * np.sin(2.0 * np.pi * time / 5.0)
+    told = dp.look(dp.Data.from_arrays(time, x, 3e5 * x, name="spring")).as_dict()["explainable"]
+    assert 0.0 <= told["left_out"] < 0.01

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,6 +58,8 @@ def find_stiffness(table: Table) -> StiffnessFound | None:
         kind = _kind(name, table.units.get(name, ""))
         if kind and kind not in found and np.isfinite(numbers).any() and numbers.size <= _MOST:
             found[kind] = ColumnFound(name, _unit(kind, name, table.units.get(name, ""), numbers[np.isfinite(numbers)]))
+    if "storage" in found and "loss" in found:
+        found["loss"] = _beside(found["storage"], found["loss"])
     pair = next((pair for pair in PAIRS if set(pair) <= set(found)), None)
     if pair is None or "frequency" not in found:
         return None
@@ -66,6 +68,11 @@ def find_stiffness(table: Table) -> StiffnessFound | None:
     used = {column.column for column in kept.values()}
     unused = tuple(name for name in table.columns if name not in used)
     return StiffnessFound(kept, unused, tuple(_doubts(kept, unused)))
+
+
+def _beside(storage: ColumnFound, loss: ColumnFound) -> ColumnFound:
+    """The loss in the unit of the storage, where it has none of its own: it is the smaller one of the two."""
+    return replace(loss, unit=UnitFound(storage.unit.unit, GUESSED)) if loss.unit.by == GUESSED else loss
 
 
 def _kind(name: str, stated: str) -> str:

@@ -11,6 +11,7 @@ from dashpot.report.figures.contact import contact_models, contact_response
 from dashpot.report.figures.control import control_chart
 from dashpot.report.figures.convergence import convergence_history
 from dashpot.report.figures.curves import identified_curves
+from dashpot.report.figures.dependence import metric_band, metric_lines
 from dashpot.report.figures.draws import corner, draw_ranks, draw_traces
 from dashpot.report.figures.gain import gain_intervals
 from dashpot.report.figures.harmonics import harmonic_bars
@@ -41,6 +42,8 @@ __all__ = [
     "harmonic_bars",
     "identified_curves",
     "loops",
+    "metric_band",
+    "metric_lines",
     "misfit_map",
     "number_over",
     "over_conditions",

@@ -169,11 +169,14 @@ def _call(a: Assembly, name: str, columns: str, space: str) -> None:
 def _newton(
     a: Assembly, name: str, columns: str, space: str, most: int, failure: int | None, row: int, vectors: int
 ) -> None:
-    """Steps until every lane is done, ``most`` of them at most; what is left then has failed, if there is a code."""
+    """Steps until every lane is done, ``most`` of them at most; what is left then has failed, if there is a code.
+
+    A lane that was not solved in an earlier step is not waited for.
+    """
 
     def undone() -> Bundle:
-        places = _places(a, space, vectors)
-        return a.load(places, row * LANES * vectors).compare("oeq", 0.0)
+        left = a.load(_places(a, space, vectors), row * LANES * vectors).compare("oeq", 0.0)
+        return left & a.load(_places(a, "%status", vectors)).compare("une", float(UNSOLVED))
 
     def going_on() -> str:
         left = a.new("load i64, ptr %left")

@@ -197,13 +197,14 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
 
 def _write_newton(code: PythonCode, system: SystemProgram, name: str, most: int, failure: int | None = None) -> None:
     done = f"w[o + {system.row(system.done)}]"
-    with code.function("nothing", name, NEWTON, "Newton's steps until they are short."):
+    undone = f"({done} == 0.0) & (status[l] != {UNSOLVED}.0)"
+    with code.function("nothing", name, NEWTON, "Newton's steps until they are short, none once some failed."):
         code.let("left", str(most), "count")
-        with code.repeat(f"(left > 0) & ({done} == 0.0)"):
+        with code.repeat(f"(left > 0) & {undone}"):
             code.do(f"{name}_(columns, w, tables, knots, c, o)")
             code.set("left", "left - 1")
         if failure is not None:
-            with code.when(f"{done} == 0.0"):
+            with code.when(undone):
                 code.set("status[l]", f"{failure}.0")
 
 
