@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import shutil
@@ -10,12 +11,13 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from architecture.source import FRAMEWORK, PLUGINS, modules
+from architecture.source import FRAMEWORK, PLUGINS, imports, modules
 from real.sets import MeasuredSet
 from seeds import seed_of
 
@@ -193,12 +195,33 @@ def simulated(network: Path, dataset: Path) -> dict[str, np.ndarray]:
         return dict(forces)
 
 
+@cache
 def engine_digest() -> str:
-    """A digest of the source that a trial ran with."""
+    """A digest of the source that a trial ran with, less docstrings: what a diagnosis imports, kernel and plugins."""
     digest = sha256()
-    for path in [*modules(FRAMEWORK), *modules(PLUGINS)]:
-        digest.update(path.read_bytes())
+    for path in sorted({*_needed_by("dashpot.diagnose.diagnose"), *modules(FRAMEWORK / "kernel"), *modules(PLUGINS)}):
+        digest.update(_without_docstrings(path).encode())
     return digest.hexdigest()[:16]
+
+
+def _needed_by(module: str) -> set[Path]:
+    """The files of the framework that a module imports, and those that they import."""
+    names = {path: ".".join(path.relative_to(FRAMEWORK.parent).with_suffix("").parts) for path in modules(FRAMEWORK)}
+    files = {name.removesuffix(".__init__"): path for path, name in names.items()}
+    found, new = set[str](), {module}
+    while new:
+        found |= new
+        imported = {name for one in new for name, _ in imports(files[one])}
+        new = ({*imported, *(name.rpartition(".")[0] for name in imported)} & set(files)) - found
+    return {files[name] for name in found}
+
+
+def _without_docstrings(path: Path) -> str:
+    whole = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(whole):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
+            node.body = node.body[1:]
+    return ast.unparse(whole)
 
 
 def kept_outcome(folder: Path) -> tuple[str, Outcome] | None:
