@@ -29,7 +29,7 @@ def _with_header(lines: list[str], layout: Layout, header: Header) -> Table:
     kept = [
         index
         for index in range(layout.first, len(lines))
-        if lines[index].strip() and not is_comment(lines[index], layout.delimiter)
+        if (text := lines[index].lstrip()) and not is_comment(text, layout.delimiter)
     ]
     cells = _split_columns([lines[index] for index in kept], layout.delimiter, kept)
     width = max(layout.width, len(header.names))
@@ -48,10 +48,11 @@ def _with_header(lines: list[str], layout: Layout, header: Header) -> Table:
 
 def _split_columns(rows: list[str], delimiter: str | None, kept: list[int]) -> list[Sequence[str]]:
     """The texts of every column. Rows that are all alike, the usual case, are split in one go."""
-    widths = {len(row.split(delimiter)) for row in rows}
-    if len(widths) == 1 and (delimiter is None or not any('"' in row for row in rows)):
+    together = (delimiter or " ").join(rows)
+    widths = {row.count(delimiter) + 1 if delimiter else len(row.split()) for row in rows}
+    if len(widths) == 1 and (delimiter is None or '"' not in together):
         (width,) = widths
-        cells = (delimiter or " ").join(rows).split(delimiter)
+        cells = together.split(delimiter)
         return [cells[index::width] for index in range(width)]
     split = [split_row(row, delimiter) for row in rows]
     _refuse_endless_row(split, kept)
