@@ -175,7 +175,7 @@ def test_silence_says_how_small_an_effect_it_is_about():
     ]
     said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
     assert "leaves 1.30 N RMS of it or more" in said
-    assert "delay, from 9.00 N RMS on (delay 45.0 us)." in said
+    assert "delay, from 9.00 N RMS on (delay 45.0 µs)." in said
 
 
 SUSPENSION, BAR = "between wheel_left and body, likewise wheel_right and body", "between wheel_left and wheel_right"
