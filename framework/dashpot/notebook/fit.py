@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Fit(Printed, FitResult):
-    """A network with the parameters that were found. In a notebook it shows its errors and its numbers with intervals.
+    """A network with its identified parameters. In a notebook it shows the errors, and the parameters with intervals.
 
     Examples:
         >>> fit = dp.fit("mount.yaml", data, seed=1)
@@ -78,12 +78,12 @@ class Fit(Printed, FitResult):
 
     @property
     def residuals(self) -> dict[str, NDArray[np.float64]]:
-        """Measured less simulated force (n,) in N of every run, the warm-up included, which the errors leave out."""
+        """Residual (n,) in N of every run: measured minus simulated force. The RMSE excludes the warm-up."""
         simulated = self._comparison.simulated[self.declared.name]
         return {run.name: run.force - simulated[run.name] for run in self.dataset.runs}
 
     def predict(self, data: Dataset) -> dict[str, NDArray[np.float64]]:
-        """The force (n,) in N of every run of a dataset, by name, with the numbers that were found."""
+        """The force (n,) in N of every run of a dataset, by name, with the identified parameters."""
         return forces_by_name(solve_runs(self.fitted, data))
 
     @cached_property

@@ -106,7 +106,7 @@ def Network(  # noqa: N802
 def load_dataset(path: str | Path, *, allow_outside: bool = False, registry: Registry | None = None) -> Data:
     """The dataset of a folder, of its ``dataset.yaml``, or of a single file with a sidecar.
 
-    Runs with a fault are set aside and told of in ``problems``. ``allow_outside`` also reads files outside of the
+    Runs with a fault are excluded and listed in ``problems``. ``allow_outside`` also reads files outside of the
     folder of the dataset. InputError when no run is left.
 
     Examples:
@@ -141,8 +141,8 @@ def simulate(
 
     A run with several driven nodes has an entry ``run@node`` for each. Where nodes are free to move, so many steps
     lie between two samples that the error of each force is at most the ``tolerance``, a share of its RMS; or, by hand,
-    ``refine`` times as many as usual. InputError for a model whose curves have no numbers
-    yet, and for a run that lacks a motion.
+    ``refine`` times as many as usual. InputError for a model whose curves are not
+    identified yet, and for a run that lacks a motion.
 
     Examples:
         >>> forces = dp.simulate("mount.yaml", data)
@@ -157,7 +157,7 @@ def measure(model: AnyModel, rig: str, *, seed: int = 0, registry: Registry | No
     """The model on a virtual test rig: a test procedure with its options, or a bench, shipped or as a file.
 
     Options are texts as on the command line (``depth="20 mm"``). The same seed gives the same noise. InputError for an
-    unknown rig or a model whose curves have no numbers yet, ValueError for options that do not fit.
+    unknown rig or a model whose curves are not identified yet, ValueError for options that do not fit.
 
     Examples:
         >>> loop = dp.measure("mount.yaml", "triangle", depth="2 mm", loops=1)

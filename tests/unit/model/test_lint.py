@@ -228,7 +228,7 @@ def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():
     """)
     assert str(found) == (
         "n.yaml:5:33: warning: 'a.damping' and 'b.damping' cannot be distinguished: they compensate each other. "
-        "fix one of them with a plain number, or remove a branch"
+        "fix one of them at a value, or remove a branch"
     )
 
 
@@ -313,7 +313,7 @@ def test_equal_branches_in_parallel_that_start_alike():
     """)
     assert str(found) == (
         "n.yaml:5:6: warning: 'a' and 'b' are alike and in parallel: no search that follows slopes can part them. "
-        "start them at different numbers"
+        "give them different starts"
     )
 
 

@@ -42,9 +42,9 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]
     alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
     caption = (
-        "Measured less simulated force, mean of each field: the model presses too little where it is positive. These "
+        "Measured minus simulated force, mean of each cell; positive: the force of the model is too small. These "
         f"two variables predict {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
-        f"held-out stretches; alone: {alone}. Every row and column has as many samples."
+        f"held-out pieces; alone: {alone}. Every row and every column holds the same number of samples."
     )
     axes = {
         which: axis(
