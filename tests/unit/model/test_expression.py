@@ -196,7 +196,7 @@ def test_a_number_that_runs_give_cannot_be_referred_to():
         a: {element: spring, stiffness: {setting: stiffness, value: 5 N/mm}}
         b: {element: spring, stiffness: {expression: 2 * a.stiffness}}
     """)
-    assert "is another number in each run" in message
+    assert "depends on a setting and differs from run to run" in message
 
 
 def test_a_long_or_deep_text_is_refused_at_once():

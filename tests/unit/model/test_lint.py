@@ -155,8 +155,8 @@ def test_a_number_on_which_nothing_depends():
         "{a: driven, b: ground}",
     )
     assert str(found) == (
-        "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it by a "
-        "plain number, or remove it"
+        "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it at a "
+        "value, or remove it"
     )
 
 
@@ -312,8 +312,8 @@ def test_equal_branches_in_parallel_that_start_alike():
         b: {element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: 1 s}}
     """)
     assert str(found) == (
-        "n.yaml:5:6: warning: 'a' and 'b' are alike and in parallel: no search that follows slopes can part them. "
-        "give them different starts"
+        "n.yaml:5:6: warning: 'a' and 'b' are alike and in parallel: no gradient-based search can distinguish "
+        "them. give them different starts"
     )
 
 
