@@ -15,7 +15,7 @@ from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, axis_number, layout, plain
 from dashpot.text.digits import rig_unit
 
-ACROSS, ROW, HEAD, GAP = 3, 220, 90, 0.09  # panels in a row; pixels of a panel and around it; share between two
+ACROSS, ROW, HEAD, GAP = 3, 220, 112, 0.09  # panels in a row; pixels of a panel and around it; share between two
 LONG = 20  # characters
 AT, VALUE, LOW, HIGH = "at", "value", "95 % from", "to"
 
