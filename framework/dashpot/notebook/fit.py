@@ -13,6 +13,7 @@ from dashpot.fit.api import prepare
 from dashpot.fit.result import FitResult
 from dashpot.kernel.api import forces_by_name, solve_runs
 from dashpot.model.reading import parse_network
+from dashpot.notebook.beyond import warn_of_range
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
@@ -83,8 +84,13 @@ class Fit(Printed, FitResult):
         return {run.name: run.force - simulated[run.name] for run in self.dataset.runs}
 
     def predict(self, data: Dataset) -> dict[str, NDArray[np.float64]]:
-        """The force (n,) in N of every run of a dataset, by name, with the identified parameters."""
-        return forces_by_name(solve_runs(self.fitted, data))
+        """The force (n,) in N of every run of a dataset, by name, with the identified parameters.
+
+        Runs beyond the range of the identification give a UserWarning.
+        """
+        found = forces_by_name(solve_runs(self.fitted, data))
+        warn_of_range(self.model, {run.name: run for run in data.runs})
+        return found
 
     @cached_property
     def model(self) -> Model:
