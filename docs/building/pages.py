@@ -16,6 +16,7 @@ import dashpot
 from building.law import Term, clauses, mathml, symbol
 from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.svg import svg
+from dashpot.text.digits import typeset
 
 ROOT = Path(__file__).resolve().parents[2]
 WIDTH = 80  # characters that a line of code has room for
@@ -50,7 +51,7 @@ def element(word: str, made: type[Any]) -> Iterator[str]:
     yield written.table(titles, rows)
     if made.declares.states:
         states = made.declares.states.values()
-        yield f"Memory: {', '.join(f'{state.about} ({state.unit})' for state in states)}."
+        yield f"Memory: {', '.join(f'{state.about} ({typeset(state.unit)})' for state in states)}."
     if made.source:
         yield f"Source: {made.source}."
     yield from folded("What the class says", "python", inspect.cleandoc(inspect.getsource(made.step)))

@@ -7,7 +7,7 @@
 # %% [markdown]
 # ## The measurement
 #
-# A model whose numbers are known stands for the bushing; the rig measures it at three amplitudes and adds noise.
+# A model with known parameters stands for the bushing; the rig measures it at three amplitudes and adds noise.
 
 # %%
 from pathlib import Path
@@ -49,7 +49,7 @@ comparison = dp.compare(models, data)
 comparison
 
 # %% [markdown]
-# Only the last one is at the noise floor. Its numbers are those of the bushing:
+# Only the last one is at the noise floor. Its identified parameters are those of the bushing:
 
 # %%
 comparison.fits[-1].table()

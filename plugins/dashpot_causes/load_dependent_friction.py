@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Pair, Suspect, View, added_branch, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty_all
 
 Array = NDArray[np.float64]
 UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1", "creep_velocity": "m/s", "growth": "N/m", "middle": "m"}
@@ -149,7 +149,7 @@ class _Scaled:
         lines = [
             branch_lines(free_name(text, "load_dependent_friction"), self.element, values, UNITS, bounds=self.bounds),
             "  scale:",
-            f"    deflection: [{', '.join(pretty(place, 'm', 6) for place in self.places)}]",
+            f"    deflection: [{', '.join(pretty_all(self.places, 'm', 6))}]",
             f"    factor: [{', '.join(factors)}]",
         ]
         return add_branch(text, "\n".join(lines))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot.text.quantity import pretty
+from dashpot.text.quantity import pretty, pretty_all
 
 Array = NDArray[np.float64]
 KNOTS = (6, 12, 24)
@@ -105,7 +105,7 @@ def hats(knots: Sequence[float], x: Array) -> Array:
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:
-    at = ", ".join(pretty(place, "m", 6) for _, place in atoms)
+    at = ", ".join(pretty_all([place for _, place in atoms], "m", 6))
     span = 20.0 * max(max(abs(strength) for strength, _ in atoms), 1.0)
     bounds = f"bounds: [{pretty(-span, 'N')}, {pretty(span, 'N')}]"
     forces = ", ".join(f"{{start: {pretty(strength, 'N', 6)}, {bounds}}}" for strength, _ in atoms)

@@ -16,6 +16,7 @@ from typing import Any, get_args, get_origin
 from dashpot.contract.options import kind_and_unit, options_of
 from dashpot.contract.registry import load_registry
 from dashpot.model.element import Curve, Parameter
+from dashpot.text.digits import typeset
 
 ROOT = Path(__file__).resolve().parents[2]
 FRAMEWORK = ROOT / "framework" / "dashpot"
@@ -41,7 +42,8 @@ def elements() -> Iterator[str]:
         rows = [_number_row(key, number) for key, number in {**declared.curves, **declared.parameters}.items()]
         yield table(("key", "meaning", "unit", "sensible range, search scale", "default"), rows)
         if declared.states:
-            yield "Memory: " + ", ".join(f"{state.about} ({state.unit})" for state in declared.states.values()) + "."
+            states = [f"{state.about} ({typeset(state.unit)})" for state in declared.states.values()]
+            yield f"Memory: {', '.join(states)}."
         if made.source:
             yield f"Source: {made.source}."
 
@@ -100,7 +102,7 @@ def metrics() -> Iterator[str]:
     """A section for each number that a test is made for."""
     for word, made in things("metrics").items():
         yield f"### `{word}`"
-        yield f"In {made.unit}. " + " ".join(paragraphs(made))
+        yield f"In {typeset(made.unit)}. " + " ".join(paragraphs(made))
 
 
 def modules() -> Iterator[str]:
@@ -159,13 +161,18 @@ def one_line(made: object) -> str:
 
 def _number_row(key: str, number: Parameter | Curve) -> tuple[str, ...]:
     low, high = number.bounds
-    span = f"{low:g} to {high:g}, {number.scale}"
+    span = f"{_short(low)} to {_short(high)}, {number.scale}"
     if isinstance(number, Curve):
         (value, unit), (over, over_unit) = number.value, number.over
         slope = f"{unit}/({over_unit})" if "/" in over_unit else f"{unit}/{over_unit}"
-        return f"`{key}`", number.about, f"{slope}; table: `{over}` {over_unit}, `{value}` {unit}", span, ""
-    default = "" if number.default is None else f"{number.default:g}"
-    return f"`{key}`", number.about, number.unit, span, default
+        return f"`{key}`", number.about, typeset(f"{slope}; table: `{over}` {over_unit}, `{value}` {unit}"), span, ""
+    default = "" if number.default is None else _short(number.default)
+    return f"`{key}`", number.about, typeset(number.unit), span, default
+
+
+def _short(number: float) -> str:
+    """``1e7`` for 1e+07, as one types it."""
+    return re.sub(r"e\+?(-?)0*", r"e\1", f"{number:g}")
 
 
 def _option_row(option: inspect.Parameter) -> tuple[str, str, str]:
@@ -173,7 +180,7 @@ def _option_row(option: inspect.Parameter) -> tuple[str, str, str]:
     many, default = get_origin(kind) is tuple, option.default
     name = get_args(kind)[0].__name__ if many else kind.__name__
     shown = ", ".join(map(repr, default)) if many else repr(default) if not isinstance(default, str) else default
-    return f"`{option.name}`", ("list of " * many + name) + (f", {unit}" if unit else ""), f"`{shown}`"
+    return f"`{option.name}`", ("list of " * many + name) + (f", {typeset(unit)}" if unit else ""), f"`{shown}`"
 
 
 def _module_line(path: Path) -> str:

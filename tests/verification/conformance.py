@@ -86,7 +86,7 @@ def table(cases: list[Measured]) -> Iterator[str]:
     yield "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
     yield row("all", cases)
     for word in FAMILIES:
-        yield row(f"numbers: {word}", [each for each in cases if each.known.case.family == word])
+        yield row(f"parameters: {word}", [each for each in cases if each.known.case.family == word])
     for word in MOTIONS:
         yield row(f"motion: {word}", [each for each in cases if each.known.case.kind == word])
     for rate in RATES:

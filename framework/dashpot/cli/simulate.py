@@ -23,7 +23,6 @@ TABLE = "stiffness.csv"
 if TYPE_CHECKING:
     import numpy as np
 
-    from dashpot.data.excitation import Excitation
     from dashpot.data.run import Run
     from dashpot.kernel.api import RunSolution
     from dashpot.model.network import NetworkSpec
@@ -115,6 +114,7 @@ def follow(
 ) -> None:
     """Write the force along every measured run; no more than one of them is in memory at a time."""
     from dashpot.data.excitation import Excitation
+    from dashpot.fit.seen_range import beyond_range
     from dashpot.kernel.api import forces_by_name, solve_each
     from dashpot.kernel.settings import require_settings
 
@@ -155,6 +155,7 @@ def tabulate(
     """Write the dynamic stiffness at every row of the tables of a dataset."""
     from dashpot.data.steady import STEADY
     from dashpot.data.stiffness_text import table_text
+    from dashpot.fit.seen_range import beyond_range
     from dashpot.kernel.api import solve_each
     from dashpot.kernel.settings import require_settings
     from dashpot.text.problem import InputError, Place
@@ -199,6 +200,7 @@ def measure_on(
     from dashpot.data.ends import one_force_each
     from dashpot.data.writing import dataset_files
     from dashpot.fit.driven import NOTE
+    from dashpot.fit.seen_range import beyond_range
     from dashpot.fit.virtual_test import bench_as_driven, virtual_test
 
     try:
@@ -227,23 +229,13 @@ def measure_on(
     session.talk.result("\n".join([f"measured {len(runs)} runs: {dataset}", *metric_lines(told)]), content)
 
 
-def beyond_range(network: NetworkSpec, run: Run | Excitation) -> list[str]:
-    """What of a run lies outside of the range of identification, in words."""
-    from dashpot.data.excitation import Excitation
-    from dashpot.fit.seen_range import covered
-    from dashpot.model.identified import outside
-
-    recorded = network.identified.range
-    if not recorded:
-        return []
-    return outside(covered(network, run if isinstance(run, Excitation) else Excitation.of_run(run)), recorded)
-
-
 def warn_of_range(beyond: Mapping[str, list[str]], session: Session) -> None:
     """Warn of runs beyond the range of identification."""
+    from dashpot.fit.seen_range import warning_of_range
+
     for name, words in beyond.items():
         if words:
-            session.talk.warn(f"run '{name}' lies outside of the range of identification: {'; '.join(words)}")
+            session.talk.warn(warning_of_range(name, words))
 
 
 def content_of(

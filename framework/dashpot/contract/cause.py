@@ -22,7 +22,7 @@ NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 class View(Protocol):
-    """What a cause may look at. Arrays of a run have its samples; a cause never sees noise, thresholds or labels.
+    """The data that a cause may use. Arrays of a run have its samples; noise, thresholds and labels are not among them.
 
     Examples:
         >>> def deepest(view: dp.View) -> float:
@@ -86,14 +86,14 @@ class Suspect:
     """One form of a cause.
 
     ``columns(view, run)`` answers its force (m, n) at unit strength for each place of ``grid`` (m,); with ``joint`` all
-    columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts what is
-    left to be found besides a strength. ``extend(text, atoms)`` writes it into a network's text, with start values; at
+    columns act together with a strength each. ``sign`` 1 admits positive strengths only. ``unknowns`` counts the
+    parameters besides the strength. ``extend(text, atoms)`` writes it into a network's text, with start values; at
     most ``most`` atoms of the grid act together.
 
     ``measured`` says that the columns change what the load cell shows and are no force between two nodes of a network.
     ``quantity`` and ``unit`` (SI) say what a strength of one is, ``largest`` how large it can be. ``admits(numbers)``
-    says whether what a refit has found, by the last words of the paths (those of a second branch end in ``_2``), is
-    still what the cause is called: the borders between causes.
+    says whether refitted parameters, by the last words of their paths (those of a second branch end in ``_2``), still
+    belong to this cause: the borders between causes.
     ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once.
 
     Examples:
@@ -145,12 +145,12 @@ class ChannelFault:
 
 
 class Cause(ABC):
-    """A suspected cause of misfit.
+    """A candidate cause of a misfit.
 
-    ``word`` names it, ``about`` tells an engineer what it is, ``shows`` how it would show, and ``confused_with`` maps
-    other words to the measurement that tells the two apart; one that no plugin provides is a rival. ``cure`` says what
-    to do about the measurement, where it is to blame; ``evidence_of`` says what has to show that it is: ``phase`` that
-    its numbers are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
+    ``word`` names it, ``about`` says what it is, ``shows`` how it appears in the residual, and ``confused_with`` maps
+    other words to the measurement that distinguishes the two; a word that no plugin provides is a rival. ``cure`` says
+    how to correct a fault of the measurement; ``evidence_of`` names the evidence that it needs: ``phase`` that its
+    parameters are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
     sheet of the channel admits it, under the key that is the ``quantity`` of its suspects and the last word of its
     path. ``faults`` are the kinds of faults found by triage that the cause stands for.
 

@@ -9,7 +9,7 @@ from dashpot.data.run import Run
 
 
 class Metric(ABC):
-    """A number that a test is made for, such as the least contact force of a wheel in per cent of the static one.
+    """A scalar result of a test, such as the least contact force of a wheel in per cent of the static one.
 
     Examples:
         >>> class LeastForce(dp.Metric):
@@ -33,4 +33,4 @@ class Metric(ABC):
 
     @abstractmethod
     def measure(self, run: Run) -> float | None:
-        """The number of a run with ``displacement`` (n,) m and ``force`` (n,) N; None for a run of another test."""
+        """The result of a run with ``displacement`` (n,) m and ``force`` (n,) N; None for a run of another test."""

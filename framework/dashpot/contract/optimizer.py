@@ -16,7 +16,7 @@ Blocks: TypeAlias = Generator[np.ndarray, np.ndarray, "str | None"]
 
 @dataclass(frozen=True, eq=False)
 class Space:
-    """The free parameters, each scaled to [0, 1]; what lies behind (linear, logarithmic) is not the optimizer's care.
+    """The free parameters, each scaled to [0, 1]; the scale of each (linear, logarithmic) is hidden from the optimizer.
 
     names: one for each parameter; start: (n,), the point known before the search.
 

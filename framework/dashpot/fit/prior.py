@@ -50,7 +50,7 @@ class Priors:
     deviation: Array
 
     def pulls(self, values: Array) -> Array:
-        """How many deviations (lanes, k) the numbers of lanes (lanes, slots) in SI are above the middles."""
+        """How many deviations (lanes, k) the parameters of lanes (lanes, slots) in SI are above the middles."""
         own = values[:, self.slots]
         with np.errstate(invalid="ignore", divide="ignore"):
             own = np.where(self.log, np.log(np.where(self.log, own, 1.0)), own)

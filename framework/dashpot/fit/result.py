@@ -76,7 +76,7 @@ class FitResult:
 
     @property
     def covariance(self) -> NDArray[np.float64]:
-        """The covariance (p, p) of the numbers ``free``, in products of their SI units.
+        """The covariance (p, p) of the parameters ``free``, in products of their SI units.
 
         Standard errors as in the intervals, without Student's factor for few blocks, times ``correlation``; to first
         order where a number is searched by logarithm. Infinite on the diagonal, and 0 beside it, for a number that the

@@ -6,7 +6,9 @@ from collections.abc import Mapping, Sequence
 
 from dashpot.data.excitation import Excitation, channel_at
 from dashpot.data.motion_range import motion_range
+from dashpot.data.run import Run
 from dashpot.fit.scored import ScoredRun
+from dashpot.model.identified import outside
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import topology_of
 
@@ -32,6 +34,19 @@ def covered(spec: NetworkSpec, excitation: Excitation) -> dict[str, tuple[float,
         for node in topology.held("driven")
         for quantity, ends in motion_range([motions[node]], _smallest(recorded, node)).items()
     }
+
+
+def beyond_range(spec: NetworkSpec, run: Run | Excitation) -> list[str]:
+    """What of a run lies outside of the range of identification, in words; nothing where none is recorded."""
+    recorded = spec.identified.range
+    if not recorded:
+        return []
+    return outside(covered(spec, run if isinstance(run, Excitation) else Excitation.of_run(run)), recorded)
+
+
+def warning_of_range(name: str, words: Sequence[str]) -> str:
+    """The sentence for a run of that name with ``words`` from ``beyond_range``."""
+    return f"run '{name}' lies outside of the range of identification: {'; '.join(words)}"
 
 
 def _smallest(recorded: Mapping[str, tuple[float, float]], node: str) -> float | None:

@@ -75,7 +75,7 @@ def followed(slots: Sequence[Slot], derived: Derived) -> dict[str, Value]:
             low, high = rule.sensible
             message = (
                 f"expected an expression that gives {low:g} to {high:g} {slot.value.unit}, "
-                f"'{slot.value.expression}' does not; check the numbers in it and their units"
+                f"'{slot.value.expression}' does not; check its values and their units"
             )
             raise InputError([_problem(slot, message)])
         found[slot.path] = replace(slot.value, number=number)
@@ -90,8 +90,8 @@ def _rule(number: int, slots: Sequence[Slot], places: Mapping[str, int]) -> Rule
         value = slots[place].value
         if value.setting or value.over:
             raise ValueError(
-                f"'{name}' is another number in each run, as a setting says: no expression can refer to it; "
-                "write the dependence at both numbers"
+                f"'{name}' depends on a setting and differs from run to run: no expression can refer to it; "
+                "write the dependence at both parameters"
             )
     _check_unit(expression, slot, {name: slots[place].value.unit for name, place in names.items()})
     return Rule(number, expression.term.node, names, slot.value.sensible)
@@ -106,9 +106,9 @@ def _find(name: str, path: str, places: Mapping[str, int]) -> int:
         if full in places and full != path:
             return places[full]
     if name == path or path.endswith(f".{name}"):
-        raise ValueError(f"the number refers to itself by '{name}'; refer to another one")
+        raise ValueError(f"the parameter refers to itself by '{name}'; refer to another one")
     hint = nearest(name, places) or f"known here: {', '.join(places)}"
-    raise ValueError(f"there is no number '{name}'; {hint}")
+    raise ValueError(f"there is no parameter '{name}'; {hint}")
 
 
 def _check_unit(expression: Expression, slot: Slot, units: Mapping[str, str]) -> None:
@@ -127,7 +127,7 @@ def _in_turn(rules: Mapping[int, Rule], slots: Sequence[Slot]) -> Iterator[Rule]
         ready = [number for number, rule in waiting.items() if not set(rule.names.values()) & set(waiting)]
         if not ready:
             circle = ", ".join(f"'{slots[number].path}'" for number in waiting)
-            message = f"{circle} follow from one another in a circle; give one of them a number"
+            message = f"{circle} follow from one another in a circle; give one of them a value"
             raise InputError([_problem(slots[next(iter(waiting))], message)])
         for number in ready:
             yield waiting.pop(number)

@@ -19,7 +19,7 @@ Scale = Literal["log", "linear"]
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number of the law.
+    """A parameter of the law.
 
     ``unit`` is SI text, ``bounds`` the range that makes physical sense in SI, ``scale`` how an optimizer should search
     it. A parameter with a ``default`` that a file does not mention is compiled as that constant.
@@ -142,7 +142,7 @@ class Element(ABC):
     Subclasses declare ``Parameter``, ``Curve`` and ``State`` as class attributes and implement ``step``. ``word`` is
     the name in a file; it defaults to the name of the module that holds the class. ``source`` is the publication that
     the law follows. ``exact`` claims that one step is the same as two over its halves, ``passive`` that the law never
-    gives back more work than was put in, whatever its numbers; set to False what does not hold. ``picture`` is how a
+    gives back more work than was put in, for any parameters; set to False what does not hold. ``picture`` is how a
     schematic shows the element.
 
     Examples:
@@ -184,7 +184,7 @@ class Element(ABC):
         """
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
-        """The energy in J that could be got back at the end of a step; ``z`` holds the states there.
+        """The energy in J that is recoverable at the end of a step; ``z`` holds the states there.
 
         None, the default, leaves it to the framework: a law of the deflection alone gives all work back, one of the
         rates alone nothing; of other laws it is then not known.

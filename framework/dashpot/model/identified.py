@@ -34,7 +34,7 @@ class Identified:
 
     def told(self) -> str:
         """The range in words; empty where none is recorded."""
-        return ", ".join(f"{name} {_span(name, ends)}" for name, ends in self.range.items())
+        return ", ".join(f"{name} {_span(name, self.range)}" for name in self.range)
 
 
 def read_identified(form: Form) -> Identified:
@@ -59,7 +59,7 @@ def read_identified(form: Form) -> Identified:
 
 def range_text(found: Range) -> str:
     """The range as it is written into a file."""
-    return f"{{{', '.join(f'{name}: {_listed(name, ends)}' for name, ends in found.items())}}}"
+    return f"{{{', '.join(f'{name}: {_listed(name, found)}' for name in found)}}}"
 
 
 def widened(found: Range) -> dict[str, tuple[float, float]]:
@@ -71,7 +71,7 @@ def outside(seen: Range, identified: Range) -> list[str]:
     """What of a motion lies outside the range of identification, in words; both by the same names."""
     limits = widened(identified)
     return [
-        f"{name} {_span(name, seen[name])}, identified in {_span(name, identified[name])}"
+        f"{name} {_span(name, seen)}, identified in {_span(name, identified)}"
         for name, (low, high) in limits.items()
         if name in seen and not (seen[name][0] >= low and seen[name][1] <= high)
     ]
@@ -105,16 +105,20 @@ def _widened(name: str, ends: tuple[float, float], found: Range) -> tuple[float,
     return low - room, high + room
 
 
-def _listed(name: str, ends: tuple[float, float]) -> str:
-    return f"[{', '.join(_pretty(name, ends, DIGITS))}]"
+def _listed(name: str, found: Range) -> str:
+    return f"[{', '.join(_pretty(name, found, DIGITS))}]"
 
 
-def _span(name: str, ends: tuple[float, float]) -> str:
-    low, high = _pretty(name, ends, 3)
+def _span(name: str, found: Range) -> str:
+    low, high = _pretty(name, found, 3)
     return low if low == high else f"{low} to {high}"
 
 
-def _pretty(name: str, ends: tuple[float, float], digits: int) -> list[str]:
-    if quantity_of(name) in PLACES:
-        ends = beside(ends[0], max(map(abs, ends))), beside(ends[1], max(map(abs, ends)))
+def _pretty(name: str, found: Range, digits: int) -> list[str]:
+    quantity, at, node = name.partition("@")
+    ends = found[name]
+    if quantity in PLACES:
+        # what is a thousandth of the way of the node is no place of its own, but noise
+        largest = max(map(abs, (*ends, *found.get(f"displacement{at}{node}", ()))))
+        ends = beside(ends[0], largest), beside(ends[1], largest)
     return pretty_all(ends, unit_of(name), digits)

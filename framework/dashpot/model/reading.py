@@ -103,7 +103,7 @@ def _read_measurement(form: Form, problems: list[Problem]) -> dict[str, Value]:
                 Problem(
                     place,
                     f"measurement, {path}: of the load cell only gain and offset may depend on a setting",
-                    "write the number alone",
+                    "write the value alone",
                 )
             )
         elif value:

@@ -176,7 +176,7 @@ def _read_fixed(node: Mapping, kind: Kind, reading: Reading) -> Value | None:
     number = form.take("fixed", lambda inner: read_quantity(reading.pick(inner), kind.unit))
     over = _read_over(form, kind, reading)
     if "over" not in form:
-        form.complain("fixed", f"{reading.what}: 'fixed' is for a number with 'over'", "write the number alone")
+        form.complain("fixed", f"{reading.what}: 'fixed' is for a parameter with 'over'", "write the value alone")
     form.close()
     if number is None:
         return None
@@ -197,9 +197,9 @@ def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
     def read(node: Node, unit: str, bounds: tuple[float, float], scale: Scale, name: str) -> Value | None:
         value = read_value(node, Kind(unit, bounds, scale), reading.named(f"{reading.what}, {name}"))
         if value and (value.over or value.setting):
-            reading.complain(node.place, f"the {name} cannot depend on a setting itself", "write a number")
+            reading.complain(node.place, f"the {name} cannot depend on a setting itself", "write a value")
         elif value and value.expression:
-            reading.complain(node.place, f"the {name} cannot follow from other numbers", "write a number")
+            reading.complain(node.place, f"the {name} cannot follow from other parameters", "write a value")
         return value
 
     return read_over(below, kind.unit, read)

@@ -45,7 +45,7 @@ class Campaign(Printed, CampaignResult):
         return campaign_headline(self.content)
 
     def table(self) -> Listing:
-        """Every specimen with its properties, its numbers and their intervals in SI."""
+        """Every specimen with its properties, its parameters and their intervals in SI."""
         return Listing.of(specimens_grid(self.content))
 
     def to_pandas(self) -> DataFrame:
@@ -53,7 +53,7 @@ class Campaign(Printed, CampaignResult):
         return self.table().to_pandas()
 
     def plot(self, parameter: str, over: str = "", model: str = "") -> PlotlyFigure:
-        """Draw a number of a model over the specimens, or over one of their properties.
+        """Draw a parameter of a model over the specimens, or over one of their properties.
 
         ``model`` is the first one unless said otherwise. ValueError for what no specimen has.
         """

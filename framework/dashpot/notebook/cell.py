@@ -7,7 +7,7 @@ from functools import singledispatch
 from html import escape
 
 from dashpot.report.parts import Code, Column, Grid, Notice, Part, Picture
-from dashpot.report.tables import cell_text
+from dashpot.report.tables import cell_text, printed_heading
 
 # what is marked important stands against the styles that Jupyter gives to every table and text
 STYLE = """
@@ -55,7 +55,7 @@ def _(part: Notice) -> str:
 
 @shown.register
 def _(part: Grid) -> str:
-    head = "".join(f"<th{_number(column)}>{escape(column.heading)}</th>" for column in part.columns)
+    head = "".join(f"<th{_number(column)}>{escape(printed_heading(column))}</th>" for column in part.columns)
     rows = [
         "".join(f"<td{_number(column)}>{escape(cell_text(column, row))}</td>" for column in part.columns)
         for row in part.rows

@@ -53,7 +53,7 @@ class Diagnosis(Printed, PlainDiagnosis):
         return headline(self.as_dict())
 
     def table(self) -> Listing:
-        """The causes: evidence, expected and realised gain, numbers, rivals."""
+        """The causes: evidence, gain on held-out runs with its interval, parameters, rivals."""
         return Listing.of(cause_grid(self.as_dict()))
 
     def misfits(self) -> Listing:

@@ -31,8 +31,8 @@ class Estimator(RegressorMixin, BaseEstimator):
     runs; y is not used, since a run holds its force.
 
     ``model`` is a network, its file or its shipped name; the other arguments are those of ``dp.fit``. All runs handed
-    to ``fit`` are trained on: what is held out, the tools of scikit-learn decide, by ``data.groups`` so that a run and
-    its repeats stay together. ImportError without scikit-learn.
+    to ``fit`` are trained on: the tools of scikit-learn decide on the hold-out; with ``groups=data.groups`` a run
+    and its repeats stay together. ImportError without scikit-learn.
 
     Examples:
         >>> from sklearn.model_selection import GroupKFold, cross_val_score
@@ -64,7 +64,7 @@ class Estimator(RegressorMixin, BaseEstimator):
         return list(self.fit_.predict(Dataset("runs", _runs(X))).values())
 
     def score(self, X: Sequence[Run] | Dataset, y: None = None) -> float:  # noqa: N803
-        """The coefficient of determination R^2: 1 less the squares of the residuals over those about the mean of each
+        """The coefficient of determination R^2: 1 minus the squares of the residuals over those about the mean of each
         run, both after the warm-up, summed over all runs."""
         scored = weighted(_runs(X))
         network = compile_network(self.fit_.fitted)

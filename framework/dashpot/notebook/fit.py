@@ -13,6 +13,7 @@ from dashpot.fit.api import prepare
 from dashpot.fit.result import FitResult
 from dashpot.kernel.api import forces_by_name, solve_runs
 from dashpot.model.reading import parse_network
+from dashpot.notebook.beyond import warn_of_range
 from dashpot.notebook.cell import cell
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class Fit(Printed, FitResult):
-    """A network with the parameters that were found. In a notebook it shows its errors and its numbers with intervals.
+    """A network with its identified parameters. In a notebook it shows the errors, and the parameters with intervals.
 
     Examples:
         >>> fit = dp.fit("mount.yaml", data, seed=1)
@@ -78,13 +79,18 @@ class Fit(Printed, FitResult):
 
     @property
     def residuals(self) -> dict[str, NDArray[np.float64]]:
-        """Measured less simulated force (n,) in N of every run, the warm-up included, which the errors leave out."""
+        """Residual (n,) in N of every run: measured minus simulated force. The RMSE excludes the warm-up."""
         simulated = self._comparison.simulated[self.declared.name]
         return {run.name: run.force - simulated[run.name] for run in self.dataset.runs}
 
     def predict(self, data: Dataset) -> dict[str, NDArray[np.float64]]:
-        """The force (n,) in N of every run of a dataset, by name, with the numbers that were found."""
-        return forces_by_name(solve_runs(self.fitted, data))
+        """The force (n,) in N of every run of a dataset, by name, with the identified parameters.
+
+        Runs beyond the range of the identification give a UserWarning.
+        """
+        found = forces_by_name(solve_runs(self.fitted, data))
+        warn_of_range(self.model, {run.name: run for run in data.runs})
+        return found
 
     @cached_property
     def model(self) -> Model:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Look(Printed, PlainLook):
-    """Measured runs before any model. In a notebook it shows the runs in numbers, with the work of their cycles.
+    """Measured runs before any model. In a notebook it shows a table of the runs, with the energy of their cycles.
 
     Examples:
         >>> seen = dp.look(data)
@@ -51,7 +51,7 @@ class Look(Printed, PlainLook):
         return tuple(figure.title for figure in look_figures(self._evidence))
 
     def table(self) -> Listing:
-        """The runs in numbers."""
+        """The runs: range of motion and force, noise floor, energy per cycle."""
         return Listing.of(look_grid(self.as_dict()))
 
     def to_pandas(self) -> DataFrame:

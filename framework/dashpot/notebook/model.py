@@ -33,8 +33,8 @@ class Model(Printed, NetworkSpec):
 
     It can be changed: ``model["rubber"].stiffness = ...``, ``model.add(...)``, ``del model["rubber"]``. What is set is
     what one would write into the file: ``"220 N/mm"``, a number in SI, or ``{"start": ..., "bounds": [...]}`` for one
-    that is to be found. Each change is written into the text and read again: InputError, and the model stays as it was,
-    where that makes no sound network. Results keep the model as it was when they were computed.
+    that is to be identified. Each change is written into the text and read again: InputError, and the model stays as
+    it was, where that makes no sound network. Results keep the model as it was when they were computed.
 
     Examples:
         >>> model = dp.load("gehmann")
@@ -78,8 +78,8 @@ class Model(Printed, NetworkSpec):
     ) -> NDArray[np.complex128]:
         """K' + i K'' in N/m over frequency (Hz), amplitude and preload (m), broadcast against each other.
 
-        Of a steady sine that begins at the preload, as the load cell shows it. ``settings`` in SI give the numbers that
-        depend on the settings of a run. InputError for a network with several driven ends.
+        Of a steady sine that begins at the preload, as the load cell shows it. ``settings`` in SI set the
+        parameters that depend on the settings of a run. InputError for a network with several driven ends.
         """
         from dashpot.kernel.stiffness import dynamic_stiffness
 

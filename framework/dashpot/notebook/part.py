@@ -11,9 +11,9 @@ from dashpot.text.quantity import pretty
 
 
 class Part:
-    """What ``model["rubber"]`` gives: ``.stiffness`` is the number in SI, and can be set as a file would say it.
+    """What ``model["rubber"]`` gives: ``.stiffness`` is the parameter in SI, and can be set as in a file.
 
-    A number that stands at several places, as the knots of a table do, is a tuple.
+    A parameter with several values, as the knots of a table, is a tuple.
 
     Examples:
         >>> model = dp.load("kelvin_voigt")
@@ -42,7 +42,7 @@ class Part:
         if not found:
             known = dict.fromkeys(map(_key, self._slots()))
             raise AttributeError(
-                f"'{self._name}' has no number '{key}'; "
+                f"'{self._name}' has no parameter '{key}'; "
                 f"{nearest(key, known) or 'it has ' + (', '.join(known) or 'none')}"
             )
         return found[0] if len(found) == 1 else tuple(found)

@@ -24,6 +24,7 @@ from dashpot.fit.virtual_test import virtual_test
 from dashpot.kernel.api import TOLERANCE, forces_by_name, solve_runs
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.model.reading import FORMAT, parse_network, read_network
+from dashpot.notebook.beyond import warn_of_range
 from dashpot.notebook.campaign import Campaign
 from dashpot.notebook.comparison import Comparison
 from dashpot.notebook.data import Data
@@ -106,7 +107,7 @@ def Network(  # noqa: N802
 def load_dataset(path: str | Path, *, allow_outside: bool = False, registry: Registry | None = None) -> Data:
     """The dataset of a folder, of its ``dataset.yaml``, or of a single file with a sidecar.
 
-    Runs with a fault are set aside and told of in ``problems``. ``allow_outside`` also reads files outside of the
+    Runs with a fault are excluded and listed in ``problems``. ``allow_outside`` also reads files outside of the
     folder of the dataset. InputError when no run is left.
 
     Examples:
@@ -141,23 +142,26 @@ def simulate(
 
     A run with several driven nodes has an entry ``run@node`` for each. Where nodes are free to move, so many steps
     lie between two samples that the error of each force is at most the ``tolerance``, a share of its RMS; or, by hand,
-    ``refine`` times as many as usual. InputError for a model whose curves have no numbers
-    yet, and for a run that lacks a motion.
+    ``refine`` times as many as usual. A run beyond the range with which the model was identified gives a UserWarning.
+    InputError for a model whose curves are not identified yet, and for a run that lacks a motion.
 
     Examples:
         >>> forces = dp.simulate("mount.yaml", data)
         >>> forces["a1_p2_up"].shape == data.run("a1_p2_up").force.shape
         True
     """
-    runs = _data(data, registry)
-    return forces_by_name(solve_runs(_model(model, registry), runs, refine=refine, tolerance=tolerance))
+    runs, spec = _data(data, registry), _model(model, registry)
+    found = forces_by_name(solve_runs(spec, runs, refine=refine, tolerance=tolerance))
+    warn_of_range(spec, {run.name: run for run in runs.runs})
+    return found
 
 
 def measure(model: AnyModel, rig: str, *, seed: int = 0, registry: Registry | None = None, **options: object) -> Data:
     """The model on a virtual test rig: a test procedure with its options, or a bench, shipped or as a file.
 
-    Options are texts as on the command line (``depth="20 mm"``). The same seed gives the same noise. InputError for an
-    unknown rig or a model whose curves have no numbers yet, ValueError for options that do not fit.
+    Options are texts as on the command line (``depth="20 mm"``). The same seed gives the same noise. A run beyond the
+    range with which the model was identified gives a UserWarning. InputError for an unknown rig or a model whose
+    curves are not identified yet, ValueError for options that do not fit.
 
     Examples:
         >>> loop = dp.measure("mount.yaml", "triangle", depth="2 mm", loops=1)
@@ -166,7 +170,9 @@ def measure(model: AnyModel, rig: str, *, seed: int = 0, registry: Registry | No
     """
     found, spec = registry or load_registry(), _model(model, registry)
     bench = find_bench(rig, found.rigs, {key: str(value) for key, value in options.items()})
-    return Data(f"{spec.name} on {bench.name} (virtual)", tuple(virtual_test(spec, bench, seed)))
+    measured = Data(f"{spec.name} on {bench.name} (virtual)", tuple(virtual_test(spec, bench, seed)))
+    warn_of_range(spec, {planned.name: planned.excitation() for planned in bench.runs()})
+    return measured
 
 
 def write_dataset(data: Dataset, folder: str | Path) -> Path:

@@ -157,8 +157,8 @@ def taken_as_known(study: Json) -> Iterator[str]:
                 else f"{number(100.0 * share, 2)} % off the measured"
             )
             yield (
-                f"{model['name']} takes {curve['curve']} as known, {told}: its numbers hold if the curve in its file "
-                "is that of this specimen."
+                f"{model['name']} takes {curve['curve']} as known, {told}: its parameters hold if the curve in its "
+                "file is that of this specimen."
             )
 
 

@@ -110,7 +110,6 @@ def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
         Column("cause", "cause"),
         Column("found", "verdict"),
         Column("evidence", "evidence"),
-        Column("expected", "expected gain", "%", 2),
         Column("gain", "gain held-out", "%", 2, interval="ends"),
         Column("interval", "interval", "%"),
         Column("parameters", "parameters"),
@@ -159,14 +158,12 @@ def rejected_grid(rejected: Sequence[Json]) -> Grid:
     columns = [
         Column("cause", "tried"),
         Column("reason", "rejected because"),
-        Column("expected", "expected gain", "%", 2),
         Column("gain", "gain held-out", "%", 2),
     ]
     rows = [
         {
             "cause": cause_title(item),
             "reason": item["reason"],
-            "expected": _percent(item.get("expected_gain")),
             "gain": _percent(item.get("gain")),
         }
         for item in rejected
@@ -304,7 +301,6 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
         "cause": cause_title(cause) + (" (measurement)" if cause.get("class") == "measurement" else ""),
         "found": _found(cause),
         "evidence": cause.get("evidence"),
-        "expected": _percent(cause.get("expected_gain")),
         "gain": _percent(cause.get("gain")),
         "interval": percent_interval(cause.get("gain_interval")),
         "ends": [100.0 * end for end in cause.get("gain_interval") or ()],

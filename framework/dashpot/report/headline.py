@@ -76,7 +76,7 @@ def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
     if verdict == "bad_data":
         return "The measurement is at fault first; named are ", ""
     if verdict == "ambiguous":
-        return f"{error}: these data cannot tell apart ", ""
+        return f"{error}: not distinguishable by these data: ", ""
     share = f"; {percent(errors.gain)} of it is " if errors.gain is not None else ": "
     left = f"; {quantity(errors.after, 'N')} remain" if verdict == "partly_explained" and errors.after else ""
     return f"{error}{share}", left
@@ -207,13 +207,13 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     """What is sure comes first; causes that fit alike explain the rest of it."""
     rivals = _rivals(diagnosis)
     if len(rivals) < 2:
-        return f"{error_phrase(errors)}: these data cannot tell its cause."
+        return f"{error_phrase(errors)}: the cause is not identifiable from these data."
     sure = [cause for cause in accepted_causes(diagnosis) if not cause.get("indistinguishable_from")]
     known = [cause_title(cause) for cause in sure]
     names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
     if not sure:
-        return f"{error_phrase(errors)}: {names} explain it alike, and these data cannot tell them apart."
-    rest = f"a further part {names} explain alike, and these data cannot tell them apart"
+        return f"{error_phrase(errors)}: {names} explain it equally well; these data do not distinguish them."
+    rest = f"a further part is explained equally well by {names}; these data do not distinguish them"
     gain = _gain_of(sure)
     share = "part" if gain is None else percent(gain)
     return f"{error_phrase(errors)}; {share} of it is {_named(sure)}; {rest}."

@@ -77,7 +77,7 @@ def look_headline(look: Json) -> str:
     wrong = [run["run"] for run in look["runs"] if run["gives_back"]]
     if wrong:
         gives = "gives" if len(wrong) == 1 else "give"
-        return f"{join(wrong)} {gives} back work over closed cycles: look at signs, swapped channels and delays."
+        return f"{join(wrong)} {gives} back energy over closed cycles: check signs, swapped channels and delays."
     forces = [abs(run[key]) for run in look["runs"] for key in ("least_force", "largest_force")]
     floor, explainable = floor_value(look), explainable_value(look)
     told = [f"Forces up to {quantity(max(forces), 'N')}"]

@@ -12,6 +12,7 @@ from dashpot.report.plot_json import plot_json
 from dashpot.report.security import content_policy, script_json
 from dashpot.report.tables import cell_text, to_csv
 from dashpot.report.theme import DARK, LIGHT, style_variables
+from dashpot.text.digits import typeset
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -54,7 +55,7 @@ def _environment() -> Environment:
     )
     environment.filters |= {"script_json": _figure_json, "csv_link": _csv_link, "picture": _picture}
     environment.filters |= {"text_link": _text_link, "lines": _lines}
-    environment.globals |= {"cell_text": cell_text}
+    environment.globals |= {"cell_text": cell_text, "typeset": typeset}
     return environment
 
 

@@ -20,7 +20,7 @@ Json = Mapping[str, Any]
 MOST_DRAWS = 10_000  # rows of the table
 DRAWN = ("posterior.csv", "draws.csv")
 TEXT = (
-    "What data and priors together tell of the parameters, within the bounds. The draws follow a model that is not "
+    "What data and priors together say about the parameters, within the bounds. The draws follow a model that is not "
     "linear, and bounds that cut an interval off; the intervals of the fit follow the colour of the residual as each "
     "parameter feels it, for which the posterior has one error of all samples."
 )

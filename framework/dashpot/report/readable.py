@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from dashpot.text.digits import MISSING, is_interval, number, number_within
+from dashpot.text.digits import MISSING, is_interval, number, number_within, typeset
 from dashpot.text.quantity import pretty
 
 
 def set_value(value: float, unit: str) -> str:
     """An SI value somebody set (an amplitude, the edge of a band), without zeros nobody wrote: "0.5 mm"."""
-    return pretty(value, unit)
+    return typeset(pretty(value, unit))
 
 
 def percent_interval(interval: Sequence[float] | None) -> str | None:

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dashpot.report.parts import Column, Grid
-from dashpot.text.digits import MISSING, number_within
+from dashpot.text.digits import MISSING, number_within, typeset
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
     from rich.table import Table
 
+UNIT = "unit"  # the key of a column of units
 FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r")
 
 
@@ -25,8 +26,13 @@ def cell_text(column: Column, row: Mapping[str, Any]) -> str:
     if value is None:
         return MISSING
     if isinstance(value, str | int) or column.digits is None:
-        return str(value)
+        return typeset(str(value)) if column.key == UNIT else str(value)
     return number_within(value, row.get(column.interval), column.digits)
+
+
+def printed_heading(column: Column) -> str:
+    """The heading of a column as a reader sees it; a CSV file has `Column.heading`."""
+    return f"{column.title} ({typeset(column.unit)})" if column.unit else column.title
 
 
 def to_csv(rows: Sequence[Mapping[str, Any]], columns: Sequence[Column]) -> str:
@@ -52,7 +58,7 @@ def rich_table(grid: Grid) -> Table:
         # a long name goes on in the next line, a number is never cut
         width = None if column.digits is None else _width(column, grid)
         side: JustifyMethod = "left" if column.digits is None else "right"
-        table.add_column(Text(column.heading), justify=side, overflow="fold", min_width=width)
+        table.add_column(Text(printed_heading(column)), justify=side, overflow="fold", min_width=width)
     for row in grid.rows:
         table.add_row(*(Text(cell_text(column, row)) for column in grid.columns))
     return table

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from dashpot.text.digits import typeset
+
 LIGHT = {
     "paper": "#ffffff",
     "panel": "#f5f6f8",
@@ -116,8 +118,9 @@ def layout(height: int, **more: Any) -> dict[str, Any]:
 
 def axis(title: str = "", **more: Any) -> dict[str, Any]:
     """An axis; `title` carries the unit: "force (N)"."""
+    head, bracket, unit = title.rpartition("(")
     return {
-        "title": {"text": title, "standoff": 10, "font": {"size": 13}},
+        "title": {"text": head + bracket + typeset(unit) if bracket else title, "standoff": 10, "font": {"size": 13}},
         "gridcolor": "@grid",
         "zerolinecolor": "@line",
         "linecolor": "@line",

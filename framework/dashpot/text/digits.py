@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TypeGuard
 
@@ -10,7 +11,10 @@ from dashpot.text.quantity import factor, shown_unit
 
 MISSING = "–"
 LARGE = 1e7  # is written with an exponent
+SMALL = 1e-4  # below this, too
 PLACES = 3  # of a length beside the largest of its kind
+_TYPESET = {"*": "·", "^2": "²", "^3": "³"}
+_MICRO = re.compile(r"(?<![^\s·/(])u(?=[A-Za-z])")
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -34,8 +38,22 @@ def number_within(value: float, interval: Sequence[float] | None, digits: int = 
     if not is_interval(interval) or interval[0] == interval[1] or not abs(value) < LARGE:
         return number(value, digits)
     decimals = decimals_of(interval)
+    if 0.0 < abs(value) < SMALL:
+        return _small(value, decimals)
     shown = f"{value:.{decimals}f}"
     return number(value, 1) if float(shown) == 0.0 else shown
+
+
+def _small(value: float, decimals: int) -> str:
+    exponent = int(f"{value:e}".rpartition("e")[2])
+    return number(value, max(1, decimals + exponent + 1))
+
+
+def typeset(text: str) -> str:
+    """A text with its unit as it is printed: "0.4 N*s/mm" is "0.4 N·s/mm", "45 um" is "45 µm". `si` reads both."""
+    for plain, sign in _TYPESET.items():
+        text = text.replace(plain, sign)
+    return _MICRO.sub("µ", text)
 
 
 def decimals_of(interval: Sequence[float]) -> int:
@@ -45,7 +63,10 @@ def decimals_of(interval: Sequence[float]) -> int:
 
 
 def rig_unit(unit: str, value: float) -> tuple[float, str]:
-    """Factor and name of the unit in which an SI value of this size is shown: 1e-3 and "N/mm" for 220e3 N/m."""
+    """Factor and name of the unit in which an SI value of this size is shown: 1e-3 and "N/mm" for 220e3 N/m.
+
+    The name is as files have it; `typeset` prints it.
+    """
     shown = shown_unit(value, unit or "1")
     return (1.0, "") if shown == "1" else (1.0 / factor(shown, unit)[0], shown)
 
@@ -58,9 +79,9 @@ def quantity(value: float | None, unit: str, digits: int = 3) -> str:
 def shown_with_unit(value: float | None, unit: str, digits: int = 3) -> tuple[str, str]:
     """An SI value and its unit as a reader wants them: ("25.8", "kN")."""
     if value is None or not math.isfinite(value):
-        return MISSING, unit
+        return MISSING, typeset(unit)
     scale, name = rig_unit(unit, value)
-    return number(value * scale, digits), name
+    return number(value * scale, digits), typeset(name)
 
 
 def with_interval(value: float | None, interval: Sequence[float] | None, unit: str) -> str:
@@ -68,6 +89,7 @@ def with_interval(value: float | None, interval: Sequence[float] | None, unit: s
     if value is None or not math.isfinite(value):
         return MISSING
     scale, name = rig_unit(unit, value)
+    name = typeset(name)
     if not is_interval(interval):
         return f"{number(value * scale)} {name}".rstrip()
     ends = sorted(end * scale for end in interval)

@@ -89,7 +89,7 @@ def test_every_picture_is_drawn():
         "Force over displacement and velocity",
         "Force over velocity at mid stroke",
         "Force over deflection at low speed",
-        "The same less a straight spring",
+        "Force minus a linear spring",
         "Stiffness after reversals",
         "By amplitude, preload, setting and order",
         "Loss stiffness over time",

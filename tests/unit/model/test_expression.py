@@ -161,9 +161,9 @@ SPRING = "front: {element: spring, stiffness: {start: 200 N/mm}}\n"
     ("expression", "told"),
     [
         ("0.5 * front.stiffness", "expected an expression in N/(m/s), got one that measures mass * time^-2"),
-        ("0.5 s * frunt.stiffness", "there is no number 'frunt.stiffness'. did you mean 'front.stiffness'?"),
+        ("0.5 s * frunt.stiffness", "there is no parameter 'frunt.stiffness'. did you mean 'front.stiffness'?"),
         ("front.stiffness + 5", "expected quantities of one kind on both sides of a sum"),
-        ("2 * damping", "the number refers to itself by 'damping'"),
+        ("2 * damping", "the parameter refers to itself by 'damping'"),
         ("0.5*front.stiffness", "write operators between spaces"),
         ("1 s * front.stiffness )", "expected an operator, got ')'"),
         ("1 s * ( front.stiffness", "expected ')', got nothing"),
@@ -196,7 +196,7 @@ def test_a_number_that_runs_give_cannot_be_referred_to():
         a: {element: spring, stiffness: {setting: stiffness, value: 5 N/mm}}
         b: {element: spring, stiffness: {expression: 2 * a.stiffness}}
     """)
-    assert "is another number in each run" in message
+    assert "depends on a setting and differs from run to run" in message
 
 
 def test_a_long_or_deep_text_is_refused_at_once():

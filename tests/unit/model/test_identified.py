@@ -79,3 +79,10 @@ def test_places_beside_zero_are_zero_and_one_place_is_told_once():
     filled = fill_numbers(read(HEAD), read(HEAD), {}, seen)
     assert "displacement: [0 mm, 31 mm]" in filled and "preload: [2.5 mm, 2.5 mm]" in filled
     assert read(filled).identified.told() == "displacement 0 mm to 31 mm, preload 2.5 mm"
+
+
+def test_a_preload_about_zero_is_zero_beside_the_way_of_its_node():
+    seen = {"displacement@a": (-1e-3, 1e-3), "preload@a": (-0.2467e-6, 0.2467e-6), "displacement": (-1e-6, 1e-6)}
+    filled = fill_numbers(read(HEAD), read(HEAD), {}, seen | {"preload": (-0.2467e-6, 0.5e-6)})
+    assert "preload@a: [0 mm, 0 mm]" in filled and "displacement: [-1 um, 1 um]" in filled
+    assert "preload: [-0.247 um, 0.5 um]" in filled

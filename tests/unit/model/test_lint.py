@@ -155,8 +155,8 @@ def test_a_number_on_which_nothing_depends():
         "{a: driven, b: ground}",
     )
     assert str(found) == (
-        "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it by a "
-        "plain number, or remove it"
+        "n.yaml:6:63: warning: 'oil.offset' is free, but has no influence on the measured signals. fix it at a "
+        "value, or remove it"
     )
 
 
@@ -228,7 +228,7 @@ def test_numbers_that_cannot_be_told_apart_are_told_at_the_last_of_them():
     """)
     assert str(found) == (
         "n.yaml:5:33: warning: 'a.damping' and 'b.damping' cannot be distinguished: they compensate each other. "
-        "fix one of them with a plain number, or remove a branch"
+        "fix one of them at a value, or remove a branch"
     )
 
 
@@ -312,8 +312,8 @@ def test_equal_branches_in_parallel_that_start_alike():
         b: {element: maxwell, stiffness: {start: 5 N/mm}, relaxation_time: {start: 1 s}}
     """)
     assert str(found) == (
-        "n.yaml:5:6: warning: 'a' and 'b' are alike and in parallel: no search that follows slopes can part them. "
-        "start them at different numbers"
+        "n.yaml:5:6: warning: 'a' and 'b' are alike and in parallel: no gradient-based search can distinguish "
+        "them. give them different starts"
     )
 
 

@@ -80,7 +80,7 @@ def test_factors_between_places():
             "{start: 30 N, over: {setting: p, at: 1, slope: {start: 1 N, over: {setting: q, at: 1, slope: 1 N}}}}",
             "the slope cannot depend on a setting itself",
         ),
-        ("{fixed: 30 N}", "'fixed' is for a number with 'over'. write the number alone"),
+        ("{fixed: 30 N}", "'fixed' is for a parameter with 'over'. write the value alone"),
         ("{fixed: 1e9 N, over: {setting: p, at: 1, slope: 1 N}}", "expected 0.001 to 1e+06 N, got 1e+09"),
     ],
 )

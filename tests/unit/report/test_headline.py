@@ -76,12 +76,12 @@ def test_unexplained_tells_what_it_resembles_and_does_not_guess():
 def test_ambiguous_names_all_rivals():
     causes = [friction(accepted=False, indistinguishable_from=["relaxation"]), relaxation()]
     said = headline(diagnosis(verdict="ambiguous", causes=causes))
-    assert "dry friction of 41 N [38, 44] and relaxation of 160 ms [20, 900] explain it alike" in said
+    assert "dry friction of 41 N [38, 44] and relaxation of 160 ms [20, 900] explain it equally well" in said
 
 
 def test_a_rival_that_is_only_mentioned_is_named_too():
     causes = [friction(accepted=False, indistinguishable_from=["end_stop"])]
-    assert "and end stop explain it alike" in headline(diagnosis(verdict="ambiguous", causes=causes))
+    assert "and end stop explain it equally well" in headline(diagnosis(verdict="ambiguous", causes=causes))
 
 
 def test_bad_data_comes_before_any_judgement_of_the_model():
@@ -142,7 +142,7 @@ def test_what_is_sure_comes_before_what_cannot_be_told_apart():
     causes = [friction(gain=0.6), relaxation(accepted=True, indistinguishable_from=["delay", "friction"])]
     said = headline(diagnosis(verdict="ambiguous", causes=causes))
     assert "60 % of it is dry friction of 41 N [38, 44], missing in the model; a further part" in said
-    assert "more dry friction, relaxation of 160 ms [20, 900] and delay explain alike" in said
+    assert "explained equally well by more dry friction, relaxation of 160 ms [20, 900] and delay;" in said
 
 
 def test_large_forces_are_given_in_kilonewtons():
@@ -175,7 +175,7 @@ def test_silence_says_how_small_an_effect_it_is_about():
     ]
     said = headline(diagnosis(verdict="nothing_missing", causes=[], limits=limits))
     assert "leaves 1.30 N RMS of it or more" in said
-    assert "delay, from 9.00 N RMS on (delay 45.0 us)." in said
+    assert "delay, from 9.00 N RMS on (delay 45.0 µs)." in said
 
 
 SUSPENSION, BAR = "between wheel_left and body, likewise wheel_right and body", "between wheel_left and wheel_right"
@@ -190,7 +190,7 @@ def test_the_same_cause_at_another_place_is_a_rival():
     other = {"cause": "friction", "title": "dry friction", "place": BAR}
     cause = friction(place=SUSPENSION, indistinguishable_from=["friction"], alternatives=[other])
     said = headline(diagnosis(verdict="ambiguous", causes=[cause]))
-    assert f"dry friction of 41 N [38, 44] {SUSPENSION} and dry friction {BAR} explain it alike" in said
+    assert f"dry friction of 41 N [38, 44] {SUSPENSION} and dry friction {BAR} explain it equally well" in said
 
 
 def test_a_cause_that_was_needed_twice_may_not_be_the_one_that_is_hidden():

@@ -205,7 +205,7 @@ def test_a_known_curve_is_told_of_unless_it_was_measured_so():
         return list(taken_as_known({**content, "references": [] if share is None else references}))
 
     assert told(0.004) == []
-    assert "oil.damping as known, 30 % off the measured: its numbers hold if" in told(0.3)[0]
+    assert "oil.damping as known, 30 % off the measured: its parameters hold if" in told(0.3)[0]
     assert "the data state no measured curve" in told(None)[0]
 
 

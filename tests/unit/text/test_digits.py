@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dashpot.text.digits import beside, number, number_within, rig_unit, with_interval
+from dashpot.text.digits import beside, number, number_within, rig_unit, typeset, with_interval
 
 
 @pytest.mark.parametrize("value", [None, math.nan, math.inf])
@@ -36,14 +36,16 @@ def test_trailing_digits_are_kept_and_whole_digits_never_cut(value, digits, text
         (41.0, [38.0, 44.0], "N", "41 N [38, 44]"),
         (220e3, [219.2e3, 220.9e3], "N/m", "220.0 N/mm [219.2, 220.9]"),
         (0.16, [0.02, 0.9], "s", "160 ms [20, 900]"),
-        (45e-6, [40e-6, 50e-6], "s", "45 us [40, 50]"),
+        (45e-6, [40e-6, 50e-6], "s", "45 µs [40, 50]"),
         (41.0, None, "N", "41.0 N"),
         (41.0, [38.0, None], "N", "41.0 N"),
         (0.5, [0.5, 0.5], "", "0.500 [0.500, 0.500]"),
-        (7.97, [4.92, 12.91], "N*s/m", "8 N*s/m [5, 13]"),
+        (7.97, [4.92, 12.91], "N*s/m", "8 N·s/m [5, 13]"),
         (2.5e-3, [2.4999e-3, 2.5001e-3], "m", "2.50000 mm [2.49990, 2.50010]"),
         (2e-4, [0.0, 4e-3], "", "0.0002 [0, 0.004]"),
         (1e-9, [0.0, 0.5], "", "1e-09 [0, 0.5]"),
+        (2.54e-10, [2.31e-10, 2.77e-10], "", "2.5e-10 [2.3e-10, 2.8e-10]"),
+        (2.54e-10, [-1.1e-11, 5.2e-10], "", "3e-10 [-1e-11, 5e-10]"),
         (8.17e14, [1e14, 3e15], "N", "8.17e+11 kN [1.00e+11, 3.00e+12]"),
     ],
 )
@@ -64,6 +66,26 @@ def test_a_number_is_right_to_a_half_of_its_interval_and_never_shown_as_zero(val
     shown = float(number_within(value, (value - half, value + half)))
     assert shown != 0.0
     assert abs(shown - value) <= half
+
+
+@pytest.mark.parametrize(
+    ("written", "printed"),
+    [
+        ("N*s/mm", "N·s/mm"),
+        ("5 kN*s^2/m^2", "5 kN·s²/m²"),
+        ("45 um", "45 µm"),
+        ("N/um", "N/µm"),
+        ("mm/s", "mm/s"),
+        ("1/(us*K)", "1/(µs·K)"),
+        ("a drum", "a drum"),
+    ],
+)
+def test_units_are_printed_with_their_signs(written, printed):
+    from dashpot.text.quantity import si
+
+    assert typeset(written) == printed
+    if written[0].isdigit() and "/" not in written:
+        assert si(printed, "m") == si(written, "m")
 
 
 def test_what_is_measured_beside_zero_is_zero():

@@ -112,7 +112,7 @@ def _check(tie: Tie, networks: Mapping[str, NetworkSpec]) -> None:
     for other in others:
         told = f"'{other.path}' of '{other.name}' and '{first.path}' of '{first.name}'"
         if other.value.unit != first.value.unit:
-            raise ValueError(f"{told} are in {other.value.unit} and {first.value.unit}; share numbers of one unit")
+            raise ValueError(f"{told} are in {other.value.unit} and {first.value.unit}; share parameters of one unit")
         if other.value.scale != first.value.scale:
             raise ValueError(f"{told} are searched on a {other.value.scale} and a {first.value.scale} scale; agree")
         _check_knots(other, first, networks, told)
@@ -130,7 +130,7 @@ def _home(name: str, path: str, network: NetworkSpec) -> _Home:
 def _check_knots(one: _Home, other: _Home, networks: Mapping[str, NetworkSpec], told: str) -> None:
     curves = [networks[home.name].curves().get(home.path.partition("[")[0]) for home in (one, other)]
     if any(curve and curve.data for curve in curves):
-        raise ValueError(f"{told} come from the slow loop of each specimen; share numbers that no loop gives")
+        raise ValueError(f"{told} come from the slow loop of each specimen; share parameters that no loop gives")
     ats = [curve.at if curve else () for curve in curves]
     if ats[0] != ats[1]:
         raise ValueError(f"{told} are knots at different places; give both curves the same knots")

@@ -131,7 +131,7 @@ def _fitted(spec: JointSpec, datasets: Mapping[str, Dataset], pool: Jobs, progre
     found = refine(whole, common.coordinates, common.coordinates.start, POLISH_STEPS)
     if found.outcome is Outcome.FAILED:
         message = f"the specimens cannot be simulated with one value of {', '.join(tie.title for tie in spec.ties)}"
-        raise InputError([Problem(spec.ties[0].place, message, "share fewer numbers, or check their units")])
+        raise InputError([Problem(spec.ties[0].place, message, "share fewer parameters, or check their units")])
     values = common.coordinates.to_values(found.point)[0]
     fitted = {
         name: body.whole.at(own[name].of_values(values[part]))

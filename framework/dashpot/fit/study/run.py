@@ -92,7 +92,7 @@ def run_study(
 ) -> StudyResult:
     """Identify every model of a study; what an earlier call left in the folder ``checkpoint`` is not done again.
 
-    The same study, data and version give the same numbers, bit for bit, with any number of workers and after any
+    The same study, data and version give the same results, bit for bit, with any number of workers and after any
     number of interruptions. Raises InputError for patterns that name nothing, for networks that do not compile, and for
     references of another kind than the parameters of their paths.
     On a pool or a cluster models that do not build on each other are pieces of work, which reach the ``checkpoint``

@@ -43,7 +43,7 @@ def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Pr
             yield Problem(
                 _place(slot),
                 f"'{slot.path}' is free, but has no influence on the measured signals",
-                "fix it by a plain number, or remove it",
+                "fix it at a value, or remove it",
                 "warning",
             )
     groups = _dependencies(table)
@@ -65,8 +65,8 @@ def find_equal_starts(topology: Topology) -> Iterator[Problem]:
             yield Problem(
                 branch.place,
                 f"'{known[make].name}' and '{branch.name}' are alike and in parallel: no "
-                "search that follows slopes can part them",
-                "start them at different numbers",
+                "gradient-based search can distinguish them",
+                "give them different starts",
                 "warning",
             )
         known.setdefault(make, branch)
@@ -190,7 +190,7 @@ def _confusion(slots: list[Slot]) -> Problem:
     return Problem(
         _place(last),
         f"{listed}: they compensate each other",
-        "fix one of them with a plain number, or remove a branch",
+        "fix one of them at a value, or remove a branch",
         "warning",
     )
 

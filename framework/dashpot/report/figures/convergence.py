@@ -34,7 +34,7 @@ def convergence_history(history: Mapping[str, Progress]) -> Figure:
     axes = {"xaxis": axis(EVALUATIONS, rangemode="tozero"), "yaxis": _error_axis(history.values())}
     plot = {"data": traces, "layout": layout(340, **axes, showlegend=True)}
     return Figure(
-        "Convergence of the fits", "The best error so far over the number of simulations.", plot, table.columns, True
+        "Convergence of the fits", "The lowest RMSE so far over the number of simulations.", plot, table.columns, True
     )
 
 

@@ -15,7 +15,8 @@ from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, axis_number, layout, plain
 from dashpot.text.digits import rig_unit
 
-ACROSS, ROW, HEAD, GAP = 3, 220, 90, 0.09  # panels in a row; pixels of a panel and around it; share between two
+ACROSS, ROW, HEAD, GAP = 3, 220, 112, 0.09  # panels in a row; pixels of a panel and around it; share between two
+LONG = 20  # characters
 AT, VALUE, LOW, HIGH = "at", "value", "95 % from", "to"
 
 
@@ -34,7 +35,7 @@ def identified_curves(curves: Mapping[str, IdentifiedCurve]) -> Figure:
         axes |= _axes(index, (curve["over"], curve["told"]), units, across, (bottom, top))
         titles.append(
             {
-                "text": plain(path),
+                "text": _title(path),
                 "x": sum(across) / 2.0,
                 "y": top,
                 "xref": "paper",
@@ -47,6 +48,12 @@ def identified_curves(curves: Mapping[str, IdentifiedCurve]) -> Figure:
     caption = "Markers: knots; bands: their 95 % intervals, the structure of the model taken as right."
     plot = {"data": traces, "layout": layout(height, **axes, annotations=titles, showlegend=False)}
     return Figure("Identified curves", caption, plot, table.columns)
+
+
+def _title(path: str) -> str:
+    """A path that is longer than a panel of a narrow page is wide goes on in a second line."""
+    head, point, key = plain(path).rpartition(".")
+    return f"{head}<br>{point}{key}" if len(path) > LONG else plain(path)
 
 
 def _in_rig_units(path: str, curve: IdentifiedCurve) -> tuple[dict[str, Any], tuple[str, str]]:

@@ -37,7 +37,9 @@ def draw_traces(draws: Draws) -> Figure:
     axes = _panels(names, [f"({_unit(draws, name)[1] or '-'})" for name in names], STEP, steps[[0, -1]].tolist())
     caption = f"{_chosen(draws)}Lines: {len(followed)} of the {np.unique(walkers).size} walkers. "
     plot = {"data": traces, "layout": layout(**axes, showlegend=False)}
-    return Figure("Traces of the draws", caption + "At rest they overlap, without a trend.", plot, table.columns, True)
+    return Figure(
+        "Traces of the draws", caption + "Converged chains overlap, without a trend.", plot, table.columns, True
+    )
 
 
 def draw_ranks(draws: Draws) -> Figure:

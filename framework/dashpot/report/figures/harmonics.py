@@ -36,7 +36,7 @@ def harmonic_bars(harmonics: Mapping[str, Mapping[str, Sequence[float]]], series
     buttons = [toggles.series_group(labels, measured="", mark="bar", series=series)]
     return Figure(
         "Harmonics of the residual",
-        "Odd harmonics come from laws that treat both directions alike, even ones from one-sided laws.",
+        "Odd harmonics come from laws that are symmetric in both directions, even ones from asymmetric laws.",
         {"data": toggles.apply(traces, buttons), "layout": _layout(groups, buttons)},
         table.columns,
     )

@@ -52,7 +52,7 @@ def branch_loops(
     strokes = {name: float(np.ptp(runs[fastest])) for name, runs in branches.items() if fastest in runs}
     usual = float(np.median(list(strokes.values()))) if strokes else 0.0
     series = [name for name, stroke in strokes.items() if stroke <= STRONG * usual]
-    caption = f"What each branch of the model adds to the force; much stronger ones are a press away. {CYCLES}"
+    caption = f"The force of each branch of the model; branches with a much larger force are hidden at first. {CYCLES}"
     return _figure("Force of each branch", caption, measured, branches, (fastest,), series, measured_shown=False)
 
 

@@ -11,7 +11,7 @@ from dashpot.report.figures import toggles
 from dashpot.report.parts import Figure
 from dashpot.report.readable import percent
 from dashpot.report.theme import axis, layout
-from dashpot.text.digits import number
+from dashpot.text.digits import beside, number
 
 SIGNED = [[0.0, "@after"], [0.5, "@paper"], [1.0, "@before"]]
 IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
@@ -42,9 +42,9 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]
     alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
     caption = (
-        "Measured less simulated force, mean of each field: the model presses too little where it is positive. These "
+        "Measured minus simulated force, mean of each cell; positive: the force of the model is too small. These "
         f"two variables predict {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
-        f"held-out stretches; alone: {alone}. Every row and column has as many samples."
+        f"held-out pieces; alone: {alone}. Every row and every column holds the same number of samples."
     )
     axes = {
         which: axis(
@@ -52,7 +52,7 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
             zeroline=False,
             showgrid=False,
             tickvals=np.arange(edges.size),
-            ticktext=[number(edge, 2) for edge in edges],
+            ticktext=_ticks(edges),
         )
         for which, name, edges in (("xaxis", x_name, x), ("yaxis", y_name, y))
     }
@@ -66,7 +66,15 @@ def _ranges(edges: np.ndarray) -> list[str]:
     return [f"{number(low)} to {number(high)}" for low, high in zip(edges, edges[1:], strict=False)]
 
 
+def _ticks(edges: np.ndarray) -> list[str]:
+    """The edges with two digits, or as many more as are needed to distinguish them."""
+    shown = [[number(edge, digits) for edge in edges] for digits in (2, 3, 4)]
+    return next((texts for texts in shown if len(set(texts)) == len(texts)), shown[-1])
+
+
 def _axis_of(variable: Mapping[str, Any]) -> tuple[str, np.ndarray]:
     factor, unit = IN_RIG_UNITS.get(variable["unit"], (1.0, variable["unit"]))
     name = variable["name"].replace("_", " ")
-    return (f"{name} ({unit})" if unit else name), factor * np.asarray(variable["edges"], dtype=float)
+    edges = factor * np.asarray(variable["edges"], dtype=float)
+    largest = float(np.max(np.abs(edges)))
+    return (f"{name} ({unit})" if unit else name), np.array([beside(edge, largest) for edge in edges])

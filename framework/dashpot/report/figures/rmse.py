@@ -30,7 +30,7 @@ def rmse_bars(
         traces.append(_line("noise floor", floor, "dash"))
     if explainable is not None:
         traces.append(_line("explainable", explainable, "dot"))
-    caption = "Root mean square of the force error." + ("" if floor is None else " No model can get below the noise.")
+    caption = "RMSE of the force." + ("" if floor is None else " No model can be below the noise floor.")
     caption += "" if explainable is None else " Explainable: RMSE of a general model of the past motion."
     return Figure("Error of the models", caption, {"data": traces, "layout": _layout(names)}, table.columns)
 

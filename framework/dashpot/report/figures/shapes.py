@@ -37,32 +37,32 @@ WAYS = {
     "mid_stroke": Way(
         "Force over velocity at mid stroke",
         "One point for each stroke: the spring force is that of the middle, so what changes with velocity is "
-        "damping; a step at zero is friction. The mean force of each run is taken off.",
+        "damping; a step at zero is friction. The mean force of each run is subtracted.",
         "velocity (mm/s)",
-        "force less its mean (N)",
+        "force minus its mean (N)",
         1e3,
         points=True,
     ),
     "low_speed": Way(
         "Force over deflection at low speed",
-        "The runs below a tenth of the largest speed, or the slowest one, on the way in and on the way out: the middle "
-        "is the spring, the distance between both ways is friction and slow relaxation.",
+        "The runs below a tenth of the largest speed, or the slowest one, loading and unloading: the middle is the "
+        "spring, the distance between both is friction and slow relaxation.",
         "displacement (mm)",
         "force (N)",
         1e3,
     ),
     "less_spring": Way(
-        "The same less a straight spring",
-        "One straight line through all measured curves is taken off: what bends is a rising or falling stiffness, the "
-        "distance between both ways is friction.",
+        "Force minus a linear spring",
+        "A linear spring fitted to all measured curves is subtracted: a bend is a rising or falling stiffness, the "
+        "distance between loading and unloading is friction.",
         "displacement (mm)",
-        "force less a straight line (N)",
+        "force minus a linear spring (N)",
         1e3,
     ),
     "after_reversals": Way(
         "Stiffness after reversals",
-        "The mean change of the force since the motion turned, over the travel since then. High at first and falling: "
-        "friction behind a stiffness, in fast runs damping; low at first and rising, or a dip on the way: "
+        "The mean change of the force since a reversal of the motion, over the travel since then. High at first and "
+        "falling: friction behind a stiffness, in fast runs damping; low at first and rising, or a dip on the way: "
         "clearance or slack; level: a spring.",
         "travel since the reversal (mm)",
         "stiffness since the reversal (N/mm)",
@@ -82,7 +82,7 @@ WAYS = {
     "force_spectrum": Way(
         "Amplitude spectrum of the force",
         "Lines that the displacement does not have are harmonics "
-        "that the specimen makes, a resonance or hum; the even carpet below is noise.",
+        "that the specimen makes, a resonance or hum; the broad floor below is noise.",
         "frequency (Hz)",
         "force (N)",
         logarithmic=(True, True),
@@ -90,7 +90,7 @@ WAYS = {
     ),
     "displacement_spectrum": Way(
         "Amplitude spectrum of the displacement",
-        "What the actuator did: harmonics here are not the specimen's.",
+        "Motion of the actuator: its harmonics are not caused by the specimen.",
         "frequency (Hz)",
         "displacement (mm)",
         1.0,
@@ -100,10 +100,10 @@ WAYS = {
     ),
     "repeats": Way(
         "Repeats against each other",
-        "Each run less the mean of all that repeat it, after small differences of their motion were taken out. An even "
-        "band is the noise floor; a slope is drift, a level a shifted zero, a pattern means that the specimen changed.",
+        "Each run minus the mean of its repeats, small differences of their motion compensated. An even band is the "
+        "noise floor; a slope is drift, a constant a zero shift, a pattern means that the specimen changed.",
         "time (s)",
-        "departure from the mean of the repeats (N)",
+        "deviation from the mean of the repeats (N)",
         first=4,
     ),
 }

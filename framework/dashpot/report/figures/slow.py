@@ -45,8 +45,8 @@ def slow_curves(curves: Mapping[str, Mapping[str, Mapping[str, np.ndarray]]]) ->
     groups = [toggles.series_group([label for label in labels if label != "measured"], mark="solid")]
     plot = {"data": toggles.apply(traces, groups), "layout": _layout(parts, groups)}
     caption = (
-        "Above: the elastic force, friction and its bias near the ends taken out. Below: half the width of the loop, "
-        "which is friction and what dampers do at this speed. Simulated curves went through the same evaluation."
+        "Above: the elastic force, friction and its bias near the ends taken out. Below: the friction force, half the "
+        "width of the loop, with the damping at this speed. Simulated curves went through the same evaluation."
     )
     return Figure("Slow curves of the axle", caption, plot, table.columns)
 

@@ -147,7 +147,7 @@ def _notes(spec: NetworkSpec) -> Iterator[str]:
     if spec.measurement:
         yield f"load cell: {', '.join(measurement_lines(spec))}"
     if any(slot.value.role == "free" for slot in spec.slots()):
-        yield "≈ start of a number to be identified"
+        yield "≈ start of a parameter to be identified"
 
 
 def _heading(name: str, lines: tuple[str, ...], sizes: Sizes) -> list[Shape]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from dashpot.model.element import Curve
 from dashpot.model.network import Branch, Characteristic, Joint, NetworkSpec, Value
-from dashpot.text.digits import beside
+from dashpot.text.digits import beside, typeset
 from dashpot.text.quantity import pretty, pretty_all
 
 GREEK = {
@@ -17,7 +17,6 @@ GREEK = {
         start=0x3B1,
     )
 }
-TYPESET = {"*": "·", "^2": "²", "^3": "³"}
 SHORT = 5  # knots of a table that are written out
 ARGUMENTS = {"m": "x", "m/s": "v"}
 
@@ -51,13 +50,6 @@ def equation(sign: str, value: Value) -> str:
 def quantity(number: float, unit: str) -> str:
     """A number with its unit as it is typeset."""
     return typeset(pretty(number, unit))
-
-
-def typeset(text: str) -> str:
-    """A quantity with its unit as a formula has it."""
-    for plain, sign in TYPESET.items():
-        text = text.replace(plain, sign)
-    return text
 
 
 def sign_of(symbol: str) -> str:

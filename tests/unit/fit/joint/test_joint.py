@@ -172,7 +172,10 @@ def test_specimens_that_contradict_one_another_are_told_apart(tmp_path, measured
         ("[{soft: rubber.stiffness, hart: rubber.stiffness}]", "there is no specimen 'hart'; did you mean 'hard'?"),
         ("[{soft: rubber.stiffness}]", "of two specimens or more, got 1"),
         ("[{soft: rubber.stiffness, hard: rubber.stifness}]", "'hard' has no parameter 'rubber.stifness'"),
-        ("[{soft: rubber.stiffness, hard: relaxing.relaxation_time}]", "are in s and N/m; share numbers of one unit"),
+        (
+            "[{soft: rubber.stiffness, hard: relaxing.relaxation_time}]",
+            "in s and N/m; share parameters of one unit",
+        ),
         ("['*', rubber.stiffness]", "is shared twice; name it once"),
     ],
 )

@@ -23,7 +23,7 @@ branches:
 """
 DRAWN = """\
 voigt
-≈ start of a number to be identified
+≈ start of a parameter to be identified
 
 
                      spring  k = 220 N/mm
