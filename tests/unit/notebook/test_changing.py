@@ -149,7 +149,7 @@ def test_a_branch_of_that_name_is_not_replaced(model):
 
 
 def test_a_number_that_is_not_there_is_told(model):
-    with pytest.raises(AttributeError, match="'rubber' has no number 'stifness'; did you mean 'stiffness'"):
+    with pytest.raises(AttributeError, match="'rubber' has no parameter 'stifness'; did you mean 'stiffness'"):
         model["rubber"].stifness  # noqa: B018
     assert dir(model["strut.damper"]) == ["damping", "element"]
     assert model["strut"].element == "" and model["maxwell"].element == "maxwell"
