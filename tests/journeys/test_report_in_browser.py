@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 import io
 import os
+import re
 import shutil
 from collections.abc import Iterator
 
@@ -134,7 +135,10 @@ def test_the_one_page_shows_the_answer_and_its_figures_alone(reports, browser):
     shown = page.eval_on_selector_all("h3", "all => all.filter((e) => e.offsetParent).map((e) => e.textContent)")
     assert shown == ["Causes", "Dynamic stiffness and loss angle"]
     assert page.locator(".key-figures > div").count() == 3 and page.locator("h1").is_visible()
+    assert not page.locator("td[data-column=evidence]").first.is_visible()
+    assert len(re.findall(rb"/Type\s*/Page\b", page.pdf(prefer_css_page_size=True))) == 1
     page.get_by_role("link", name="Whole report").click()
+    assert page.locator("td[data-column=evidence]").first.is_visible()
     page.locator("h3", has_text="Residual over time").wait_for()
     page.close()
 
