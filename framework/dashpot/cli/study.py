@@ -33,7 +33,7 @@ RECORDS = "checkpoint"
 )
 @switches("jobs", "scheduler", "json", "quiet", "force", "backend", "allow_outside", "pdf")
 def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, switches: Switches) -> None:
-    """Identify models in stages, or vary a test, as a study file says.
+    """Run a study: models in stages, or a test that varies.
 
     STUDY is a file or the name of a shipped study; DATASET takes the place of the one that the study names. After an
     interruption the same command goes on where it stopped, and the results are the same to the last byte.
