@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from unit.linear_car import AMPLITUDE, car, least_force, response
 
 from dashpot import load_registry
 from dashpot.compare.metrics import metric_rows, named_rows
@@ -18,37 +19,15 @@ from dashpot_metrics.phase_shift import PhaseShift, angles
 from dashpot_metrics.phase_shift_first_crossings import FirstCrossings
 
 REGISTRY = load_registry()
-BODY, WHEEL, SPRING, TIRE, TIRE_DAMPING, GRAVITY = 346.0, 36.0, 25.57e3, 253.2e3, 150.0, 9.81
-STATIC, AMPLITUDE = (BODY + WHEEL) * GRAVITY, 3e-3
-CAR = f"""\
-format: dashpot-network/1
-name: car
-gravity: {GRAVITY} m/s^2
-nodes:
-  platform: driven
-  wheel: {{mass: {WHEEL} kg, added_mass: {{setting: added_mass, value: 0 kg}}}}
-  body: {{mass: {BODY} kg}}
-branches:
-  tire: {{element: spring, stiffness: {TIRE}, between: [platform, wheel], offset: {STATIC / TIRE}}}
-  carcass: {{element: damper, damping: {TIRE_DAMPING}, between: [platform, wheel]}}
-  suspension: {{element: spring, stiffness: {SPRING}, between: [wheel, body], offset: {BODY * GRAVITY / SPRING}}}
-  absorber: {{element: damper, damping: DAMPING, between: [wheel, body]}}
-"""
-
-
-def response(frequency, damping: float, tire: float = TIRE, wheel: float = WHEEL):
-    """Contact force over platform motion, N/m: two masses on springs, after a textbook."""
-    s = 2j * np.pi * np.asarray(frequency)
-    contact, inner = tire + s * TIRE_DAMPING, SPRING + s * damping
-    return contact * (1.0 - contact / (contact + wheel * s**2 + inner * BODY * s**2 / (BODY * s**2 + inner)))
+TIRE = 253.2e3
 
 
 def least_angle(damping: float) -> float:
-    return float(np.min(180.0 - np.abs(np.degrees(np.angle(response(np.arange(6.0, 18.0, 0.05), damping))))))
+    return float(np.min(180.0 - np.abs(np.degrees(np.angle(response(np.arange(6.0, 18.0, 0.05), damping, TIRE))))))
 
 
 def measured(rig: str, damping: float, **options: str) -> list[Run]:
-    spec = parse_network(CAR.replace("DAMPING", str(damping)), REGISTRY.elements)
+    spec = parse_network(car(damping, TIRE), REGISTRY.elements)
     bench = find_bench(rig, REGISTRY.rigs, {"sampling": "500 Hz", **options})
     return [
         replace(
@@ -72,9 +51,7 @@ def test_the_least_angle_is_that_of_the_frequency_response(damping, told):
 @pytest.mark.parametrize("damping", [800.0, 1474.0, 3000.0])
 def test_the_least_contact_force_is_that_of_the_frequency_response(damping):
     (run,) = measured("eusama", damping)
-    frequency = np.arange(1.0, 25.0, 0.02)
-    truth = 100.0 * (1.0 - AMPLITUDE * np.abs(response(frequency, damping)).max() / STATIC)
-    assert Eusama().measure(run) == pytest.approx(truth, abs=1.5)
+    assert Eusama().measure(run) == pytest.approx(least_force(damping, TIRE), abs=1.5)
 
 
 def test_a_wheel_that_leaves_the_platform_has_no_adhesion():
@@ -86,9 +63,7 @@ def test_a_wheel_that_leaves_the_platform_has_no_adhesion():
 def test_added_masses_are_runs_of_their_own():
     light, heavy = measured("eusama", 1474.0, added_masses="0 kg, 10 kg")
     assert [run.name for run in (light, heavy)] == ["eusama_m0", "eusama_m10"]
-    frequency = np.arange(1.0, 25.0, 0.02)
-    static = STATIC + 10.0 * GRAVITY
-    truth = 100.0 * (1.0 - AMPLITUDE * np.abs(response(frequency, 1474.0, wheel=WHEEL + 10.0)).max() / static)
+    truth = least_force(1474.0, TIRE, added=10.0)
     assert Eusama().measure(heavy) == pytest.approx(truth, abs=1.5)
     assert Eusama().measure(light) != pytest.approx(truth, abs=1.5)
 
