@@ -18,11 +18,7 @@ from dashpot.contract.origin import Origin
 from dashpot.text.problem import InputError, nearest
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from dashpot.contract.registry import Registry
-    from dashpot.fit.study.declaration import StudySpec
-    from dashpot.study.sensitivity.declaration import SensitivitySpec
 
 KINDS = (
     "elements",
@@ -139,23 +135,13 @@ def about_file(read: Callable[..., Any], *where: Any) -> str:
 def studies(registry: Registry) -> list[Entry]:
     """The shipped studies."""
     from dashpot.fit.study.reading import shipped_studies
+    from dashpot.study.sensitivity.reading import read_either
 
     origin = Origin("specs", "dashpot", __version__)
     return [
-        Entry(name, origin, about_or_why(partial(about_file, any_study, path, registry)))
+        Entry(name, origin, about_or_why(partial(about_file, read_either, path, registry)))
         for name, path in shipped_studies().items()
     ]
-
-
-def any_study(path: Path, registry: Registry) -> StudySpec | SensitivitySpec:
-    """A study of either kind. InputError with all its mistakes."""
-    from dashpot.fit.study.reading import parse_study
-    from dashpot.model.shipped import read_specification
-    from dashpot.study.sensitivity.reading import is_sensitivity, parse_sensitivity
-
-    document = read_specification(path)
-    read = parse_sensitivity if is_sensitivity(document) else parse_study
-    return read(document, path.parent, registry)
 
 
 def about_network(name: str, session: Session) -> str:

@@ -47,16 +47,14 @@ def verb(study: str, dataset: str | None, dry_run: bool, output: Path | None, sw
       dashpot study paper_tire -o tire
       dashpot study inspection -o inspection
     """
-    from dashpot.fit.study.reading import find_study, parse_study
-    from dashpot.model.shipped import read_specification
-    from dashpot.study.sensitivity.reading import is_sensitivity, parse_sensitivity
+    from dashpot.fit.study.reading import find_study
+    from dashpot.study.sensitivity.declaration import SensitivitySpec
+    from dashpot.study.sensitivity.reading import read_either
 
     session = Session(switches)
-    path = find_study(study)
-    document = read_specification(path)
-    if is_sensitivity(document):
-        return vary(parse_sensitivity(document, path.parent, session.registry), dataset, dry_run, output, session)
-    planned = parse_study(document, path.parent, session.registry)
+    planned = read_either(find_study(study), session.registry)
+    if isinstance(planned, SensitivitySpec):
+        return vary(planned, dataset, dry_run, output, session)
     if dry_run:
         with TemporaryDirectory() as scratch:
             return preview(planned, data_of(planned, dataset, Path(scratch), session), session)

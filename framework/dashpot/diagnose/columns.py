@@ -143,7 +143,7 @@ def linearised(
 class Rows(Mapping[str, Array]):
     """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time.
 
-    They are held, and made, in single precision: columns that few of them tell apart are told apart by no data either.
+    Their values have single precision, to save memory; sums over them are to be double.
     """
 
     def __init__(self, columns: Columns, jobs: int) -> None:

@@ -15,6 +15,7 @@ from dashpot.diagnose.term import Model, Term
 Array = NDArray[np.float64]
 
 AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter about the one that all share
+FADED = 0.1  # of a record at each end, of which its Hilbert transform knows one side only
 FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
 DECADES, INTERVAL = 2.0, 1.96  # of a number that nothing tells; of a normal distribution, 95 %
 ZERO = 2.0  # standard errors
@@ -90,8 +91,7 @@ def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
     """Whether folds that weigh so much (folds,) tell a delay from a loss angle that does not change with frequency.
 
     A delay moves the force along the velocity, such an angle along the deflection, each frequency shifted by a quarter
-    of its period (Hilbert transform). They have to differ by more than a delay may scatter between runs. A tenth
-    of a record at each end, of which the transform knows one side only, is faded out.
+    of its period (Hilbert transform). They have to differ by more than a delay may scatter between runs.
     """
     from scipy.signal import hilbert
     from scipy.signal.windows import tukey
@@ -99,7 +99,7 @@ def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
     squares = np.zeros((2, 2))
     for run in refitter.runs:
         path, velocity = run.drive.displacement[run.first :], run.drive.velocity[run.first :]
-        pair = np.array([velocity - velocity.mean(), hilbert(path - path.mean()).imag]) * tukey(path.size, 0.2)
+        pair = np.array([velocity - velocity.mean(), hilbert(path - path.mean()).imag]) * tukey(path.size, 2.0 * FADED)
         gram = pair @ pair.T
         at = list(look.folds.parts[run.name][1])
         squares += float(weights[at].mean()) * gram / max(float(gram[0, 0]), 1e-300)

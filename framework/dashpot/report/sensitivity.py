@@ -100,7 +100,7 @@ def bands_grid(content: Json) -> Grid:
             "over": value * _factor(over),
             "unit": units[band["metric"]],
             **{key: band[key][place] for key in ("low", "median", "high")},
-            "failing": None if band["failing"] is None else 100.0 * band["failing"][place],
+            "failing": _per_cent(band["failing"][place] if band["failing"] else None),
         }
         for band in content["bands"]
         for place, value in enumerate(over["values"])
@@ -205,6 +205,10 @@ def _changed(content: Json, name: str | None, value: float | None) -> str:
         return PLAIN
     variation = next(each for each in content["vary"] if each["name"] == name)
     return f"{name} " + (f"x {value:g}" if variation["relative"] else pretty(value, variation["unit"]))
+
+
+def _per_cent(share: float | None) -> float | None:
+    return None if share is None else 100.0 * share
 
 
 def _over(content: Json) -> tuple[str, list[float]]:

@@ -40,7 +40,7 @@ def metric_band(
     title: str,
     over: tuple[str, Sequence[float]],
     heading: str,
-    band: Mapping[str, Sequence[float]],
+    band: Mapping[str, Sequence[float | None]],
     *,
     limit: float | None = None,
     measured: Sequence[float] = (),

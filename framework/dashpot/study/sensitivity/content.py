@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,13 +16,15 @@ from dashpot.study.sensitivity.run import SensitivityResult
 Array = NDArray[np.float64]
 
 BAND = (5.0, 50.0, 95.0)  # per cent of the specimens
+NONE = (None, None, None)
 
 
 def sensitivity_content(result: SensitivityResult, measured: Sequence[Mapping[str, Any]] = ()) -> dict[str, Any]:
     """The result as in ``sensitivity.json``; ``measured`` are metrics of measured runs.
 
     ``curves``: each metric over the variation ``over``, at first with nothing else changed (``vary`` is None there);
-    ``bands``: of drawn specimens, how much nine of ten keep, and the share that is below the limit.
+    ``bands``: of drawn specimens, how much nine of ten keep, and the share that is below the limit; of those that have
+    the metric at that place, None where none has it.
     """
     study = result.study
     return {
@@ -58,13 +61,15 @@ def sensitivity_content(result: SensitivityResult, measured: Sequence[Mapping[st
 
 
 def crossing(at: Sequence[float], values: Sequence[float], limit: float) -> float | None:
-    """Where a broken line is first at a limit or below it; None where it stays above."""
-    if values[0] <= limit:
-        return float(at[0])
-    for k in range(1, len(at)):
-        before, after = values[k - 1] - limit, values[k] - limit
+    """Where a broken line is first at a limit or below it; None where it stays above. Places without a value do not
+    count.
+    """
+    known = [(place, value - limit) for place, value in zip(at, values, strict=True) if not math.isnan(value)]
+    if known and known[0][1] <= 0.0:
+        return float(known[0][0])
+    for (start, before), (stop, after) in pairwise(known):
         if before > 0.0 >= after:
-            return float(at[k - 1] + (at[k] - at[k - 1]) * before / (before - after))
+            return float(start + (stop - start) * before / (before - after))
     return None
 
 
@@ -86,10 +91,12 @@ def _curves(result: SensitivityResult) -> list[dict[str, Any]]:
 def _bands(result: SensitivityResult) -> list[dict[str, Any]]:
     found = []
     for number, made in enumerate(result.study.metrics):
-        limit = result.study.limits.get(made.word)
-        low, median, high = np.nanpercentile(result.drawn[number], BAND, axis=1)
-        failing = None if limit is None else np.mean(result.drawn[number] < limit, axis=1).tolist()
-        band = {"low": low.tolist(), "median": median.tolist(), "high": high.tolist(), "failing": failing}
+        limit, places = result.study.limits.get(made.word), [each[~np.isnan(each)] for each in result.drawn[number]]
+        low, median, high = zip(
+            *(np.percentile(have, BAND).tolist() if have.size else NONE for have in places), strict=True
+        )
+        failing = None if limit is None else [float(np.mean(have < limit)) if have.size else None for have in places]
+        band = {"low": list(low), "median": list(median), "high": list(high), "failing": failing}
         found.append({"metric": made.word, **band})
     return found
 

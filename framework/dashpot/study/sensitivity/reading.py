@@ -8,10 +8,11 @@ from typing import Any
 
 from dashpot.contract.bench import Bench, find_bench, option_text
 from dashpot.contract.registry import Registry
+from dashpot.fit.study.declaration import StudySpec
 from dashpot.fit.study.patterns import chosen, is_wild
-from dashpot.fit.study.reading import network_beside, read_patterns
+from dashpot.fit.study.reading import network_beside, parse_study, read_patterns
 from dashpot.model.network import Slot
-from dashpot.model.shipped import SUFFIXES
+from dashpot.model.shipped import SUFFIXES, read_specification
 from dashpot.study.sensitivity.declaration import FORMAT, Scatter, SensitivitySpec, Variation
 from dashpot.text.document import Document
 from dashpot.text.form import Form, read_items, read_number, read_quantity
@@ -27,6 +28,13 @@ def is_sensitivity(document: Document) -> bool:
     root = document.root
     told = root.entries.get("format") if isinstance(root, MappingNode) else None
     return str(getattr(told, "value", "")).startswith(FORMAT.partition("/")[0])
+
+
+def read_either(path: Path, registry: Registry) -> StudySpec | SensitivitySpec:
+    """The staged study or the sensitivity study of a file. InputError with all its mistakes."""
+    document = read_specification(path)
+    parse = parse_sensitivity if is_sensitivity(document) else parse_study
+    return parse(document, path.parent, registry)
 
 
 def parse_sensitivity(document: Document, folder: Path, registry: Registry) -> SensitivitySpec:
