@@ -91,11 +91,11 @@ def plot(figure: Any) -> str:
 
 
 def write_plotly(folder: Path) -> None:
-    """The library of the plots, from the installed plotly."""
-    from plotly.offline import get_plotlyjs
+    """The library of the plots, as reports have it."""
+    from dashpot.report.library import plotly_js
 
     folder.mkdir(parents=True, exist_ok=True)
-    put(folder / PLOTLY, get_plotlyjs())
+    put(folder / PLOTLY, plotly_js())
 
 
 def _link(path: Path) -> str:

@@ -7,6 +7,7 @@ import urllib.parse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from dashpot.report.library import plotly_js
 from dashpot.report.parts import Code, Figure, Grid, Page, Picture
 from dashpot.report.plot_json import plot_json
 from dashpot.report.security import content_policy, script_json
@@ -29,10 +30,8 @@ def write_page(path: str | Path, page: Page) -> Path:
 
 def render(page: Page) -> str:
     """The page as HTML text. Every text of the page is escaped; only our own scripts may run in it."""
-    from plotly.offline import get_plotlyjs
-
     environment = _environment()
-    scripts = [get_plotlyjs(), *(_source(environment, name) for name in SCRIPTS)]
+    scripts = [plotly_js(), *(_source(environment, name) for name in SCRIPTS)]
     return environment.get_template("report.html.j2").render(
         page=page,
         policy=content_policy(scripts),

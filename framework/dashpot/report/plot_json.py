@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dashpot.report.library import require_plotly
 from dashpot.report.parts import Figure
 from dashpot.report.theme import LIGHT
 
@@ -46,7 +47,8 @@ def compact(item: Any) -> Any:
 
 
 def plotly_figure(figure: Figure) -> PlotlyFigure:
-    """The same plot for a notebook, in the light colours."""
+    """The same plot for a notebook, in the light colours. InputError where plotly is not installed."""
+    require_plotly()
     from plotly.graph_objects import Figure as PlotlyFigure
 
     return PlotlyFigure(_resolve(dict(figure.plot), figure.columns))
