@@ -13,7 +13,7 @@ LIBRARY, LICENCE = "package_data/plotly.min.js", "LICENSE.txt"
 
 
 class PlottingLibrary(BuildHookInterface):
-    """Takes plotly.js and its licence from the plotly of the build; an installation in place requires plotly instead."""
+    """Takes plotly.js and its licence from the plotly of the build; an editable wheel requires plotly."""
 
     PLUGIN_NAME = "custom"
 
@@ -34,4 +34,6 @@ def _file_of_plotly(ending: str) -> str:
     for path in files("plotly") or ():
         if path.as_posix().endswith(ending):
             return str(Path(str(path.locate())))
-    raise FileNotFoundError(f"expected a file {ending} of the installed plotly, found none; say  pip install '{PLOTLY}'")
+    raise FileNotFoundError(
+        f"expected a file {ending} of the installed plotly, found none; say  pip install '{PLOTLY}'"
+    )

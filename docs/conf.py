@@ -18,7 +18,7 @@ release = version = dashpot.__version__
 extensions = ["myst_parser"]
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
 myst_heading_anchors = 4
-exclude_patterns = ["_build", "building", "notebooks", "verbs", "README.md"]
+exclude_patterns = ["_build", "building", "elements", "formats", "notebooks", "verbs", "README.md"]
 nitpicky = True
 smartquotes = False
 
@@ -42,11 +42,15 @@ def setup(app: Any) -> None:
 
 
 def _generate(app: Any) -> None:
+    from building.elements import write_elements
+    from building.formats import write_formats
     from building.notebooks import write_notebooks, write_plotly
     from building.pages import write_pages
     from building.verbs import write_verbs
 
     write_pages(HERE / "generated")
+    write_elements(HERE / "elements", HERE / "generated" / "elements")
+    write_formats(HERE / "formats", HERE / "generated" / "formats")
     write_verbs(HERE / "verbs", HERE / "generated" / "verbs")
     write_notebooks(HERE / "notebooks", HERE / "generated" / "notebooks")
     write_plotly(Path(app.outdir) / "_static")

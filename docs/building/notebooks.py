@@ -15,7 +15,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from building.pages import put, raw
+from building.parts import put, raw
 
 CELL = re.compile(r"^# %%( \[markdown\])?.*\n", flags=re.MULTILINE)
 PLOTLY = "plotly.min.js"

@@ -2,59 +2,22 @@
 
 from __future__ import annotations
 
-import doctest
-import inspect
 import re
-import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import is_dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from architecture import written
+
 import dashpot
-from building.law import Term, clauses, mathml, symbol
+from building import elements, formats
+from building.accuracy import accuracy, kept_results
+from building.api import python
+from building.parts import folded, inline_picture, put, raw
 from dashpot.model.shipped import shipped_networks
 from dashpot.report.schematic.svg import svg
-from dashpot.text.digits import typeset
 
 ROOT = Path(__file__).resolve().parents[2]
-WIDTH = 80  # characters that a line of code has room for
-sys.path.insert(0, str(ROOT / "tests"))
-
-from architecture import written  # noqa: E402
-
-from building.accuracy import accuracy, kept_results  # noqa: E402
-
-
-def elements() -> Iterator[str]:
-    """Every element: its equations, its symbols, and what the generated list says."""
-    yield "# Elements"
-    yield (
-        "Deflection $x > 0$ squeezes, $v$ is its rate and $a$ the rate of that; a force $F > 0$ presses apart. The "
-        "equations come from the docstring of each class, the tables from its declarations; the last lines are its "
-        "source, from which the compiled code is derived."
-    )
-    for word, made in written.things("elements").items():
-        yield from element(word, made)
-
-
-def element(word: str, made: type[Any]) -> Iterator[str]:
-    """One element."""
-    numbers = {**made.declares.curves, **made.declares.parameters}
-    symbols = {key: number.symbol for key, number in numbers.items()}
-    yield f"## `{word}`"
-    yield from written.paragraphs(made)
-    yield raw("".join(_clause(clause, symbols) for clause in clauses(made)))
-    titles = ("symbol", "key", "meaning", "unit", "sensible range, search scale", "default")
-    rows = [(_inline(number.symbol), *written._number_row(key, number)) for key, number in numbers.items()]
-    yield written.table(titles, rows)
-    if made.declares.states:
-        states = made.declares.states.values()
-        yield f"Memory: {', '.join(f'{state.about} ({typeset(state.unit)})' for state in states)}."
-    if made.source:
-        yield f"Source: {made.source}."
-    yield from folded("What the class says", "python", inspect.cleandoc(inspect.getsource(made.step)))
 
 
 def networks() -> Iterator[str]:
@@ -69,98 +32,6 @@ def networks() -> Iterator[str]:
         if model.source:
             yield f"Source: {model.source}"
         yield from folded("The file", "yaml", path.read_text(encoding="utf-8").rstrip())
-
-
-def told(words: str) -> Iterator[str]:
-    """The help of a verb: what click is told to leave as it is stands as code."""
-    for paragraph in words.split("\n\n"):
-        title, mark, block = paragraph.partition("\b\n")
-        if not mark:
-            yield title
-            continue
-        head, _, rest = block.partition("\n")
-        if rest and not head.startswith(" ") and head.endswith(":"):
-            yield head
-            block = rest
-        yield f"```sh\n{inspect.cleandoc(block)}\n```"
-
-
-def python() -> Iterator[str]:
-    """Every public name with its docstring; the examples run as a test, one after the other."""
-    yield "# Python"
-    yield (
-        "Every name below is an attribute of `dashpot`; the examples write `import dashpot as dp`. They are run one "
-        "after the other in a folder with the dataset `mount/` and the model `mount.yaml`, and go on from one another."
-    )
-    for home, names in public_names().items():
-        yield f"## {home}"
-        for name in names:
-            yield f"### `{name}`"
-            yield from documented(name, getattr(dashpot, name))
-
-
-def public_names() -> Mapping[str, list[str]]:
-    """The public names by what they are for."""
-    titles = {"notebook": "In a notebook", "kernel": "Energy", "fit": "Studies"}
-    found: dict[str, list[str]] = {}
-    for home, names in dashpot._HOMES.items():
-        title = titles.get(home.split(".")[1], "For authors of plugins")
-        found.setdefault(title, []).extend(names)
-    return found
-
-
-def documented(name: str, thing: Any) -> Iterator[str]:
-    """Signature, words and example of one name; of a result also what it has."""
-    of_notebook = inspect.isclass(thing) and ".notebook." in thing.__module__
-    if not inspect.isclass(thing) or (is_dataclass(thing) and not of_notebook):
-        yield f"```python\n{called(name, inspect.signature(thing))}\n```"
-    yield from docstring(thing.__doc__ or "")
-    if of_notebook and (members := list(_members(thing))):
-        yield written.table(("has", "which is"), members)
-
-
-def _members(thing: type[Any]) -> Iterator[tuple[str, str]]:
-    """The documented members of a class and of the one it is made from."""
-    members = {key: member for base in reversed(thing.__mro__[:2]) for key, member in vars(base).items()}
-    for key, member in members.items():
-        if not key.startswith("_") and (line := _first_line(member)):
-            yield f"`{key}`", line
-
-
-def called(name: str, signature: inspect.Signature) -> str:
-    """How a function is called; a long list of arguments stands one below the other."""
-    arguments = [_argument(argument) for argument in signature.parameters.values()]
-    kinds = [argument.kind for argument in signature.parameters.values()]
-    if inspect.Parameter.KEYWORD_ONLY in kinds:
-        arguments.insert(kinds.index(inspect.Parameter.KEYWORD_ONLY), "*")
-    answer = "" if signature.return_annotation in (None, "None") else f" -> {signature.return_annotation}"
-    line = f"dp.{name}({', '.join(arguments)}){answer}"
-    if len(line) < WIDTH:
-        return line
-    lines = "".join(f"    {argument},\n" for argument in arguments)
-    return f"dp.{name}(\n{lines}){answer}"
-
-
-def _argument(argument: inspect.Parameter) -> str:
-    stars = {argument.VAR_POSITIONAL: "*", argument.VAR_KEYWORD: "**"}.get(argument.kind, "")
-    if argument.default is argument.empty:
-        return f"{stars}{argument.name}: {argument.annotation}"
-    shown = "..." if repr(argument.default).startswith("<") else repr(argument.default)
-    return f"{argument.name}: {argument.annotation} = {shown}"
-
-
-def docstring(text: str) -> Iterator[str]:
-    """A docstring as Markdown, its example as code."""
-    for number, piece in enumerate(inspect.cleandoc(text).replace("``", "`").split("Examples:\n")):
-        if number == 0:
-            yield piece.strip()
-        else:
-            yield f"```pycon\n{inspect.cleandoc(piece)}\n```"
-
-
-def examples(thing: Any) -> list[doctest.Example]:
-    """The examples in a docstring."""
-    return doctest.DocTestParser().get_examples(inspect.cleandoc(thing.__doc__ or ""))
 
 
 def benchmarks() -> Iterator[str]:
@@ -224,7 +95,12 @@ def _section(title: str, text: str, write: Callable[[], Iterator[str]]) -> Calla
 
 
 PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
-    "elements": elements,
+    "elements": _section(
+        "Elements",
+        "The laws of branches, by what they stand for. A plugin adds [laws of its own](../how-to/own-element.md). "
+        "[Which model for my data](../which-model.md) begins with what was measured.",
+        elements.overview,
+    ),
     "networks": networks,
     "causes": _section(
         "Causes",
@@ -242,7 +118,7 @@ PAGES: Mapping[str, Callable[[], Iterator[str]]] = {
         "File formats",
         "The ending of a file's name chooses the reader; `reader: WORD` under a run "
         "overrides it. A plugin adds [formats of its own](../how-to/own-format.md).",
-        written.formats,
+        formats.overview,
     ),
     "rigs": _section("Rigs", '`dashpot simulate MODEL --rig WORD` or `dp.measure(model, "WORD", ...)`.', written.rigs),
     "exports": _section(
@@ -278,42 +154,3 @@ def write_pages(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     for name, write in PAGES.items():
         put(folder / f"{name}.md", "\n\n".join(write()) + "\n")
-
-
-def put(path: Path, text: str) -> None:
-    """Write a text unless it is there."""
-    if not path.is_file() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
-
-
-def raw(html: str) -> str:
-    """HTML in a page."""
-    return f"````{{raw}} html\n{html}\n````"
-
-
-def folded(title: str, language: str, text: str) -> Iterator[str]:
-    """A code block that is opened by a press."""
-    yield raw(f"<details><summary>{title}</summary>")
-    yield f"```{language}\n{text}\n```"
-    yield raw("</details>")
-
-
-def inline_picture(title: str, drawing: str) -> str:
-    """A drawing as an image that is part of the page."""
-    from base64 import b64encode
-
-    return f'<img alt="{title}" src="data:image/svg+xml;base64,{b64encode(drawing.encode()).decode()}">'
-
-
-def _clause(clause: list[str | Term], symbols: Mapping[str, str]) -> str:
-    pieces = [mathml(piece, symbols) if isinstance(piece, Term) else f"<p>{piece}</p>" for piece in clause]
-    return "".join(pieces) if any(isinstance(piece, Term) for piece in clause) else ""
-
-
-def _inline(text: str) -> str:
-    return f"<math>{symbol(text)}</math>" if text else ""
-
-
-def _first_line(member: Any) -> str:
-    text = member.__doc__ if callable(member) or isinstance(member, property | cached_property) else ""
-    return inspect.cleandoc(text or "").split("\n\n")[0].replace("\n", " ").replace("``", "`")

@@ -15,7 +15,7 @@ from pathlib import Path
 import click
 from architecture import written
 
-from building.pages import folded, put, told
+from building.parts import folded, put
 from dashpot.cli.shell import VERBS
 from dashpot.cli.shell import dashpot as command
 
@@ -129,6 +129,20 @@ def _files(text: str) -> dict[str, str]:
                 found[path.name] = path.read_text(encoding="utf-8")
                 waiting.append(found[path.name])
     return found
+
+
+def told(words: str) -> Iterator[str]:
+    """The help of a verb: what click is told to leave as it is stands as code."""
+    for paragraph in words.split("\n\n"):
+        title, mark, block = paragraph.partition("\b\n")
+        if not mark:
+            yield title
+            continue
+        head, _, rest = block.partition("\n")
+        if rest and not head.startswith(" ") and head.endswith(":"):
+            yield head
+            block = rest
+        yield f"```sh\n{inspect.cleandoc(block)}\n```"
 
 
 def _arguments(verb: click.Command, context: click.Context) -> Iterator[str]:

@@ -30,7 +30,7 @@ mount
 # All of them at once, each with what to do.
 
 # %%
-from dashpot.text.problem import InputError
+from dashpot import InputError
 
 try:
     dp.declare("""

@@ -5,8 +5,10 @@ arrays; ``look`` at it, then ``fit``, ``compare`` or ``diagnose``; all answers s
 ``table`` and ``to_pandas``. ``simulate`` and ``measure`` run a model, ``campaign`` fits or diagnoses many specimens.
 Studies are ``read_study`` and ``run_study``; ``energy_balance`` follows the work that is put in.
 
+Every dataset holds each ``Run``; whatever is wrong with an input is raised as ``InputError``.
+
 Write a plugin with ``Element``, ``Optimizer``, ``Reader``, ``Cause``, ``Specimen``, ``Rig``, ``Export`` or ``Metric``
-and mark its hook with ``hookimpl``.
+and mark its hook with ``hookimpl``; ``check_element`` tests an element.
 
 Everything is imported on first use: ``import dashpot`` costs nothing.
 """
@@ -40,6 +42,7 @@ if TYPE_CHECKING:
     from dashpot.contract.rig import PrescribedPath as PrescribedPath
     from dashpot.contract.rig import Rig as Rig
     from dashpot.contract.specimen import Specimen as Specimen
+    from dashpot.data.run import Run as Run
     from dashpot.fit.study.reading import read_study as read_study
     from dashpot.fit.study.run import run_study as run_study
     from dashpot.kernel.energy import energy_balance as energy_balance
@@ -75,6 +78,11 @@ if TYPE_CHECKING:
     from dashpot.notebook.verbs import measure as measure
     from dashpot.notebook.verbs import simulate as simulate
     from dashpot.notebook.verbs import write_dataset as write_dataset
+    from dashpot.testing import ConformanceError as ConformanceError
+    from dashpot.testing import check_element as check_element
+    from dashpot.text.problem import InputError as InputError
+    from dashpot.text.problem import Place as Place
+    from dashpot.text.problem import Problem as Problem
 
 _HOMES = {
     "dashpot.notebook.verbs": (
@@ -92,11 +100,14 @@ _HOMES = {
     "dashpot.notebook.look": ("Look",),
     "dashpot.notebook.estimator": ("Estimator",),
     "dashpot.notebook.progress": ("Cancelled",),
+    "dashpot.data.run": ("Run",),
+    "dashpot.text.problem": ("InputError", "Problem", "Place"),
     "dashpot.kernel.energy": ("energy_balance",),
     "dashpot.campaign.reading": ("read_campaign",),
     "dashpot.fit.study.reading": ("read_study",),
     "dashpot.fit.study.run": ("run_study",),
     "dashpot.model.element": ("Element", "Parameter", "Curve", "State", "Motion", "Response"),
+    "dashpot.testing": ("check_element", "ConformanceError"),
     "dashpot.model.picture": ("Symbol", "Series", "Parallel"),
     "dashpot.contract.export": ("Export",),
     "dashpot.contract.metric": ("Metric",),

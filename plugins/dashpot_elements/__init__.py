@@ -2,40 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from importlib import import_module
 
 import pluggy
 
 hookimpl = pluggy.HookimplMarker("dashpot")
 
-SPRINGS = ("spring", "contact", "end_stop", "clearance", "backlash", "gas_spring", "warm_gas_spring")
-DAMPERS = (
-    "damper",
-    "asymmetric_damper",
-    "quadratic_damper",
-    "power_law_damper",
-    "valve",
-    "compliant_damper",
-    "fading_damper",
-    "worn_damper",
-)
-RELAXATION = ("maxwell", "springpot", "creep", "preload_creep", "hydro", "vibration_absorber", "relaxing_spring")
-MASSES = ("inerter", "rattling_mass", "sliding_mass")
-FRICTION = (
-    "coulomb",
-    "dahl",
-    "prandtl",
-    "stribeck",
-    "stribeck_curve",
-    "directional_friction",
-    "side_load_friction",
-    "loose_friction",
-    "bouc_wen",
-    "iwan",
-    "kraus",
-)
-CHANGE = ("bedding_in", "mullins", "softening", "fading_spring", "self_heating")
-WORDS = (*SPRINGS, *DAMPERS, *RELAXATION, *FRICTION, *CHANGE, *MASSES, "constant_force", "signed_spring")
+# the laws by what they stand for; each family has its page in the documentation
+FAMILIES: Mapping[str, tuple[str, ...]] = {
+    "springs": (
+        "spring",
+        "signed_spring",
+        "contact",
+        "end_stop",
+        "clearance",
+        "backlash",
+        "gas_spring",
+        "warm_gas_spring",
+        "constant_force",
+    ),
+    "dampers": (
+        "damper",
+        "asymmetric_damper",
+        "quadratic_damper",
+        "power_law_damper",
+        "valve",
+        "compliant_damper",
+        "fading_damper",
+        "worn_damper",
+    ),
+    "relaxation": ("maxwell", "springpot", "creep", "preload_creep", "relaxing_spring"),
+    "friction": (
+        "coulomb",
+        "dahl",
+        "prandtl",
+        "stribeck",
+        "stribeck_curve",
+        "directional_friction",
+        "side_load_friction",
+        "loose_friction",
+        "bouc_wen",
+        "iwan",
+        "kraus",
+    ),
+    "softening": ("bedding_in", "mullins", "softening", "fading_spring", "self_heating"),
+    "inertia": ("inerter", "hydro", "vibration_absorber", "rattling_mass", "sliding_mass"),
+}
+WORDS = tuple(word for words in FAMILIES.values() for word in words)
 
 
 @hookimpl

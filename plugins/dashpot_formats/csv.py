@@ -17,7 +17,6 @@ _DELIMITER_WORDS = {"tab": "\t", "\\t": "\t", "space": None, "spaces": None, " "
 class Csv(Reader):
     """Reads a text table as measuring programs export it; what it does not make plain goes under `file_options`.
 
-    delimiter: `,` `;` `tab` `space` `|` ...; decimal: `.` or `,`; encoding; skip_rows: lines to leave out at the top.
     Columns are named by a line above the numbers, whose units may stand in brackets or in a line of their own; without
     names they are called 1, 2, 3, ... Dates and times of day become seconds since the first row. A sampling rate that
     the lines above state is used where no time is declared. A column may hold texts as long as nobody asks for it.
@@ -25,9 +24,15 @@ class Csv(Reader):
 
     word = "csv"
     suffixes = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log")
+    options = {
+        "delimiter": "what stands between columns: `,` `;` `|` `tab` or `space`",
+        "decimal": "the decimal sign, `.` or `,`",
+        "encoding": "of the text, such as `cp1252`",
+        "skip_rows": "lines to leave out at the top",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("delimiter", "decimal", "encoding", "skip_rows"))
+        check_options(options, self.options)
         lines = read_lines(path, get_option(options, "encoding", str, None))
         skipped = get_option(options, "skip_rows", int, 0)
         if skipped < 0:

@@ -22,16 +22,19 @@ class Hdf5(Reader):
     """Reads the vectors and matrices of one group: vectors by name, matrices as `name(1)`, `name(2)`, ...
 
     Without the option `group` it is the group with the most numbers; groups in groups are `outer.inner`. A single
-    number called `fs`, `sampling_rate`, `sample_rate` or `sampling_frequency` is the sampling rate in Hz. Needs
-    `dashpot[matlab73]`.
+    number called `fs`, `sampling_rate`, `sample_rate` or `sampling_frequency` is the sampling rate in Hz.
     """
 
     word = "hdf5"
     suffixes = (".h5", ".hdf5")
+    extra = "matlab73"
+    options = {
+        "group": "the group that is read, `outer.inner` for one in another",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("group",))
-        require("h5py", "matlab73", "HDF5 files")
+        check_options(options, self.options)
+        require("h5py", self.extra, "HDF5 files")
         groups = _grouped(read_apart(read_hdf5, path, "HDF5 file").arrays)
         name = get_option(options, "group", str, None)
         if name is None and groups:

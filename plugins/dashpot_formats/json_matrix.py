@@ -24,9 +24,13 @@ class JsonMatrix(Reader):
 
     word = "json"
     suffixes = (".json",)
+    options = {
+        "key": "where the matrix or the columns are; dots lead further down",
+        "transpose": "true where the rows of the matrix are the channels",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("key", "transpose"))
+        check_options(options, self.options)
         content = _descend(_parse(path), get_option(options, "key", str, None))
         if isinstance(content, dict):
             return Table(_named_columns(content))

@@ -31,9 +31,13 @@ class Lvm(Reader):
 
     word = "lvm"
     suffixes = (".lvm",)
+    options = {
+        "segment": "the one segment that is read, counted from 1",
+        "encoding": "of the text, such as `cp1252`",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("segment", "encoding"))
+        check_options(options, self.options)
         lines = read_lines(path, get_option(options, "encoding", str, None))
         if not is_lvm(lines):
             return Csv().read(path, {key: value for key, value in options.items() if key == "encoding"})

@@ -27,9 +27,13 @@ class Mat(Reader):
 
     word = "mat"
     suffixes = (".mat",)
+    options = {
+        "variable": "the one matrix that is read",
+        "transpose": "true where its rows are the channels",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("variable", "transpose"))
+        check_options(options, self.options)
         variables = _read_variables(path)
         name = get_option(options, "variable", str, None)
         if name is not None:

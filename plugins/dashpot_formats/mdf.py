@@ -23,16 +23,20 @@ class Mdf(Reader):
 
     Channels of one group share a clock, `time`; with several groups the clocks are `time (group 1)`, `time (group 2)`,
     ..., and channels of different groups differ in length: declare such that belong together, or choose one group with
-    `group: 2`. Needs `dashpot[mdf]`.
+    `group: 2`.
     """
 
     word = "mdf"
     suffixes = (".mf4", ".mdf")
+    extra = "mdf"
+    options = {
+        "group": "the one channel group that is read, counted from 1",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("group",))
+        check_options(options, self.options)
         wanted = get_option(options, "group", int, None)
-        require("asammdf", "mdf", "MDF files")
+        require("asammdf", self.extra, "MDF files")
         content = read_apart(read_mdf, path, "MDF file")
         channels = [_Channel(*entry) for entry in content.notes["channels"]]
         groups = sorted({channel.group for channel in channels})

@@ -28,9 +28,13 @@ class Npz(Reader):
 
     word = "npz"
     suffixes = (".npz", ".npy")
+    options = {
+        "variable": "the one array that is read",
+        "transpose": "true where its rows are the channels",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("variable", "transpose"))
+        check_options(options, self.options)
         name = get_option(options, "variable", str, None)
         transpose = get_option(options, "transpose", bool, False)
         content = _load(path)

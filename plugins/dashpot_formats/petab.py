@@ -30,9 +30,13 @@ class Petab(Reader):
 
     word = "petab"
     suffixes = ()
+    options = {
+        "condition": "the `simulationConditionId` of the run",
+        "conditions": "a condition table in the same folder",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("condition", "conditions"))
+        check_options(options, self.options)
         rows = _rows(path, NEEDED)
         wanted = _condition(rows, get_option(options, "condition", str, None))
         own = [(line, row) for line, row in rows if row[CONDITION] == wanted]

@@ -23,15 +23,15 @@ class Rpc(Reader):
     """Reads time histories of whole or real numbers, in either byte order, with any number of frames in a group.
 
     Columns are called by the descriptions of the channels, with their units; the file states the sampling rate. Whole
-    numbers are multiplied by the scale of their channel. What fills up the last frame is read as it is stored: cut it
-    off with `rows` or `stop`. ASCII files of this format are not read.
+    numbers are multiplied by the scale of their channel. What fills up the last frame is read as it is stored:
+    `dashpot import` leaves zeros out by `rows`. ASCII files of this format are not read.
     """
 
     word = "rpc"
     suffixes = (".rsp", ".rpc", ".drv", ".tim")
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ())
+        check_options(options, self.options)
         content = path.read_bytes()
         header = RpcHeader.read(content)
         layout = _Layout.read(header)

@@ -23,15 +23,16 @@ class Tdms(Reader):
     """Reads all channels of numbers, scaled as the file says; dates are seconds since their first.
 
     A channel is called by its name, or `group/name` where several groups have one of that name. The units are those of
-    the properties, the sampling rate is that of the waveforms when they share one. Needs `dashpot[tdms]`.
+    the properties, the sampling rate is that of the waveforms when they share one.
     """
 
     word = "tdms"
     suffixes = (".tdms",)
+    extra = "tdms"
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ())
-        require("nptdms", "tdms", "TDMS files")
+        check_options(options, self.options)
+        require("nptdms", self.extra, "TDMS files")
         content = read_apart(read_tdms, path, "TDMS file")
         if not content.arrays:
             raise ReadingError("it holds no channels of numbers", "check that this is the file of the measurement")

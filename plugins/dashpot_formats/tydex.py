@@ -27,9 +27,12 @@ class Tydex(Reader):
 
     word = "tydex"
     suffixes = (".tdx", ".tydex")
+    options = {
+        "offsets": "of channels with conversion offsets: `added` or `ignored`",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("offsets",))
+        check_options(options, self.options)
         offsets = get_option(options, "offsets", str, None)
         if offsets is not None and offsets not in _OFFSETS:
             raise ReadingError(f"expected 'offsets' as {' or '.join(_OFFSETS)}, got '{offsets}'", "correct the dataset")

@@ -23,15 +23,19 @@ class Xlsx(Reader):
     """Reads a sheet as the table that it shows: names, units in brackets or in a row of their own, numbers.
 
     Formulas count with the values that were saved with them. Without the option `sheet` (a name, or a number counted
-    from 1) it is the sheet with the most rows of numbers. Needs `dashpot[excel]`.
+    from 1) it is the sheet with the most rows of numbers.
     """
 
     word = "xlsx"
     suffixes = (".xlsx", ".xlsm")
+    extra = "excel"
+    options = {
+        "sheet": "its name, or its number counted from 1",
+    }
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
-        check_options(options, ("sheet",))
-        require("openpyxl", "excel", "Excel workbooks")
+        check_options(options, self.options)
+        require("openpyxl", self.extra, "Excel workbooks")
         sheets: dict[str, list[str]] = read_apart(read_sheets, path, "Excel workbook").notes["sheets"]
         lines = sheets[_chosen(sheets, options.get("sheet"))]
         return read_table(lines, find_layout(lines, (_BETWEEN,), (".",)))

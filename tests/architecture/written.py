@@ -60,8 +60,19 @@ def formats() -> Iterator[str]:
     """A section for each reader: which files it takes and what can be said to it."""
     for word, made in things("formats").items():
         yield f"### `{word}`"
-        yield "Files ending in " + ", ".join(f"`{suffix}`" for suffix in made.suffixes) + "."
-        yield from paragraphs(made)
+        yield from format_of_files(word, made)
+
+
+def format_of_files(word: str, made: type[Any]) -> Iterator[str]:
+    """Which files a reader takes, what it needs, what it does, and what may be said under ``file_options``."""
+    endings = ", ".join(f"`{suffix}`" for suffix in made.suffixes)
+    taken = (
+        f"Files ending in {endings}." if endings else f"No ending of its own: `reader: {word}` under a run names it."
+    )
+    yield taken + (f" Needs `pip install 'dashpot[{made.extra}]'`." if made.extra else "")
+    yield from paragraphs(made)
+    if made.options:
+        yield table(("file option", "meaning"), [(f"`{key}`", meaning) for key, meaning in made.options.items()])
 
 
 def causes() -> Iterator[str]:

@@ -14,7 +14,7 @@ import dashpot as dp
 
 sys.path.insert(0, str(ROOT / "docs"))
 
-from building.pages import examples, public_names  # noqa: E402
+from building.api import examples, public_names  # noqa: E402
 
 NAMES = [name for names in public_names().values() for name in names]
 

@@ -74,7 +74,7 @@ def dataset(registry: Registry) -> dict[str, Any]:
     """The schema of a dataset file."""
     from dashpot.data.schema import dataset_schema
 
-    return dataset_schema(tuple(registry.formats))
+    return dataset_schema({word: reader.options for word, reader in registry.formats.items()})
 
 
 def rig(registry: Registry) -> dict[str, Any]:

@@ -16,6 +16,8 @@ class Reader(ABC):
     """Reads the files of one format into columns. It never changes a file, and never unpickles.
 
     `word` names the format in a dataset (`reader: csv`); `suffixes` are the file names it reads unasked (`.csv`).
+    `options` are the keys that may stand under `file_options`, each with its meaning; `extra` is what to install for a
+    format that needs a library of its own: `dashpot[mdf]`.
 
     Examples:
         >>> class Pairs(dp.Reader):
@@ -29,6 +31,8 @@ class Reader(ABC):
 
     word: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
+    options: ClassVar[Mapping[str, str]] = {}
+    extra: ClassVar[str] = ""
 
     @abstractmethod
     def read(self, path: Path, options: Mapping[str, object]) -> Table:

@@ -24,6 +24,15 @@ class Run:
     the specimen was deflected in the runs before.
     uneven: whether the clock was not, and the samples were laid on the even grid.
     end: the node whose force it is about, where a run with several forces was taken apart.
+
+    Examples:
+        >>> run = dp.load_dataset("mount").runs[1]
+        >>> run.name, run.kind, run.group
+        ('a0p5_p2_up_b', 'sweep', 'a0p5_p2_up')
+        >>> run.time.shape == run.displacement.shape == run.force.shape
+        True
+        >>> run.settings["amplitude"], run.sample_time
+        (0.0005, 0.002)
     """
 
     name: str

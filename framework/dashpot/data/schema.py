@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 
 from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.declaration import ACCEPTABLE, SENSOR_KEYS, SETTING_UNITS
@@ -13,10 +13,12 @@ from dashpot.text import schema as s
 from dashpot.text.schema import Schema
 
 NEEDED = ("file", "kind", "channels")
+# the formats that can be read, each with its options and their meaning
+Readers = Mapping[str, Mapping[str, str]]
 
 
-def dataset_schema(readers: Collection[str]) -> Schema:
-    """The schema of a dataset file; ``readers`` are the formats that can be read."""
+def dataset_schema(readers: Readers) -> Schema:
+    """The schema of a dataset file; ``readers`` are the formats with their options."""
     head = {
         "format": s.choice((FORMAT,)),
         "name": s.text("the name of the dataset"),
@@ -56,7 +58,7 @@ def _reference() -> Schema:
     return s.by_key({"value": number}, s.mapping({**curve, **by}, ("velocity", "force")))
 
 
-def _table(readers: Collection[str]) -> Schema:
+def _table(readers: Readers) -> Schema:
     column = {**s.text(), "description": "its name in the file, or its number from 1"}
     one = {
         "if": {"type": "object"},
@@ -83,8 +85,8 @@ def _table(readers: Collection[str]) -> Schema:
         ),
         "scatter": s.text("standard deviation of the stiffness, as 3 N/mm or 2 %: rows count by it"),
         "held_out": s.flag("keep it out of every fit"),
-        "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
-        "file_options": {"type": "object", "description": "what the reader should know"},
+        "reader": s.choice(tuple(readers), "the format of the file, where its ending does not say it"),
+        "file_options": _file_options(readers),
     }
     return s.mapping(keys, ("file", "columns"))
 
@@ -95,7 +97,7 @@ def _said(key: str) -> Schema:
     return {"if": {"properties": {"defaults": {"required": [key]}}}, "else": each}
 
 
-def _run_keys(readers: Collection[str], channels: str) -> dict[str, Schema]:
+def _run_keys(readers: Readers, channels: str) -> dict[str, Schema]:
     return {
         "name": s.text("by default that of the file"),
         "file": s.text("in the folder of the dataset or below it"),
@@ -117,10 +119,20 @@ def _run_keys(readers: Collection[str], channels: str) -> dict[str, Schema]:
         "start": s.quantity("s", "from this time on"),
         "stop": s.quantity("s", "up to this time"),
         "decimate": s.integer("every n-th sample after a low-pass", minimum=1, maximum=1000),
-        "reader": s.choice(readers, "the format of the file, where its ending does not say it"),
-        "file_options": {"type": "object", "description": "what the reader should know"},
+        "reader": s.choice(tuple(readers), "the format of the file, where its ending does not say it"),
+        "file_options": _file_options(readers),
         "accept": s.items(s.choice(ACCEPTABLE), "what is known and harmless"),
     }
+
+
+def _file_options(readers: Readers) -> Schema:
+    """What any reader may be told; which of it a file takes depends on its format, and reading checks it."""
+    meanings: dict[str, list[str]] = {}
+    for word, options in readers.items():
+        for key, meaning in options.items():
+            meanings.setdefault(key, []).append(f"{word}: {meaning}")
+    properties = {key: {"description": "; ".join(said)} for key, said in meanings.items()}
+    return {"type": "object", "properties": properties, "description": "what the reader should know"}
 
 
 def _settings() -> Schema:

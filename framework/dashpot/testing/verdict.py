@@ -10,7 +10,20 @@ from dashpot.model.element import Element
 
 
 class ConformanceError(AssertionError):
-    """An element does not keep a promise; the message says which, and what to do."""
+    """An element does not keep a promise; the message says which, what to do, and the seed that repeats it.
+
+    Examples:
+        >>> class Leak(Bumper):
+        ...     '''A law whose force depends on more than it declares.'''
+        ...     word = "leak"
+        ...     def step(self, x, z, p, dt):
+        ...         return dp.Response(p.stiffness * x.new + p.length)
+        >>> try:
+        ...     dp.check_element(Leak, seed=1)
+        ... except dp.ConformanceError as error:
+        ...     print("units" in str(error))
+        True
+    """
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,12 @@ _RUN = re.compile(r"run '[^']*' \([^)]*\)")
 
 @dataclass(frozen=True)
 class Place:
-    """A place in a file. Lines and columns count from 1; what is unknown is None."""
+    """A place in a file. Lines and columns count from 1; what is unknown is None.
+
+    Examples:
+        >>> str(dp.Place("mount.yaml", line=4, column=3))
+        'mount.yaml:4:3'
+    """
 
     file: str | None = None
     line: int | None = None
@@ -31,7 +36,12 @@ class Place:
 
 @dataclass(frozen=True)
 class Problem:
-    """One mistake (or warning): where it is, what was expected and got, what to do about it."""
+    """One mistake (or warning): where it is, what was expected and got, what to do about it.
+
+    Examples:
+        >>> str(dp.Problem(dp.Place("mount.yaml"), "expected a stiffness, got '3 kg'", "write it in N/mm"))
+        "mount.yaml: expected a stiffness, got '3 kg'. write it in N/mm"
+    """
 
     place: Place
     message: str
@@ -45,7 +55,18 @@ class Problem:
 
 
 class InputError(Exception):
-    """Everything that is wrong with an input, in the order of the text; lines as of `problem_lines`."""
+    """Everything that is wrong with a file or an argument; its text is what the command line says.
+
+    ``problems`` are the mistakes one by one, in the order of the text.
+
+    Examples:
+        >>> try:
+        ...     dp.declare("format: dashpot-network/1\\nname: m\\nbranches: {a: {element: sprin, stiffness: 1 N/mm}}")
+        ... except dp.InputError as error:
+        ...     wrong = error.problems[0]
+        >>> wrong.place.line, wrong.hint
+        (3, "did you mean 'spring'?")
+    """
 
     def __init__(self, problems: Iterable[Problem]):
         self.problems = in_text_order(problems)

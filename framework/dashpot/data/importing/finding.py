@@ -11,7 +11,7 @@ from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.excitation import MOVING
 from dashpot.data.importing.motion import Motion, find_motion
 from dashpot.data.importing.roles import GUESSED, Role, motion_roles, named_roles
-from dashpot.data.importing.rows import numeric, of_one_length, usable_rows
+from dashpot.data.importing.rows import numeric, of_one_length, usable_rows, without_filling
 from dashpot.data.importing.signs import falls, find_signs
 from dashpot.data.importing.timing import Timing, find_timing
 from dashpot.data.importing.units import GUESSED as GUESSED_UNIT
@@ -99,6 +99,8 @@ def find_all(
     chosen = _chosen(roles, columns)
     needed = [columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name is not None]
     rows = usable_rows(needed) if needed else (0, _length(columns))
+    if needed and timing.column is None:
+        rows = rows[0], min(rows[1], without_filling(columns.values()))
     cut = {name: values[slice(*rows)] for name, values in columns.items()}
     channels = {channel: _found(role, table, cut) for channel, role in chosen.items()}
     channels = _agreed(channels, agreed) if agreed else channels

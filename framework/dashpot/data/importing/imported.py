@@ -286,7 +286,10 @@ def _confirm(
         for remark in run.finding.confirm:
             about.setdefault(remark, []).append(run.name)
         if run.rows:
-            remark = "only the rows under 'rows' are used: others lie beyond a break of the clock, or hold no numbers"
+            remark = (
+                "only the rows under 'rows' are used: others lie beyond a break of the clock, hold no numbers, or are "
+                "the zeros that fill up the last block"
+            )
             about.setdefault(remark, []).append(run.name)
         if run.repeats:
             about.setdefault("the runs that repeat others: they do so after motion and force", []).append(run.name)

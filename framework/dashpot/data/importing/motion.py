@@ -9,6 +9,7 @@ import numpy as np
 
 _FEW_CYCLES, _SLOW_CYCLE = 3.5, 4.0
 _EVEN, _SMOOTH, _SWEPT = 0.05, 0.25, 1.5
+_SAME_COURSE, _ENDS = 0.1, 3  # of frequencies over time, as a share; half periods at either end
 
 
 @dataclass(frozen=True)
@@ -96,14 +97,17 @@ def _settings(kind: str, displacement: np.ndarray, turns: np.ndarray, step: floa
 
 
 def _swept(turns: np.ndarray, duration: float) -> tuple[float, float]:
-    """The frequencies at both ends of a sweep, from the line or the exponential through those between the turns."""
+    """The frequencies at both ends of a sweep, from the line or the exponential through those between the turns.
+
+    Where neither describes them, as with sines one after the other, they are those of the first and last periods.
+    """
     when, frequency = 0.5 * (turns[1:] + turns[:-1]), 0.5 / np.diff(turns)
     ends = np.array([0.0, duration])
-    best, found = np.inf, (float(frequency[0]), float(frequency[-1]))
+    best, found = _SAME_COURSE, (float(np.median(frequency[:_ENDS])), float(np.median(frequency[-_ENDS:])))
     for bend, back in ((np.asarray, np.asarray), (np.log, np.exp)):
         course = np.polynomial.Polynomial.fit(when, bend(frequency), 1)
         miss = float(np.mean(np.abs(back(course(when)) / frequency - 1)))
         at_ends = back(course(ends))
-        if miss < min(best, _SMOOTH) and np.all(at_ends > 0):
+        if miss < best and np.all(at_ends > 0):
             best, found = miss, (float(at_ends[0]), float(at_ends[1]))
     return found

@@ -1,4 +1,4 @@
-"""The rows of a file that can be used: lines of text and empty cells at its beginning and end are left out."""
+"""The rows of a file that can be used: text, empty cells and what fills up its last block are left out."""
 
 from __future__ import annotations
 
@@ -29,6 +29,16 @@ def usable_rows(columns: Iterable[np.ndarray]) -> tuple[int, int]:
         return 0, len(sound)
     first, last = int(places[0]), int(places[-1]) + 1
     return (first, last) if last - first >= 0.9 * len(sound) else (0, len(sound))
+
+
+def without_filling(columns: Iterable[np.ndarray]) -> int:
+    """The row past the last (from 0) that is not zero in every column, as where zeros fill up the last block of a file.
+
+    All rows where that is a single zero, which may have been measured, or more than half of the file.
+    """
+    moved = np.any([values != 0.0 for values in columns], axis=0)
+    filled = int(np.argmax(moved[::-1]))
+    return len(moved) - filled if 1 < filled <= 0.5 * len(moved) else len(moved)
 
 
 def of_one_length(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
