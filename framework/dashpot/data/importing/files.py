@@ -11,6 +11,10 @@ from dashpot.data.source import DESCRIPTIONS
 from dashpot.data.table import FileReader
 from dashpot.text.problem import InputError, Place
 
+# longer names fill the tables of a report: words that all files begin with are left out
+_LONG = 24
+_WORD = re.compile(r"[^ _-]+[ _-]+")
+
 
 def find_files(given: Iterable[Path], readers: Mapping[str, FileReader]) -> list[Path]:
     """The files that were given, those in given folders that a reader takes unasked, and those that a pattern names.
@@ -36,17 +40,31 @@ def find_files(given: Iterable[Path], readers: Mapping[str, FileReader]) -> list
 
 
 def run_names(files: Sequence[Path]) -> dict[Path, str]:
-    """A name for the run of each file, by the file and where needed its folder."""
+    """A name for the run of each file, by the file and where needed its folder; long ones without what all share."""
+    shared = _shared_words([file.stem for file in files])
     names: dict[Path, str] = {}
     for file in files:
-        name = _safe(file.stem)
+        stem = file.stem[shared:]
+        name = _safe(stem)
         if name in names.values():
-            name = _safe(f"{file.resolve().parent.name}_{file.stem}")
+            name = _safe(f"{file.resolve().parent.name}_{stem}")
         number = 2
         while name in names.values():
-            name, number = _safe(f"{file.stem}_{number}"), number + 1
+            name, number = _safe(f"{stem}_{number}"), number + 1
         names[file] = name
     return names
+
+
+def _shared_words(stems: Sequence[str]) -> int:
+    """How many characters of long names are words that all of them begin with, each with a letter after them."""
+    shared = 0
+    if len(stems) < 2 or max(map(len, stems)) <= _LONG:
+        return 0
+    while (word := _WORD.match(stems[0], shared)) and all(stem.startswith(word[0], shared) for stem in stems):
+        if not all(stem[word.end() :][:1].isalpha() for stem in stems):
+            break
+        shared = word.end()
+    return shared
 
 
 def common_folder(files: Sequence[Path]) -> Path:

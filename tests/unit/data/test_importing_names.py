@@ -1,0 +1,34 @@
+"""What the runs of a folder are called."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from dashpot.data.importing.files import run_names
+
+
+@pytest.mark.parametrize(
+    ("stems", "names"),
+    [
+        (
+            ["Gummilager hinten quasistatisch", "Gummilager hinten Sweep_1,0mm"],
+            ["quasistatisch", "Sweep_1,0mm"],
+        ),
+        (
+            ["mount_rear-left_sweep_1mm_repeat_1", "mount_rear-left_sweep_1mm_repeat_2"],
+            ["sweep_1mm_repeat_1", "sweep_1mm_repeat_2"],
+        ),
+        (["mount_rear_a1", "mount_rear_a2"], ["mount_rear_a1", "mount_rear_a2"]),
+        (
+            ["specimen 7 of the second lot", "specimen 8 of the second lot"],
+            ["specimen 7 of the second lot", "specimen 8 of the second lot"],
+        ),
+        (["the only file of a long folder"], ["the only file of a long folder"]),
+        (["mount of the rear axle", "mount of the rear axle sweep up"], ["axle", "axle sweep up"]),
+    ],
+)
+def test_long_names_lose_the_words_that_all_begin_with(stems, names):
+    found = list(run_names([Path(f"{stem}.csv") for stem in stems]).values())
+    assert found == names
