@@ -46,7 +46,7 @@ class Oscillation:
         return np.interp(np.arange(len(self.angle)) * self.sample_time, self.time, np.abs(self.motion))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DynamicStiffness:
     """Complex stiffness and harmonics of a force over m windows.
 
@@ -72,6 +72,12 @@ class DynamicStiffness:
     confidence: np.ndarray
     periods: float
     step: float
+
+    def __repr__(self) -> str:
+        if not len(self):
+            return "DynamicStiffness: no windows"
+        low, high, middle = self.frequency.min(), self.frequency.max(), np.median(self.magnitude)
+        return f"DynamicStiffness: {len(self)} windows, {low:.3g} to {high:.3g} Hz, median |K*| {middle:.4g} N/m"
 
     @property
     def magnitude(self) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ from dashpot.report.parameters import parameters_grid
 from dashpot.report.parts import Notice, Picture
 from dashpot.report.schematic.svg import svg
 from dashpot.text.problem import InputError, Place, nearest
+from dashpot.text.quantity import si
 from dashpot.text.written import flow
 
 if TYPE_CHECKING:
@@ -64,13 +66,14 @@ class Model(Printed, NetworkSpec):
         self._refuse_unknown(name)
         self._become(remove_branch(self.text, name))
 
-    def add(self, name: str, element: str | None = None, **keys: Any) -> None:
+    def add(self, name: str, element: str | Mapping[str, Any] | None = None, **keys: Any) -> None:
         """Add a branch: ``element`` is the word of its law, ``keys`` are those that a file would have.
 
+        Or all of it as one mapping, as in ``dp.Network``: ``add("friction", {"element": "dahl", ...})``.
         ``add("mount", series={"rubber": {...}, "bracket": {...}})`` adds a group. InputError for mistakes, ValueError
         when there is a branch of that name.
         """
-        entry = {"element": element} if element else {}
+        entry = element if isinstance(element, Mapping) else {"element": element} if element else {}
         self._become(add_branch(self.text, f"{flow(name)}: {flow({**entry, **keys})}"))
 
     def dynamic_stiffness(
@@ -78,12 +81,15 @@ class Model(Printed, NetworkSpec):
     ) -> NDArray[np.complex128]:
         """K' + i K'' in N/m over frequency (Hz), amplitude and preload (m), broadcast against each other.
 
-        Of a steady sine that begins at the preload, as the load cell shows it. ``settings`` in SI set the
-        parameters that depend on the settings of a run. InputError for a network with several driven ends.
+        Of a steady sine that begins at the preload, as the load cell shows it. Texts are quantities: ``"0.5 mm"``.
+        ``settings`` in SI set the parameters that depend on the settings of a run. InputError for a network with
+        several driven ends, ValueError for shapes that do not go together.
         """
         from dashpot.kernel.stiffness import dynamic_stiffness
 
-        return dynamic_stiffness(self, frequency, amplitude, preload, settings)
+        given = _in_si(frequency, "Hz"), _in_si(amplitude, "m"), _in_si(preload, "m")
+        _refuse_other_shapes(*(values.shape for values in given))
+        return dynamic_stiffness(self, *given, settings)
 
     @property
     def _line(self) -> str:
@@ -149,3 +155,26 @@ class Model(Printed, NetworkSpec):
 def _groups(group: Group) -> list[Group]:
     inner = [member for member in group.members if isinstance(member, Group)]
     return [*inner, *(below for member in inner for below in _groups(member))]
+
+
+def _in_si(values: ArrayLike, unit: str) -> NDArray[np.float64]:
+    """Numbers in SI, whatever their shape; of texts what they mean in the unit."""
+    import numpy as np
+
+    given = np.asarray(values)
+    if given.dtype.kind not in "UO":
+        return given
+    return np.array([si(value, unit) for value in given.ravel().tolist()]).reshape(given.shape)
+
+
+def _refuse_other_shapes(*shapes: tuple[int, ...]) -> None:
+    import numpy as np
+
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        raise ValueError(
+            "expected frequency, amplitude and preload that broadcast against each other, got the shapes "
+            f"{', '.join(map(str, shapes))}; for a table of two frequencies and three amplitudes write "
+            "frequency as [[1.0], [10.0]]"
+        ) from None

@@ -28,7 +28,7 @@ def require_plotly() -> None:
     if find_spec("plotly") is None:
         raise InputError.at(
             Place(),
-            "plot() needs the package plotly, which is not installed; reports need it not",
+            "plot() needs the package plotly, which is not installed; reports do without it",
             "pip install 'dashpot[plot]'",
         )
 

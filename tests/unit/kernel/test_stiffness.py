@@ -63,6 +63,14 @@ def test_numbers_over_settings_need_their_setting():
         model.dynamic_stiffness(5.0, 1e-3)
 
 
+def test_frequencies_and_amplitudes_may_be_texts():
+    spring = dp.declare("format: dashpot-network/1\nname: s\nbranches: {a: {element: spring, stiffness: 200 N/mm}}")
+    found = spring.dynamic_stiffness([["1 Hz"], ["600 rpm"]], ["0.5 mm", "1 mm"], "2 mm")
+    assert found.shape == (2, 2) and found == pytest.approx(np.full((2, 2), 2e5 + 0j))
+    with pytest.raises(ValueError, match=r"got the shapes \(2,\), \(3,\), \(\)"):
+        spring.dynamic_stiffness([1.0, 2.0], [1e-3, 2e-3, 3e-3])
+
+
 def test_what_has_no_dynamic_stiffness_is_told():
     spring = network({"spring": {"element": "spring", "stiffness": 2e5}})
     with pytest.raises(ValueError, match="expected frequencies .* above 0"):

@@ -81,7 +81,7 @@ def test_masses_of_nodes_are_numbers_too():
 
 
 def test_branches_come_and_go(model):
-    model.add("friction", "dahl", stiffness="400 N/mm", limit=20.0)
+    model.add("friction", {"element": "dahl", "stiffness": "400 N/mm", "limit": 20.0})
     model.add(
         "second", series={"a": {"element": "damper", "damping": 10.0}, "b": {"element": "spring", "stiffness": 1e5}}
     )

@@ -148,6 +148,7 @@ def test_runs_along_a_dimension_of_xarray_may_be_filled_up():
 
 def test_dynamic_stiffness_of_data_is_that_of_the_sine():
     [found] = sine().dynamic_stiffness().values()
+    assert repr(found).startswith("DynamicStiffness: ") and len(repr(found)) < 100
     assert found.storage == pytest.approx(2e5, rel=1e-6) and found.loss == pytest.approx(4e4, rel=1e-6)
     assert found.amplitude == pytest.approx(1e-3, rel=1e-6) and found.frequency == pytest.approx(5.0, rel=1e-6)
 
