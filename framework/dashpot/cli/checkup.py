@@ -33,6 +33,7 @@ PURPOSES = {
     "parquet": "tables of campaigns as Parquet files",
     "sampler": "draws from the posterior of a fit",
     "pandas": "gives tables as data frames in Python",
+    "plot": "draws figures in notebooks, plot() of every result",
     "docs": "builds the documentation",
     "dev": "runs the tests",
 }

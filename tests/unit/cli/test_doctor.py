@@ -151,3 +151,12 @@ def test_a_fault_has_an_exit_code_and_its_advice(call, registry):
     assert out.rstrip().splitlines()[-1].endswith("faults: see what is marked !!")
     code, out, error = call("doctor", "--quiet")
     assert (code, out) == (1, "") and "cannot be loaded: ImportError: no" in error
+
+
+def test_every_extra_for_users_has_a_purpose():
+    from architecture.packaging import project
+
+    from dashpot import load_registry
+
+    extras = set(project()["project"]["optional-dependencies"])
+    assert not [extra for extra in extras if checkup.purpose_of(extra, load_registry()) == "adds to dashpot"]
