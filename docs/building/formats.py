@@ -44,7 +44,7 @@ def overview() -> Iterator[str]:
             f"[`{word}`](formats/{word}.md)",
             ", ".join(f"`{suffix}`" for suffix in made.suffixes) or f"`reader: {word}`",
             f"`dashpot[{made.extra}]`" if made.extra else "",
-            written.one_line(made).partition(": ")[0].rstrip("."),
+            written.one_line(made).removeprefix("Reads ").rstrip("."),
         )
         for word, made in written.things("formats").items()
     ]

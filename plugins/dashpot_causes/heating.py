@@ -38,8 +38,8 @@ class Heating(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; numbers of the network
-        over the order of the runs.
+        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; parameters of the
+        network over the order of the runs.
         """
         mean_square = max(float(np.mean(np.square(view.velocity(run)))) for run in view.runs)
         band = 2.0 * np.pi * view.highest_frequency

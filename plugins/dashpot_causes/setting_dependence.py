@@ -1,4 +1,4 @@
-"""Numbers of the network that are others under other settings."""
+"""Parameters of the network that are others under other settings."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def channel_at(quantity: str, node: str) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Excitation:
-    """Motions (Drive) and loads (n,) in N by the name of the node, and the numbers of the test procedure, in SI.
+    """Motions (Drive) and loads (n,) in N by the name of the node, and the settings of the test procedure, in SI.
 
     The node of a network with two ends has the name "". Among the settings are the means of all further channels that
     were measured (temperature, pressure ...), as ``mean_of`` names them, the ``order`` of a run in its dataset, and

@@ -62,7 +62,7 @@ class OrderFit:
 
     middle: (m,) weighted mean sample number; mean: (m, s) value there; slope: (m, s) per sample;
     harmonics: (m, orders, s) complex amplitudes H_k of Re sum H_k exp(j k theta), NaN above the Nyquist frequency;
-    variance: (m, s) of what is left, per degree of freedom; samples: (m,) as many equally weighted ones would do.
+    variance: (m, s) of the residual, per degree of freedom; samples: (m,) as many equally weighted ones would do.
     """
 
     middle: np.ndarray

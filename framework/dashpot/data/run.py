@@ -16,7 +16,7 @@ class Run:
 
     time (n,) s; channels: "displacement", "force", "velocity", "force@platform_left", ... -> (n,).
     kind: one of KINDS; of a row of a table, "steady": the fundamental of a steady sine (`dashpot.data.steady`).
-    settings: numbers of the test procedure in SI ("amplitude", "preload", "start", "stop", ...); notes: its words.
+    settings: settings of the test procedure in SI ("amplitude", "preload", "start", "stop", ...); notes: its words.
     group: the name of the original; all repeats of a run share it. repeats: the original, None for an original.
     held_out: what the dataset says about it, None when it says nothing.
     sensors: channel -> its specification in SI (gain, zero, delay, noise).

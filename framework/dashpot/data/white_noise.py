@@ -12,7 +12,7 @@ _QUANTILE = 0.25
 def white_noise(signal: np.ndarray) -> float:
     """Standard deviation of the white noise on a signal, in its unit; close to zero on a smooth signal.
 
-    A polynomial of degree 6 is taken out of every 15 samples; what is left has 8 degrees of freedom. The lower quartile
+    A polynomial of degree 6 is taken out of every 15 samples; the residual has 8 degrees of freedom. The lower quartile
     over all pieces counts, so that kinks, steps and fast parts in up to three quarters of the record do not.
     A signal of fewer than 15 samples gives zero.
     """

@@ -16,10 +16,10 @@ evidence     what has to show a fault of the measurement in all runs
 pursue       look, search and refit until no structure scores better
 spare        branches of the diagnosed network that may go
 channel      faults of the force channel in single runs
-polish       the numbers of the final files and their intervals
+polish       the parameters of the final files and their intervals
 lines        lines in spectra
 leftover     structure that no cause explains
-limits       the smallest effects that would have been found
+limits       the detection limits, the smallest effects found with 95 % power
 proposals    runs to choose the next measurement from
 next_run     the run that tells two models apart
 gain         what a cause is worth on runs that took no part

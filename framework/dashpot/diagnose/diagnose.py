@@ -65,7 +65,7 @@ def diagnose(
     progress: Progress | None = None,
     relevance: float = RELEVANCE,
 ) -> Diagnosis:
-    """Triage the data, fit, search for the causes of what is left, and say how sure that is.
+    """Triage the data, fit, search for the causes of the residual, and say how sure that is.
 
     A cause without which the training error grows by less than the share ``relevance`` is not named. Held-out runs take
     no part before the end. With a pool or a cluster as ``jobs`` it works in this process, on one thread.
@@ -139,7 +139,7 @@ def find_causes(
     """The best structure, and the faults of single training runs beside it.
 
     Where repeats of a run disagree, all runs may have that fault, as large as they differ, while causes are searched;
-    where runs are found at fault in the end, causes are searched again on what is left.
+    where runs are found at fault in the end, causes are searched again in the residual.
     """
     model = first_model(fit.declared, fit.fitted)
     if kept_curves(fit.fitted):
@@ -188,7 +188,7 @@ def correction_of(run: str, accused: Sequence[Accused]) -> Correction | None:
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:
     """The first fit that converged, by the number of the attempt, else the best; and what is to be said of it.
 
-    A fit that errs by more than the ``swing`` (N) of the forces has converged to something absurd, and does not count.
+    A fit whose RMSE exceeds the ``swing`` (N) of the forces has converged to something absurd, and does not count.
     Where another start comes to the same error, more starts are not needed.
     """
     faults = []

@@ -229,7 +229,7 @@ class Diagnosis(Findings):
         return found
 
     def limits(self) -> list[dict[str, Any]]:
-        """The smallest effects that would have been found; nothing where the model errs by more than the noise."""
+        """The detection limits of all causes; nothing where the RMSE of the model exceeds the noise."""
         if not self._near_floor:
             return []
         return [
@@ -285,7 +285,7 @@ def _limit(word: str, about: str, place: str | None, limit: Limit | None) -> dic
     if limit is None:
         return {
             **found,
-            "quantity": "would not show beside the numbers of the model",
+            "quantity": "would not show beside the parameters of the model",
             "value": None,
             "unit": None,
             "force": None,

@@ -31,7 +31,7 @@ def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
 def is_determined(scores: Scores, number: int) -> bool:
     """Whether no number of a fault of the measurement is at an end of its range or has an interval of ``DECADES``.
 
-    The numbers of the other terms are free.
+    The parameters of the other terms are free.
     """
     look = scores.look
     model, paths = look.model, look.model.coordinates.paths

@@ -41,7 +41,7 @@ from dashpot.triage.examine import Triage
 Array = NDArray[np.float64]
 
 ALONE = 2.0  # times the error of the worst training run
-NEAR_FLOOR = 2.0  # times the noise floor: beyond it a model errs by more than noise
+NEAR_FLOOR = 2.0  # times the noise floor: beyond it the RMSE of a model is more than noise
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,12 +119,12 @@ class Findings:
 
     @property
     def fitted_name(self) -> str:
-        """File name of the diagnosed network with its fitted numbers."""
+        """File name of the diagnosed network with its fitted parameters."""
         return f"{self.model.name}.yaml"
 
     @property
     def fitted_text(self) -> str:
-        """The diagnosed network with its fitted numbers."""
+        """The diagnosed network with its fitted parameters."""
         return self.fit.identified_text
 
     @cached_property

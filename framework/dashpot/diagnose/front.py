@@ -1,4 +1,4 @@
-"""What is refitted beside every structure: the numbers of the base, doubted faults, and errors of the forms of terms.
+"""What is refitted beside every structure: parameters of the base, doubted faults, and errors of the forms of terms.
 
 The base is eliminated once. The errors of the form of a term go with it: a structure without the term could otherwise
 keep its force as an error of a form that it does not have.
@@ -30,9 +30,9 @@ class Beside:
     """Columns with those in front fitted to each on all runs.
 
     ``moves`` (e, c) are the strengths of the columns in front that take up one of each, ``base_moves`` (b, c) those of
-    the base, ``squares`` (c,) what is left of the columns. ``gram`` (c, c) is the Gram matrix of all runs, and of what
+    the base, ``squares`` (c,) the residual of the columns. ``gram`` (c, c) is the Gram matrix of all runs, and of what
     is known beforehand, of columns divided by their ``scale`` (c,). ``precision`` (e,) is that of the columns in front,
-    ``tangents`` how many numbers of terms there are, and ``occam`` the nats by which the marginal likelihood is below
+    ``tangents`` how many parameters terms have, and ``occam`` the nats by which the marginal likelihood is below
     that of the best strengths.
     """
 
@@ -149,7 +149,7 @@ def in_front(total: Array, precision: Array) -> Array:
     """The strengths (f, c) with which the first columns of a Gram matrix (f + c, f + c) take up each of the others.
 
     ``precision`` (f,) is what is known of them beforehand. They are fitted on all runs, and not left out with a group:
-    where a run alone reaches a deflection, the curve of the base there is not to be foretold by others, and says
+    where a run alone reaches a deflection, the curve of the base there cannot be predicted from others, and says
     nothing of the terms.
     """
     first, inner, scale = precision.size, *_scaled(total, precision)

@@ -1,4 +1,4 @@
-"""The smallest effect of each cause that would have been found with 95 % power (detection limits)."""
+"""The detection limit of each cause: the smallest effect that is found with 95 % power."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Limit:
 
 
 def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | None]]:
-    """The limit of every cause at every site; None where these runs would not show it beside the numbers of the model.
+    """The limit of every cause at every site; None where the runs do not show it beside the parameters of the model.
 
     An effect is found where its nats exceed its prior odds, and is named where the error would grow by the share
     ``relevance`` without it.

@@ -179,7 +179,7 @@ def _smallest(run: ScoredRun) -> float:
 def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[ScoredRun]) -> Noise:
     """How far a model with such residuals (kept,) in N is from each run, as white noise.
 
-    It weighs runs and counts independent samples in the search: a model that errs repeats its error with every cycle,
+    It weighs runs and counts independent samples in the search: a wrong model repeats its error with every cycle,
     and whitening that error would judge it by its fastest part.
     """
     deviations = {run.name: max(float(np.sqrt(np.mean(residual[run.name] ** 2))), _smallest(run)) for run in runs}

@@ -20,7 +20,7 @@ MORE_LIKELY = 0.5  # than not
 
 @dataclass(frozen=True, eq=False)
 class NamedCause:
-    """A cause with the numbers that it brought, by path, or with the faults of single runs that it stands for.
+    """A cause with the parameters that it brought, by path, or with the faults of single runs that it stands for.
 
     ``probability`` is that of its name, ``presence`` that of something in its place, this cause or a rival; both are
     the same for a fault of the measurement.
@@ -96,6 +96,6 @@ class NamedCause:
 
 
 def slots_of(network: NetworkSpec, paths: Sequence[str]) -> dict[str, Value]:
-    """The numbers of a network at some paths, in the order of the text."""
+    """The parameters of a network at some paths, in the order of the text."""
     found = [slot for slot in network.slots() if slot.path in set(paths)]
     return {slot.path: slot.value for slot in sorted(found, key=lambda slot: slot.value.place)}

@@ -1,4 +1,4 @@
-"""The numbers of the final files: fitted to the plain error, with intervals, and read back as they are written."""
+"""The parameters of the final files: fitted to the plain error, with intervals, and read back as they are written."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ class Scores:
         return solution * self.scale[0] / self.scale[at]
 
     def moves(self, structure: Structure) -> Array:
-        """The natural steps (p,) of all numbers of the model that a structure foresees."""
+        """The natural steps (p,) of all parameters of the model that a structure foresees."""
         at, strengths, look = self.columns(structure), self.strengths(structure), self.look
         found = np.zeros(look.model.point.size)
         tangents = at <= look.layout.tangents

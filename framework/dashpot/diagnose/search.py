@@ -114,7 +114,7 @@ def _project(scores: Scores, structure: Structure) -> _Projected:
     right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)
     square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))
     samples = float(scores.look.samples.sum())
-    # per unit of what is left, so that a gain in squares is one in nats
+    # per unit of the residual, so that a gain in squares is one in nats
     return _Projected(right, left, 0.5 * samples / max(square, 1e-300))
 
 

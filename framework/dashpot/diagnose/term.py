@@ -51,7 +51,7 @@ class Model:
     """A fitted structure.
 
     ``base`` is the network that is diagnosed, ``declared`` its text extended by the ``terms``, ``fitted`` the same with
-    fitted numbers; ``owned`` holds for each term the paths of the numbers that it brought.
+    fitted parameters; ``owned`` holds for each term the paths of the parameters that it brought.
     """
 
     base: NetworkSpec
@@ -91,11 +91,11 @@ class Model:
         return all(path in known for owned in self.owned for path in owned)
 
     def count(self, number: int) -> int:
-        """How many numbers of a term are searched."""
+        """How many parameters of a term are searched."""
         return len(set(self.owned[number]) & set(self.coordinates.paths))
 
     def numbers_of(self, number: int) -> dict[str, float]:
-        """The fitted numbers in SI that a term brought, by the last word of their path; a second one ends in ``_2``."""
+        """Fitted parameters in SI that a term brought, by the last word of the path; a second one ends in ``_2``."""
         return numbers_by_word(self.fitted, self.owned[number])
 
     def moved(self, change: Array) -> NetworkSpec:
@@ -115,7 +115,7 @@ def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
 def extended(
     network: NetworkSpec, term: Term, elements: Mapping[str, type[Element]]
 ) -> tuple[NetworkSpec, tuple[str, ...]]:
-    """A network extended by a term, and the paths of the numbers that it brought.
+    """A network extended by a term, and the paths of the parameters that it brought.
 
     Raises InputError for a term that cannot be written into the network.
     """
@@ -127,7 +127,7 @@ def extended(
 def inherited(
     declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Term], model: Model, sizes: Sizes
 ) -> NetworkSpec:
-    """A declared structure with the fitted numbers of a model wherever the two share a term or the base."""
+    """A declared structure with the fitted parameters of a model wherever the two share a term or the base."""
     homes = {path: path for path in (slot.path for slot in model.base.slots())}
     for term, paths in zip(terms, owned, strict=True):
         if term in model.terms:

@@ -23,7 +23,7 @@ HARMONICS = 5  # of the end of the driven band that the reduced records still ho
 
 @dataclass(frozen=True, eq=False)
 class Noise:
-    """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of what is left.
+    """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of the residual.
 
     Filtered noise has variance one. ``filters`` in 1/N; ``independent`` is the share of independent samples.
     """

@@ -11,7 +11,7 @@ objective    what a block of parameter vectors is worth on a set of runs
 search       run any optimizer to its end, its budget or its target
 replay       answers to asked blocks: from a record first, then by evaluation
 starts       the framework's own search: a screening block, then refinements of the best of it
-refine       damped Gauss-Newton, the framework's own polish
+refine       damped Gauss-Newton, the framework's own refinement
 uncertainty  how well the parameters are known
 prior        what was known before, as residual terms
 posterior    draws from the posterior of a fit

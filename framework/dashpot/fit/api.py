@@ -2,7 +2,7 @@
 
 1  curves     the elastic curve from the quasi-static loop
 2  parameters everything else on the dynamic training runs, by the chosen optimizer
-3  polish     the ends of the curve corrected by the friction found, then all numbers jointly on all training runs; a
+3  refinement the ends of the curve corrected by the friction found, then all parameters jointly on all training runs; a
               curve that is kept moves only so that the simulated slow loop keeps the mid line of the measured one
 4  posterior  where a sampler is asked for: draws from what data and priors tell of the parameters
 """
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
-POLISH_STEPS = 120
+REFINEMENT_STEPS = 120
 
 
 def silent(*_: Any, **__: Any) -> None:
@@ -133,7 +133,7 @@ def fit_network(
     sampler: str | None = None,
     sampler_steps: int = STEPS,
 ) -> FitResult:
-    """Identify the searched numbers of a network; see the module for the stages.
+    """Identify the free parameters of a network; see the module for the stages.
 
     ``optimizer`` is a plugged-in method for stage 2; without one the framework's own Gauss-Newton from several starts.
     A ``sampler`` draws from the posterior of the fit, in so many steps at most. Raises InputError for a network that
@@ -253,10 +253,11 @@ def fit_prepared(
 
 
 def _polish(spec: NetworkSpec, setting: Setting, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:
-    watch.stage("polish", 0.0)
-    objective, steps = Objective(compile_network(spec), setting.train, jobs), watch.steps("polish", POLISH_STEPS)
+    watch.stage("refinement", 0.0)
+    objective = Objective(compile_network(spec), setting.train, jobs)
+    steps = watch.steps("refinement", REFINEMENT_STEPS)
     whole = refinement(spec, objective, lambda slot: True)
-    found, _ = refine_beside_priors(whole, objective, POLISH_STEPS, setting.floor.value, steps)
+    found, _ = refine_beside_priors(whole, objective, REFINEMENT_STEPS, setting.floor.value, steps)
     return whole.at(found.point), found
 
 

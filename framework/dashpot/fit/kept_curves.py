@@ -1,4 +1,4 @@
-"""Refining numbers beside a curve that is kept as the slow loop gives it.
+"""Refining parameters beside a curve that is kept as the slow loop gives it.
 
 The force of a slow loop is that of the whole network: where slow relaxation or friction takes another share of it, the
 curve has to take another one, too. So the knots are refined with the other numbers, while the mid line of the simulated

@@ -24,7 +24,7 @@ class KnownNumber:
 
 
 def known_numbers(spec: NetworkSpec) -> list[KnownNumber]:
-    """The known numbers of a network; what follows from them moves with them."""
+    """The known parameters of a network; what follows from them moves with them."""
     slots = spec.slots()
     start = np.array([slot.value.number for slot in slots])
     return [

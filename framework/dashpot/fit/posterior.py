@@ -342,6 +342,6 @@ def _marginals(spec: NetworkSpec, shown: Sequence[int], draws: Array) -> tuple[M
 
 
 def _held(spec: NetworkSpec) -> tuple[str, ...]:
-    """What has an uncertainty of its own beside the searched numbers: kept curves, and numbers known from elsewhere."""
+    """What has an uncertainty of its own beside the free parameters: kept curves, and numbers known from elsewhere."""
     known = [each.path.partition("[")[0] for each in known_numbers(spec)]
     return tuple(dict.fromkeys([*kept_curves(spec), *known]))

@@ -75,7 +75,7 @@ class Priors:
 
 
 def priors_of(spec: NetworkSpec) -> Priors | None:
-    """The priors of the searched numbers of a network; None where there are none."""
+    """The priors of the free parameters of a network; None where there are none."""
     found = [
         (number, slot, slot.value.prior)
         for number, slot in enumerate(spec.slots())
@@ -226,7 +226,7 @@ def told_priors(spec: NetworkSpec, coordinates: Coordinates, errors: Array) -> t
 
 
 def with_earlier(spec: NetworkSpec, earlier: NetworkSpec, digest: str, source: str) -> NetworkSpec:
-    """The network with the identified numbers of an earlier fit as priors of the searched ones of the same path.
+    """The network with the identified parameters of an earlier fit as priors of the searched ones of the same path.
 
     The interval of 95 % of the earlier fit gives the deviation, the wider side counting: normal where the number is
     searched along a straight scale, else lognormal. ``digest`` is that of the data that are to be fitted. Raises

@@ -1,4 +1,4 @@
-"""Damped Gauss-Newton with bounds, from products of the Jacobian: the framework's own polish."""
+"""Damped Gauss-Newton with bounds, from products of the Jacobian: the framework's own refinement."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: fl
 
 
 def _among(rising: tuple[tuple[int, ...], ...], free: NDArray[np.bool_]) -> list[list[int]]:
-    """The groups of knots by their places among the numbers that are free."""
+    """The groups of knots by their places among the parameters that are free."""
     place = np.cumsum(free) - 1
     return [[int(place[knot]) for knot in knots if free[knot]] for knots in rising]
 

@@ -37,12 +37,12 @@ class Errors:
 
 @dataclass(frozen=True, eq=False)
 class FitResult:
-    """A network with fitted numbers and how good it is.
+    """A network with fitted parameters and how good it is.
 
     ``declared`` is the network as its file has it; ``fitted`` has numbers, intervals and tables. ``spread`` holds the
     losses that different starts ended at, best first: near one another they are evidence of convergence. ``known`` says
     the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
-    is that of the errors of the searched numbers, in the order of their slots and in logarithms where they are searched
+    is that of the errors of the free parameters, in the order of their slots and in logarithms where they are searched
     so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted; ``priors``
     what became of the priors; ``posterior`` has the draws of a sampler where one was asked for.
     """

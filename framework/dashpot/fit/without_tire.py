@@ -42,7 +42,7 @@ class MassWithoutTire:
 def masses_without_tire(fitted: NetworkSpec, runs: Sequence[Run], jobs: int = 1) -> list[MassWithoutTire]:
     """The searched masses of an identified network, found again from the measured motion of the wheels.
 
-    All searched numbers move, from where they were identified. Empty where nothing between rig and wheels can be left
+    All free parameters move, from where they were identified. Empty where nothing between rig and wheels can be left
     out, where a run does not have the motion of every wheel, or where no mass is searched.
     """
     wheels = wheels_behind(fitted)

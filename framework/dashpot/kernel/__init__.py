@@ -16,7 +16,7 @@ system    - CompiledSystem: the same as CompiledNetwork, for several forces and 
 parts     - a parallel network branch by branch
 eager     - the same in plain numpy: the reference
 ahead     - compiling before it is needed
-settings  - numbers of a network that a run gives by its settings
+settings  - parameters of a network that a run gives by its settings
 observe   - how a load cell shows a force
 jit       - a network as functions for somebody else's compiled code
 export    - what exporters need of a network

@@ -1,4 +1,4 @@
-"""Numbers of a network that a run gives by its settings, or that depend on them."""
+"""Parameters of a network that a run gives by its settings, or that depend on them."""
 
 from __future__ import annotations
 

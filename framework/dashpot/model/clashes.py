@@ -10,7 +10,7 @@ from dashpot.text.problem import Place, Problem
 
 
 def find_clashes(spec: NetworkSpec) -> Iterator[Problem]:
-    """Parts of one name, curves that cannot come from data, searched numbers in two places at once."""
+    """Parts of one name, curves that cannot come from data, free parameters in two places at once."""
     yield from _equal_names(spec.leaves())
     yield from _equal_paths(spec)
     yield from _curves_without_a_loop(spec)

@@ -1,4 +1,4 @@
-"""Which numbers of a network follow from which others, and computing them for whole blocks of lanes."""
+"""Which parameters of a network follow from which others, and computing them for whole blocks of lanes."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Derived:
 
 
 def derived_of(slots: Sequence[Slot]) -> Derived:
-    """The rules of the numbers of a network. Raises InputError with all that is wrong with them."""
+    """The rules of the parameters of a network. Raises InputError with all that is wrong with them."""
     places = {slot.path: number for number, slot in enumerate(slots)}
     problems: list[Problem] = []
     rules = {}

@@ -1,4 +1,4 @@
-"""Numbers of a network that follow from others: ``{expression: 0.5 * front.stiffness}``.
+"""Parameters of a network that follow from others: ``{expression: 0.5 * front.stiffness}``.
 
 An expression has numbers, quantities with a unit, paths of other numbers, ``+ - * / ^`` between spaces, parentheses and
 the functions of ``FUNCTIONS``. It is parsed here, never run as code, and its unit is checked.

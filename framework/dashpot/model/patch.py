@@ -32,7 +32,7 @@ def fill_numbers(spec: NetworkSpec, fitted: NetworkSpec, record: Mapping[str, st
     """The text of ``spec`` with the parameters of ``fitted``: ``start`` becomes ``value``, with its interval.
 
     ``fitted`` is the same network with other values; curves from data become tables, and a network that is used and
-    has searched numbers is written out. ``record`` is written at the end under ``identified:`` and says where the
+    has free parameters is written out. ``record`` is written at the end under ``identified:`` and says where the
     numbers came from, and with it the range of the motions that were ``seen``. ValueError for a network that was not
     read from a text.
     """

@@ -18,7 +18,7 @@ GROUPS = ("branches", "series", "parallel")
 def write_out_uses(spec: NetworkSpec) -> tuple[Document, NetworkSpec]:
     """The same network, and its text, with ``parallel:`` and all branches instead of ``use:``.
 
-    A network whose searched numbers and curves from data all stand in its own text stays as it is, and so does a
+    A network whose free parameters and curves from data all stand in its own text stays as it is, and so does a
     network that is used with ``fixed: true``. ValueError for one that was not read from a text.
     """
     document = Document.parse(spec.text, spec.file)

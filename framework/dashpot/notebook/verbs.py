@@ -206,7 +206,7 @@ def fit(
     progress: Progress | bool = False,
     cancel: Callable[[], bool] | None = None,
 ) -> Fit:
-    """Find the searched numbers of a model, with 95 % intervals. The same seed gives the same numbers.
+    """Identify the free parameters of a model, with 95 % intervals. The same seed gives the same result.
 
     Runs with a fault of the measurement are corrected or left out first; ``fit.dataset.problems`` lists them. ``jobs``
     are threads, or a pool or cluster that does it: an Executor of ``concurrent.futures``, or a client of Dask.

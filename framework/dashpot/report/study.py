@@ -60,7 +60,7 @@ def stages_grid(study: Json) -> Grid:
 
 
 def intervals_grid(model: Json) -> Grid:
-    """The searched numbers of a model with their 95 % intervals, of every kind that the study asked for.
+    """The free parameters of a model with their 95 % intervals, of every kind that the study asked for.
 
     Tables of many knots are left to the result file.
     """

@@ -65,9 +65,11 @@ def test_of_several_parts_the_time_left_is_that_of_all(capsys):
         for number, name in enumerate("abcd"):
             progress(f"{name}: search", 0.5)
             assert progress._pace.share == pytest.approx((number + 0.5) / 4)
-            progress(f"{name}: polish")
+            progress(f"{name}: refinement")
             assert progress._pace.share == pytest.approx((number + 0.5) / 4)
-    assert capsys.readouterr().err.startswith("1 of 4, a: search ...\n1 of 4, a: polish ...\n2 of 4, b: search ...\n")
+    assert capsys.readouterr().err.startswith(
+        "1 of 4, a: search ...\n1 of 4, a: refinement ...\n2 of 4, b: search ...\n"
+    )
 
 
 def test_quiet_is_quiet(monkeypatch, capsys):

@@ -124,7 +124,7 @@ def test_a_grid_search_chooses_the_model_that_predicts(sines):
 def test_progress_is_heard_and_a_line_is_wiped(sines, capsys):
     stages = []
     dp.fit(dp.Network("voigt", VOIGT), sines, progress=lambda stage, *_: stages.append(stage))
-    assert {"voigt: search", "voigt: polish"} <= set(stages) and capsys.readouterr().err == ""
+    assert {"voigt: search", "voigt: refinement"} <= set(stages) and capsys.readouterr().err == ""
     dp.fit(dp.Network("voigt", VOIGT), sines, progress=True)
     said = capsys.readouterr().err
     assert "voigt: search" in said and said.rpartition("\r")[0].rpartition("\r")[2].strip() == ""

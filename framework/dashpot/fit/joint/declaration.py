@@ -36,7 +36,7 @@ class Tie:
 
 @dataclass(frozen=True)
 class JointSpec:
-    """Specimens and the numbers that they share."""
+    """Specimens and the parameters that they share."""
 
     name: str
     about: str

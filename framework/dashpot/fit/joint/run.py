@@ -1,4 +1,4 @@
-"""Identifying several specimens together: each alone, then all at once with the numbers that they share."""
+"""Identifying several specimens together: each alone, then all at once with the parameters that they share."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dashpot.data.dataset import Dataset
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import (
-    POLISH_STEPS,
+    REFINEMENT_STEPS,
     Progress,
     Setting,
     fit_each,
@@ -128,7 +128,7 @@ def _fitted(spec: JointSpec, datasets: Mapping[str, Dataset], pool: Jobs, progre
     whole = JointObjective([body.member for body in bodies.values()])
     own = {name: body.whole.coordinates for name, body in bodies.items()}
     common = common_coordinates(own, spec.ties, {name: _errors(alone[name], each) for name, each in own.items()})
-    found = refine(whole, common.coordinates, common.coordinates.start, POLISH_STEPS)
+    found = refine(whole, common.coordinates, common.coordinates.start, REFINEMENT_STEPS)
     if found.outcome is Outcome.FAILED:
         message = f"the specimens cannot be simulated with one value of {', '.join(tie.title for tie in spec.ties)}"
         raise InputError([Problem(spec.ties[0].place, message, "share fewer parameters, or check their units")])

@@ -10,7 +10,7 @@ from dashpot.model.network import NetworkSpec, Value
 
 
 def carry_over(spec: NetworkSpec, source: NetworkSpec) -> NetworkSpec:
-    """The network with the curves that `source` has taken from data, and with its numbers of the same path.
+    """The network with the curves that `source` has taken from data, and with its parameters of the same path.
 
     A number that is fixed in the network stays; one beyond its bounds comes to the nearest.
     """
