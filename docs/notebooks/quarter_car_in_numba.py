@@ -26,12 +26,12 @@ fit.plot("stiffness")
 # %% [markdown]
 # ## Its solver
 #
-# `step(state, x, v, dt, numbers)` takes the tire to a deflection `x` and its rate `v` and returns the force. All
-# states are in the array `state`; the parameters of the model are in the array `numbers`, in the order of `names`.
+# `step(state, x, v, dt, parameters)` takes the tire to a deflection `x` and its rate `v` and returns the force. All
+# states are in the array `state`; the parameters of the model are in the array `parameters`, in the order of `names`.
 
 # %%
 solver = tire.jit()
-dict(zip(solver.names[-4:], solver.numbers[-4:], strict=True))
+dict(zip(solver.names[-4:], solver.parameters[-4:], strict=True))
 
 # %% [markdown]
 # ## The car
@@ -48,17 +48,17 @@ WHEEL, BODY, SPRING, DAMPING, GRAVITY = 40.0, 350.0, 25e3, 1500.0, 9.81
 
 
 @njit(nogil=True)
-def ride(speed, dt, samples, numbers, state, out):
+def ride(speed, dt, samples, parameters, state, out):
     load = (WHEEL + BODY) * GRAVITY
     wheel = body = wheel_speed = body_speed = 0.0
     sunk = 0.0
     for _ in range(60):  # how far the tire gives under the car: a slow press until it carries the load
-        sunk += (load - step(state, sunk, 0.0, 1.0, numbers)) / 4e5
+        sunk += (load - step(state, sunk, 0.0, 1.0, parameters)) / 4e5
     for k in range(samples):
         way = speed * k * dt - 1.0
         road = 15e-3 * (1.0 - np.cos(2.0 * np.pi * way)) if 0.0 < way < 1.0 else 0.0
         road_speed = 15e-3 * 2.0 * np.pi * speed * np.sin(2.0 * np.pi * way) if 0.0 < way < 1.0 else 0.0
-        tire_force = step(state, sunk + road - wheel, road_speed - wheel_speed, dt, numbers)
+        tire_force = step(state, sunk + road - wheel, road_speed - wheel_speed, dt, parameters)
         strut = SPRING * (wheel - body) + DAMPING * (wheel_speed - body_speed)
         wheel_speed += dt * (tire_force - load - strut) / WHEEL
         body_speed += dt * strut / BODY
@@ -69,7 +69,7 @@ def ride(speed, dt, samples, numbers, state, out):
 
 
 motion = np.empty((15_000, 3))
-force = ride(10.0, 1e-4, len(motion), solver.numbers, solver.state(), motion)
+force = ride(10.0, 1e-4, len(motion), solver.parameters, solver.state(), motion)
 print(
     f"highest point of the road {motion[:, 0].max() * 1e3:.1f} mm, of the wheel {motion[:, 1].max() * 1e3:.1f} mm, "
     f"of the body {motion[:, 2].max() * 1e3:.1f} mm; tire force at the end {force:.0f} N"
@@ -89,9 +89,9 @@ knots = [k for k, name in enumerate(solver.names) if name.startswith("stiffness.
 
 
 def highest(share):
-    numbers = solver.numbers.copy()
-    numbers[knots] *= share
-    ride(10.0, 1e-4, len(motion), numbers, solver.state(), motion)
+    parameters = solver.parameters.copy()
+    parameters[knots] *= share
+    ride(10.0, 1e-4, len(motion), parameters, solver.state(), motion)
     return motion[:, 1].max()
 
 

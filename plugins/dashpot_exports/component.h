@@ -1,6 +1,6 @@
 /* What both versions of the interface share. Variables by number: inputs (displacement and velocity of each driven
    node, then the forces of loaded ones), outputs, the status, what was outside of the range of identification, the
-   numbers of the network, the time. The inputs that are set before a step are those of its end. */
+   parameters of the network, the time. The inputs that are set before a step are those of its end. */
 #ifndef COMPONENT_H
 #define COMPONENT_H
 
@@ -12,8 +12,8 @@
 #define FIRST_OUTPUT (2 * DRIVEN + LOADED)
 #define STATUS_NUMBER (FIRST_OUTPUT + OUTPUTS)
 #define OUTSIDE_NUMBER (STATUS_NUMBER + 1)
-#define FIRST_NUMBER (OUTSIDE_NUMBER + 1)
-#define VARIABLES (FIRST_NUMBER + NUMBERS)
+#define FIRST_PARAMETER (OUTSIDE_NUMBER + 1)
+#define VARIABLES (FIRST_PARAMETER + PARAMETERS)
 
 typedef struct {
     NETWORK network;
@@ -67,8 +67,8 @@ static int component_get(const component *c, unsigned int variable, double *valu
         *value = c->inputs[variable];
     } else if (variable < STATUS_NUMBER) {
         *value = c->outputs[variable - FIRST_OUTPUT];
-    } else if (variable >= FIRST_NUMBER && variable < VARIABLES) {
-        *value = c->network.numbers[variable - FIRST_NUMBER];
+    } else if (variable >= FIRST_PARAMETER && variable < VARIABLES) {
+        *value = c->network.parameters[variable - FIRST_PARAMETER];
     } else if (variable == VARIABLES) {
         *value = c->time;
     } else {
@@ -83,8 +83,8 @@ static int component_set(component *c, unsigned int variable, double value)
         c->inputs[variable] = value;
         return 1;
     }
-    if (variable >= FIRST_NUMBER && variable < VARIABLES) {
-        return SET(&c->network, NAMES[variable - FIRST_NUMBER].name, value);
+    if (variable >= FIRST_PARAMETER && variable < VARIABLES) {
+        return SET(&c->network, NAMES[variable - FIRST_PARAMETER].name, value);
     }
     return 0;
 }

@@ -21,7 +21,7 @@ TEXT = """
 
 NAMES = {names!r}
 UNITS = {units!r}
-NUMBERS = np.array({values!r})
+PARAMETERS = np.array({values!r})
 DRIVEN, LOADED, FREE = {driven!r}, {loaded!r}, {free!r}
 RANGE = {seen!r}  # with which the parameters were identified
 
@@ -47,11 +47,11 @@ class Numba(Export):
 
         found = exported(network)
         about = repr(ABOUT.format(title=found.title))
-        text = f"{about}\n\n{print_solver(found.online, AloneCode)}{_numbers(found)}"
+        text = f"{about}\n\n{print_solver(found.online, AloneCode)}{_parameters(found)}"
         return {f"{identifier(network.name)}.py": text.encode()}
 
 
-def _numbers(found: Exported) -> str:
+def _parameters(found: Exported) -> str:
     from dashpot.kernel.ir.online import SPAN
     from dashpot.kernel.ir.system import SMALLEST_SPAN
 

@@ -42,8 +42,8 @@ MODEL = """\
 #define SET {name}_set
 #define STATUS {name}_status
 #define OUTSIDE {name}_outside
-#define NAMES {name}_numbers
-#define NUMBERS {guard}_NUMBERS
+#define NAMES {name}_parameters
+#define PARAMETERS {guard}_PARAMETERS
 #define OUTPUTS {guard}_OUTPUTS
 #define DRIVEN {driven}
 #define LOADED {loaded}

@@ -59,14 +59,14 @@ def variables_of(found: Exported) -> list[Variable]:
     status = Variable("status", "output", about, kind="Integer")
     about = "sum of what left the identified range: 1 displacement, 2 speed, 4 amplitude, 8 preload, 16 frequency"
     outside = Variable("outside", "output", about, kind="Integer")
-    return [*inputs, *outputs, status, outside, *_numbers(found), Variable("time", "independent", "of the run", "s")]
+    return [*inputs, *outputs, status, outside, *_parameters(found), Variable("time", "independent", "of the run", "s")]
 
 
 def _unit(name: str) -> str:
     return UNITS[name.partition("@")[0]]
 
 
-def _numbers(found: Exported) -> list[Variable]:
+def _parameters(found: Exported) -> list[Variable]:
     return [
         Variable(slot.path, "parameter", about, slot.value.unit, value, _interval(slot.value.interval))
         for slot, about, value in zip(found.slots, found.abouts, found.values, strict=True)

@@ -62,5 +62,5 @@ def test_jax_calls_the_solver(names):
     pytest.importorskip("jax")
     exec(blocks(PAGE, "python")[2], names)
     record = names["x"], names["v"], names["force"]
-    assert float(names["misfit"](names["solver"].numbers, *record)) == 0.0
-    assert float(names["misfit"](1.1 * names["solver"].numbers, *record)) > 0.0
+    assert float(names["misfit"](names["solver"].parameters, *record)) == 0.0
+    assert float(names["misfit"](1.1 * names["solver"].parameters, *record)) > 0.0

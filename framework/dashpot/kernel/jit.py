@@ -25,21 +25,21 @@ class Solver:
 
     A network with a single driven end and no loads has
 
-    ``step(state, x, v, dt, numbers) -> force``: the step of ``dt`` seconds to the displacement ``x`` and the velocity
-    ``v``; ``tangent_step``, alike, answers also how the force changes with ``x`` and with ``v``;
-    ``simulate(x, v, dt, numbers, out)``: the force ``out`` (n,) along a record ``x`` (n,), ``v`` (n,);
-    ``simulate_path(x, v, a, dt, numbers, out)``: the same with the accelerations, where they are known better than the
-    cubic through places and velocities tells them; it is what ``dashpot simulate`` computes.
+    ``step(state, x, v, dt, parameters) -> force``: the step of ``dt`` seconds to the displacement ``x`` and the
+    velocity ``v``; ``tangent_step``, alike, answers also how the force changes with ``x`` and with ``v``;
+    ``simulate(x, v, dt, parameters, out)``: the force ``out`` (n,) along a record ``x`` (n,), ``v`` (n,);
+    ``simulate_path(x, v, a, dt, parameters, out)``: the same with the accelerations, where they are known better than
+    the cubic through places and velocities tells them; it is what ``dashpot simulate`` computes.
 
     Every network has
 
-    ``step_nodes(state, x, v, load, dt, numbers, out)``: ``x``, ``v`` of the nodes ``driven``, ``load`` in N of those
+    ``step_nodes(state, x, v, load, dt, parameters, out)``: ``x``, ``v`` of the nodes ``driven``, ``load`` in N of those
     ``loaded``; ``out`` gets the forces of the driven nodes, then the positions of the nodes ``free``.
 
     ``status(state)``: 0 good, 1 forces at inner nodes not balanced, 2 no static equilibrium, 3 a force not finite.
 
-    The first step from a fresh ``state`` is the begin of the record, at rest. A state belongs to its ``numbers`` (in
-    the order of ``names``): other numbers need a fresh one.
+    The first step from a fresh ``state`` is the begin of the record, at rest. A state belongs to its ``parameters`` (in
+    the order of ``names``): others need a fresh one.
     """
 
     step: Callable[..., float] | None
@@ -49,7 +49,7 @@ class Solver:
     step_nodes: Callable[..., None]
     status: Callable[..., int]
     names: tuple[str, ...]
-    numbers: Array
+    parameters: Array
     driven: tuple[str, ...]
     loaded: tuple[str, ...]
     free: tuple[str, ...]

@@ -22,11 +22,11 @@ import {name} as network
 
 x, v = np.load("motion.npy")
 force = np.empty(x.size)
-network.simulate(x, v, {dt!r}, network.NUMBERS, force)
+network.simulate(x, v, {dt!r}, network.PARAMETERS, force)
 state, out = network.fresh_state(4e-3), np.empty(len(network.DRIVEN) + len(network.FREE))
 stepped = []
 for k in range(50):
-    network.step_nodes(state, x[k : k + 1], v[k : k + 1], np.empty(0), {dt!r}, network.NUMBERS, out)
+    network.step_nodes(state, x[k : k + 1], v[k : k + 1], np.empty(0), {dt!r}, network.PARAMETERS, out)
     stepped.append(out[0])
 assert network.status(state) == 0
 assert np.max(np.abs(stepped - force[:50])) <= 1e-12 * np.max(np.abs(force))
@@ -59,4 +59,4 @@ def test_the_module_tells_where_it_is_from_and_names_its_numbers(tmp_path):
         "relaxation.stiffness",
         "relaxation.relaxation_time",
     )
-    assert found["UNITS"][2] == "N" and found["NUMBERS"][2] == 60.0
+    assert found["UNITS"][2] == "N" and found["PARAMETERS"][2] == 60.0

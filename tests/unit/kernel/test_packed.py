@@ -44,6 +44,6 @@ def test_a_pack_beyond_what_it_takes_goes_one_by_one():
     solver = mount.jit()
     x = np.concatenate([np.linspace(0.0, 5e-3, 200), np.linspace(5e-3, -5e-3, 400)])
     force = np.empty(x.size)
-    solver.simulate(x, np.gradient(x, 1e-3), 1e-3, solver.numbers, force)
+    solver.simulate(x, np.gradient(x, 1e-3), 1e-3, solver.parameters, force)
     # each slides at its limit in the end
     assert force[199] == pytest.approx(140.0, rel=1e-6) and force[-1] == pytest.approx(-140.0, rel=1e-6)

@@ -20,7 +20,7 @@ TEXT = """\
 extern "C" {{
 #endif
 
-#define {guard}_NUMBERS {numbers}
+#define {guard}_PARAMETERS {numbers}
 #define {guard}_INPUTS {inputs}
 #define {guard}_OUTPUTS {outputs}
 #define {guard}_STATE {size}
@@ -29,25 +29,25 @@ extern "C" {{
    Outputs: {output_names} */
 typedef struct {{
     double state[{guard}_STATE];
-    double numbers[{guard}_NUMBERS + 1];
+    double parameters[{guard}_PARAMETERS + 1];
 }} {name}_network;
 
 typedef struct {{
     const char *name;
     const char *unit;
     double value;
-}} {name}_number;
+}} {name}_parameter;
 
 /* The parameters of the network, as they were exported. */
-extern const {name}_number {name}_numbers[{guard}_NUMBERS + 1];
+extern const {name}_parameter {name}_parameters[{guard}_PARAMETERS + 1];
 
 /* The parameters of the export, at rest. span (m) is the span of the motion: inner nodes are solved for to a millionth
    of it. */
 void {name}_init({name}_network *network, double span);
 /* At rest again, with the parameters as they are. */
 void {name}_reset({name}_network *network);
-/* Another value of a number, by name, at any time; 0 where there is none of that name. */
-int {name}_set({name}_network *network, const char *number, double value);
+/* Another value of a parameter, by name, at any time; 0 where there is none of that name. */
+int {name}_set({name}_network *network, const char *parameter, double value);
 /* A step; see the lists above. */
 void {name}_advance({name}_network *network, const double *inputs, double dt, double *outputs);
 /* The acceleration of a driven node at the end of a step, of the cubic through places and velocities. */

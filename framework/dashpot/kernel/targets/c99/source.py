@@ -14,7 +14,7 @@ from dashpot.model.identified import Range
 
 TEXT = """\
 
-const {name}_number {name}_numbers[{count} + 1] = {{
+const {name}_parameter {name}_parameters[{count} + 1] = {{
 {numbers}
     {{0, 0, 0.0}}
 }};
@@ -22,7 +22,7 @@ const {name}_number {name}_numbers[{count} + 1] = {{
 void {name}_init({name}_network *network, double span)
 {{
     for (int k = 0; k < {count}; ++k) {{
-        network->numbers[k] = {name}_numbers[k].value;
+        network->parameters[k] = {name}_parameters[k].value;
     }}
     network->state[{SPAN}] = span > {smallest} ? span : {smallest};
     {name}_reset(network);
@@ -46,11 +46,11 @@ static inline int same_name(const char *one, const char *other)
     return *one == *other;
 }}
 
-int {name}_set({name}_network *network, const char *number, double value)
+int {name}_set({name}_network *network, const char *parameter, double value)
 {{
     for (int k = 0; k < {count}; ++k) {{
-        if (same_name(number, {name}_numbers[k].name)) {{
-            network->numbers[k] = value;
+        if (same_name(parameter, {name}_parameters[k].name)) {{
+            network->parameters[k] = value;
             network->state[{DT}] = 0.0;
             return 1;
         }}
@@ -64,7 +64,7 @@ void {name}_advance({name}_network *network, const double *inputs, double dt, do
 {begun}    for (int k = 0; k < {inputs}; ++k) {{
         s[{INPUTS} + k] = inputs[k];
     }}
-    advance(s, dt, network->numbers);
+    advance(s, dt, network->parameters);
 {watching}    for (int k = 0; k < {answers}; ++k) {{
         outputs[k] = s[{outputs} + k];
         if (!isfinite(outputs[k])) {{

@@ -8,15 +8,15 @@ from dashpot.kernel.targets.numba.code import PythonCode
 from dashpot.kernel.targets.scalar.code import Arguments
 from dashpot.kernel.targets.scalar.whole import write_network
 
-ONE: Arguments = [("array", "state"), ("number", "x"), ("number", "v"), ("number", "dt"), ("array", "numbers")]
-ALL: Arguments = [("array", "x"), ("array", "v"), ("number", "dt"), ("array", "numbers"), ("array", "out")]
+ONE: Arguments = [("array", "state"), ("number", "x"), ("number", "v"), ("number", "dt"), ("array", "parameters")]
+ALL: Arguments = [("array", "x"), ("array", "v"), ("number", "dt"), ("array", "parameters"), ("array", "out")]
 MANY: Arguments = [
     ("array", "state"),
     ("array", "x"),
     ("array", "v"),
     ("array", "load"),
     ("number", "dt"),
-    ("array", "numbers"),
+    ("array", "parameters"),
     ("array", "out"),
 ]
 
@@ -49,12 +49,12 @@ def _write_bend(code: PythonCode) -> None:
 
 def _write_step(code: PythonCode, online: Online) -> None:
     with code.function("number", "step", ONE, "The force after a step to a displacement and a velocity."):
-        code.borrow("state", "numbers")
+        code.borrow("state", "parameters")
         if online.accelerated:
             code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x, v, dt)")
         code.set(f"state[{INPUTS}]", "x")
         code.set(f"state[{INPUTS + 1}]", "v")
-        code.do("advance(state, dt, numbers)")
+        code.do("advance(state, dt, parameters)")
         code.answer(f"state[{online.outputs}]")
 
 
@@ -71,7 +71,7 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
         with code.loop("k", 0, 4):  # ahead and behind in the displacement, then in the velocity
             with code.loop("i", 0, online.size):
                 code.set("memory[i]", "state[i]")
-            code.let("moved", "step(memory, x + place, v + speed, dt, numbers)")
+            code.let("moved", "step(memory, x + place, v + speed, dt, parameters)")
             with code.when("k < 2"):
                 code.set("stiffness", "stiffness + 0.5 * moved / place")
             with code.otherwise():
@@ -81,14 +81,14 @@ def _write_tangent(code: PythonCode, online: Online) -> None:
                 code.set("place", "0.0")
             code.set("place", "-place")
             code.set("speed", "-speed")
-        code.answer("step(state, x, v, dt, numbers), stiffness, damping")
+        code.answer("step(state, x, v, dt, parameters), stiffness, damping")
 
 
 def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name: str) -> None:
     arguments: Arguments = [*(("array", each) for each in given), *ALL[2:]]
     with code.function("nothing", name, arguments, "The force along a whole record."):
         code.let("state", code.zeros(online.size), "array")
-        code.borrow("numbers")
+        code.borrow("parameters")
         if online.system:
             code.set(f"state[{SPAN}]", f"max({SMALLEST_SPAN}, np.max(x) - np.min(x))")
         with code.loop("k", 0, "x.size"):
@@ -96,7 +96,7 @@ def _write_record(code: PythonCode, online: Online, given: tuple[str, ...], name
                 code.set(f"state[{INPUTS + number}]", f"{each}[k]")
             if len(given) < len(MOTION) and online.accelerated:
                 code.set(f"state[{INPUTS + 2}]", f"bend(state, {online.before}, x[k], v[k], dt)")
-            code.do("advance(state, dt, numbers)")
+            code.do("advance(state, dt, parameters)")
             code.set("out[k]", f"state[{online.outputs}]")
 
 
@@ -110,7 +110,7 @@ def _write_status(code: PythonCode, online: Online) -> None:
 def _write_step_nodes(code: PythonCode, online: Online) -> None:
     answers = len(online.driven) + len(online.free)
     with code.function("nothing", "step_nodes", MANY, "The same for any nodes: out are forces, then positions."):
-        code.borrow("state", "numbers")
+        code.borrow("state", "parameters")
         with code.loop("k", 0, len(online.driven)):
             code.let("i", f"{INPUTS} + {len(MOTION)} * k", "count")
             code.set("state[i + 2]", f"bend(state, {online.before} + {len(MOTION)} * k, x[k], v[k], dt)")
@@ -118,6 +118,6 @@ def _write_step_nodes(code: PythonCode, online: Online) -> None:
             code.set("state[i + 1]", "v[k]")
         with code.loop("k", 0, len(online.loaded)):
             code.set(f"state[{INPUTS + len(MOTION) * len(online.driven)} + k]", "load[k]")
-        code.do("advance(state, dt, numbers)")
+        code.do("advance(state, dt, parameters)")
         with code.loop("k", 0, answers):
             code.set("out[k]", f"state[{online.outputs} + k]")
