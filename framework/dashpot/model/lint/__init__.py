@@ -4,7 +4,7 @@ weaknesses - all of it, in the order of the text
 graph      - nodes that nothing holds
 law        - a branch on plain numbers
 response   - what can be measured of a network, by small motions around many points
-numbers    - numbers without influence, and numbers that cannot be told apart
+sensitivity - parameters without influence, and parameters that cannot be distinguished
 power      - factors that make a branch give back more work than was put in
 """
 
