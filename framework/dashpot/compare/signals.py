@@ -22,6 +22,7 @@ Residuals = Mapping[str, Mapping[str, Array]]
 
 HARMONICS = 5
 POINTS = 40
+OUTER, REACHED = 0.2, 0.95  # of the windows at an end, and of the median of their amplitudes
 SHORTEST = 0.2  # s that a run has to spend in a band
 WHOLE_RUN = "whole run"
 
@@ -56,7 +57,9 @@ def _sweeps(tracked: Mapping[str, Oscillation], conditions: Mapping[str, Conditi
 
 def _curve(run: Run, track: Oscillation, conditions: Conditions, residuals: Residuals) -> dict[str, Any]:
     points = POINTS if conditions.frequency is None else 1
-    measured = _averaged(harmonics_of(run.force, track, confident=False), points)
+    whole = harmonics_of(run.force, track, confident=False)
+    steady = _unfaded(whole.amplitude) if conditions.frequency is None else np.ones(len(whole), dtype=bool)
+    measured = _averaged(whole.select(steady), points)
     return {
         "run": run.name,
         "amplitude": conditions.amplitude,
@@ -64,10 +67,22 @@ def _curve(run: Run, track: Oscillation, conditions: Conditions, residuals: Resi
         "frequency": measured.frequency,
         "measured": _response(measured),
         "simulated": {
-            label: _response(_averaged(harmonics_of(run.force - found[run.name], track, confident=False), points))
+            label: _response(
+                _averaged(harmonics_of(run.force - found[run.name], track, confident=False).select(steady), points)
+            )
             for label, found in residuals.items()
         },
     }
+
+
+def _unfaded(amplitude: Array) -> NDArray[np.bool_]:
+    """All windows (m,) but those at both ends in which a sweep grows to its amplitude (m,), or fades out."""
+    kept = np.ones(amplitude.size, dtype=bool)
+    outer = max(1, int(OUTER * amplitude.size))
+    for along in (slice(None), slice(None, None, -1)):
+        reached = amplitude[along] >= REACHED * np.median(amplitude[along][:outer])
+        kept[along][: int(np.argmax(reached))] = False
+    return kept
 
 
 def _averaged(stiffness: DynamicStiffness, points: int) -> DynamicStiffness:

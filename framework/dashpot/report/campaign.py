@@ -7,7 +7,7 @@ from typing import Any
 
 from dashpot.report import figures
 from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
-from dashpot.report.readable import percent
+from dashpot.report.readable import counted_words, percent
 from dashpot.text.digits import number, quantity, with_interval
 
 Json = Mapping[str, Any]
@@ -45,7 +45,7 @@ def campaign_headline(content: Json) -> str:
     if not names and tested and all(tested):
         told = f"No outlier among {count} specimens"
     elif not names:
-        told = f"None of {count} specimens is named; too few were fitted to hold each against the others"
+        told = f"{counted_words(count, 'specimen')}: too few were fitted to compare each with the others"
     else:
         words = "is an outlier" if len(names) == 1 else "are outliers"
         told = f"{len(names)} of {count} specimens {words}: {', '.join(names)}"

@@ -20,6 +20,7 @@ from dashpot.report.grids import (
 )
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Grid, KeyFigures, Notice, Page, Part, Picture, Section
+from dashpot.report.readable import counted_words
 from dashpot.report.shapes import shape_figures
 from dashpot.text.digits import number, quantity, shown_with_unit
 
@@ -148,8 +149,9 @@ def _key_figures(comparison: Json) -> KeyFigures:
 def _lead(comparison: Json) -> str:
     best = best_model(comparison)
     runs = len(best.get("per_run") or {}) if best else 0
-    counted = f" on {runs} runs" if runs else ""
-    return f"{len(comparison['models'])} models against measured forces{counted}. {floor_origin(comparison)}".strip()
+    counted = f" on {counted_words(runs, 'run')}" if runs else ""
+    models = counted_words(len(comparison["models"]), "model")
+    return f"{models} against measured forces{counted}. {floor_origin(comparison)}".strip()
 
 
 def _error(model: Json) -> float | None:

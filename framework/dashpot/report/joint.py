@@ -7,8 +7,8 @@ from typing import Any
 
 from dashpot.report.colophon import colophon
 from dashpot.report.fit import numbers_grid
-from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
-from dashpot.report.readable import join
+from dashpot.report.parts import Column, Grid, KeyFigures, Notice, Page, Part, Section
+from dashpot.report.readable import counted_words, join
 from dashpot.text.digits import rig_unit
 
 Json = Mapping[str, Any]
@@ -30,7 +30,8 @@ def joint_page(content: Json) -> Page:
         if (grid := _titled(numbers_grid(fit), name)).rows
     ]
     sections = [
-        Section("Parameters in common", SHARED, parts=[*_notices(content), shared_grid(content)]),
+        Section("Result", parts=[_tiles(content), *_notices(content)]),
+        Section("Parameters in common", SHARED, parts=[shared_grid(content)]),
         Section("Specimens", COST, parts=[specimens_grid(content)]),
         *own,
     ]
@@ -38,8 +39,8 @@ def joint_page(content: Json) -> Page:
     return Page(
         title=f"Joint fit {content['name']}",
         headline=headline(content),
-        lead=f"{len(content['shared'])} parameters in common, {len(names)} specimens: {join(names)}. "
-        f"{content['about']}".strip(),
+        lead=f"{counted_words(len(content['shared']), 'parameter')} in common, "
+        f"{counted_words(len(names), 'specimen')}: {join(names)}. {content['about']}".strip(),
         sections=sections,
         colophon=colophon({"dataset": {"name": join(names)}, "seed": 0}, {}),
     )
@@ -61,16 +62,17 @@ def shared_grid(content: Json) -> Grid:
         factor, unit = rig_unit(each["unit"], abs(each["value"]))
         low, high = (side * factor for side in each["interval"])
         row = {"number": each["number"], "value": each["value"] * factor, "low": low, "high": high}
+        row["interval"] = (low, high)
         row |= {"unit": unit or None, "probability": each["probability"]}
         alone = {name: own["value"] * factor for name, own in each["alone"].items()}
         rows.append(row | {name: alone.get(name) for name in names})
     columns = [
         Column("number", "parameter"),
-        Column("value", "together", "", 5),
-        Column("low", "95 % from", "", 4),
-        Column("high", "to", "", 4),
+        Column("value", "together", "", 5, interval="interval"),
+        Column("low", "95 % from", "", 4, interval="interval"),
+        Column("high", "to", "", 4, interval="interval"),
         Column("unit", "unit"),
-        *(Column(name, f"{name} alone", "", 5) for name in names),
+        *(Column(name, f"{name} alone", "", 5, interval="interval") for name in names),
         Column("probability", "by chance", "", 2),
     ]
     return Grid("Parameters in common", columns, rows, csv_name="shared.csv")
@@ -101,6 +103,27 @@ def specimens_grid(content: Json) -> Grid:
     ]
     used = [column for column in columns if any(row[column.key] is not None for row in rows)]
     return Grid("Errors", used, rows, csv_name="specimens.csv")
+
+
+def _tiles(content: Json) -> KeyFigures:
+    """How many parameters are shared, the one on which the specimens agree least, and the highest price of sharing."""
+    shared = [each for each in content["shared"] if each["probability"] is not None]
+    shown = [("parameters in common", str(len(content["shared"])), "", f"of {len(content['specimens'])} specimens")]
+    if shared:
+        least = min(shared, key=lambda each: each["probability"])
+        chance = f"{max(least['probability'], LEAST / 100.0):.2g}"
+        shown.append(("least agreement by chance", chance, "", f"probability, {least['number']}"))
+    growth = {
+        name: fit["rmse"]["train"] / fit["rmse_alone"]["train"] - 1.0
+        for name, fit in content["specimens"].items()
+        if fit["rmse_alone"]["train"]
+    }
+    if growth:
+        worst = max(growth, key=lambda name: growth[name])
+        shown.append(
+            ("largest growth of the RMSE", f"{max(100.0 * growth[worst], 0.0):.2g}", "%", f"together, {worst}")
+        )
+    return KeyFigures(shown)
 
 
 def _notices(content: Json) -> Iterator[Part]:

@@ -29,11 +29,17 @@ def write_page(path: str | Path, page: Page) -> Path:
 
 
 def render(page: Page) -> str:
-    """The page as HTML text. Every text of the page is escaped; only our own scripts may run in it."""
+    """The page as HTML text. Every text of the page is escaped; only our own scripts may run in it.
+
+    The plotting library, several MB, is in pages with a plot only.
+    """
     environment = _environment()
-    scripts = [plotly_js(), *(_source(environment, name) for name in SCRIPTS)]
+    plotted = any(isinstance(part, Figure) for section in page.sections for part in section.parts)
+    library = [plotly_js()] if plotted else []
+    scripts = [*library, *(_source(environment, name) for name in SCRIPTS)]
     return environment.get_template("report.html.j2").render(
         page=page,
+        plotted=plotted,
         policy=content_policy(scripts),
         scripts=scripts,
         style=_source(environment, "style.css"),

@@ -29,6 +29,11 @@ def percent(share: float | None, digits: int = 2) -> str:
     return f"{number(100.0 * share, digits)} %"
 
 
+def counted_words(count: int, word: str) -> str:
+    """2 and "run" are "2 runs"."""
+    return f"{count} {word}{'s' * (count != 1)}"
+
+
 def join(words: Sequence[str]) -> str:
     """a, b and c."""
     *head, tail = words

@@ -15,7 +15,7 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
 from dashpot.report.readable import set_value
 from dashpot.study.masses import mass_sentence
-from dashpot.text.digits import number, rig_unit
+from dashpot.text.digits import number, number_within, rig_unit
 
 Json = Mapping[str, Any]
 
@@ -69,7 +69,7 @@ def intervals_grid(model: Json) -> Grid:
     columns = [
         Column("parameter", "parameter"),
         Column("unit", "unit"),
-        Column("value", "value", "", 4),
+        Column("value", "value", "", 4, interval="ends"),
         Column("interval", "95 % interval"),
         Column("bootstrap", "bootstrap of the runs"),
         Column("profile", "profile likelihood"),
@@ -220,6 +220,7 @@ def _interval_row(path: str, entry: Json, bootstrap: Any, profile: Json | None) 
         "parameter": path,
         "unit": unit or None,
         "value": entry["value"] * factor,
+        "ends": [factor * end for end in entry["interval"]],
         "interval": _pair(entry["interval"], factor),
         "bootstrap": _pair(bootstrap, factor) if bootstrap else None,
         "profile": _pair(profile["interval"], factor, profile["open"]) if profile else None,
@@ -227,5 +228,6 @@ def _interval_row(path: str, entry: Json, bootstrap: Any, profile: Json | None) 
 
 
 def _pair(pair: Any, factor: float, open_ends: Any = (False, False)) -> str:
-    low, high = (number(factor * side, 4) for side in pair)
+    ends = [factor * side for side in pair]
+    low, high = (number_within(end, ends, 4) for end in ends)
     return f"{'below ' * bool(open_ends[0])}{low} to {'above ' * bool(open_ends[1])}{high}"

@@ -35,6 +35,26 @@ def test_a_steady_run_is_one_point_of_dynamic_stiffness():
     assert steady["simulated"]["before"]["stiffness"][0] == pytest.approx(0.9e5, rel=1e-3)
 
 
+def test_the_faded_ends_of_a_sweep_are_no_points_of_its_amplitude():
+    """A force that grows less than the deflection is stiffer where the sweep fades out."""
+    fade = np.clip(np.minimum(TIME, TIME[-1] - TIME) / 0.5, 0.0, 1.0)
+    whole = run("a", 1e-3, 22.0)
+    x = fade * whole.displacement
+    softening = 1e5 * x * (1.0 - 2e5 * x**2)
+    faded = replace(whole, channels={"displacement": x, "force": softening})
+    [curve] = evidence(faded)["dynamic_stiffness"]
+    # the fundamental of x - 2e5 x^3 at 1 mm
+    assert curve["measured"]["stiffness"] == pytest.approx(1e5 * (1.0 - 0.75 * 2e5 * 1e-6), rel=0.01)
+
+
+def test_an_amplitude_that_falls_over_the_whole_sweep_is_kept():
+    """As that of a rig at constant speed."""
+    whole = run("a", 1e-3, 22.0)
+    slower = replace(whole, channels={name: values / (1.0 + TIME) for name, values in whole.channels.items()})
+    kept, constant = (evidence(each)["dynamic_stiffness"][0]["frequency"] for each in (slower, whole))
+    assert kept.max() == pytest.approx(constant.max(), rel=0.1)
+
+
 def test_a_map_of_steady_runs_has_no_bands():
     """There is nothing to cut."""
     rows = evidence(run("a", 1e-3), run("b", 2e-3))["misfit_map"]

@@ -108,7 +108,7 @@ def test_the_headline_counts_and_names():
     few = {**content()["populations"][0], "tested": False}
     for populations in ([few], []):
         told = campaign_headline(content(named=[], failures=[], populations=populations))
-        assert told == "None of 2 specimens is named; too few were fitted to hold each against the others."
+        assert told == "2 specimens: too few were fitted to compare each with the others."
 
 
 def test_the_page_holds_all_parts_and_its_links():

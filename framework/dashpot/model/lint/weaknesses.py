@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dashpot.model.lint.graph import find_loose_nodes, find_sliding_nodes
-from dashpot.model.lint.sensitivity import find_equal_starts, find_idle_and_confused
 from dashpot.model.lint.power import find_pumps
+from dashpot.model.lint.sensitivity import find_equal_starts, find_idle_and_confused
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import topology_of
 from dashpot.text.problem import Problem, in_text_order

@@ -59,7 +59,7 @@ def _gains(names: Sequence[str], columns: Mapping[str, Sequence[Any]]) -> dict[s
 def _layout(names: Sequence[str]) -> dict[str, Any]:
     return layout(
         130 + 36 * len(names),
-        xaxis=axis("gain (% of the RMSE)", zeroline=True),
+        xaxis=axis("gain (% of the RMSE)", zeroline=True, rangemode="tozero"),
         yaxis=axis(type="category", categoryorder="array", categoryarray=list(reversed(names))),
     )
 
