@@ -18,6 +18,8 @@ def specimen(alone: float, together: float) -> dict[str, Any]:
         "rmse_alone": {"train": alone, "held_out": None},
         "noise_floor": {"value": 4.0},
         "parameters": {"rubber.stiffness": entry},
+        "at_bound": [],
+        "without_influence": [],
     }
 
 
