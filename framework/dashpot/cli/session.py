@@ -132,7 +132,7 @@ class Session:
 
     def tell_report(self, report: Path) -> None:
         """Tell where a report is and how large, and print it where that was asked for."""
-        self.talk.say(f"report: {report} ({report.stat().st_size / 1e6:.1f} MB)")
+        self.talk.say(f"report: {report} ({_size(report.stat().st_size)})")
         if self.switches.pdf:
             from dashpot.report.pdf import SUMMARY, print_report
 
@@ -209,3 +209,8 @@ def split_setting(setting: str, option: str = "--set") -> tuple[str, str]:
     if not (key and equals):
         raise click.UsageError(f"{option} expected KEY=VALUE, got '{setting}'")
     return key.strip(), value.strip()
+
+
+def _size(count: int) -> str:
+    """The bytes of a file as people say them."""
+    return f"{count / 1e6:.1f} MB" if count >= 1e5 else f"{max(count / 1e3, 1.0):.0f} kB"

@@ -121,7 +121,7 @@ def _tiles(content: Json) -> KeyFigures:
     if growth:
         worst = max(growth, key=lambda name: growth[name])
         shown.append(
-            ("largest growth of the RMSE", f"{max(100.0 * growth[worst], 0.0):.2g}", "%", f"together, {worst}")
+            ("largest growth of the RMSE", f"{max(100.0 * growth[worst], 0.0):.1f}", "%", f"together, {worst}")
         )
     return KeyFigures(shown)
 

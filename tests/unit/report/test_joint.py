@@ -40,7 +40,7 @@ def content(probability: float) -> dict[str, Any]:
 def test_three_tiles_say_what_is_shared_and_what_it_costs():
     page = joint_page(content(0.4))
     [tiles] = [part for part in page.sections[0].parts if isinstance(part, KeyFigures)]
-    assert [(value, unit) for _, value, unit, _ in tiles.figures] == [("1", ""), ("0.4", ""), ("5", "%")]
+    assert [(value, unit) for _, value, unit, _ in tiles.figures] == [("1", ""), ("0.4", ""), ("5.0", "%")]
     assert tiles.figures[2][3] == "together, first"
     assert page.lead == "1 parameter in common, 2 specimens: first and second."
 
