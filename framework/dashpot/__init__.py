@@ -25,6 +25,7 @@ __version__ = "0.2.0"
 if TYPE_CHECKING:
     from dashpot.campaign.reading import read_campaign as read_campaign
     from dashpot.contract.cause import Cause as Cause
+    from dashpot.contract.cause import ChannelFault as ChannelFault
     from dashpot.contract.cause import Suspect as Suspect
     from dashpot.contract.cause import View as View
     from dashpot.contract.cause import added_branch as added_branch
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     from dashpot.contract.rig import PrescribedPath as PrescribedPath
     from dashpot.contract.rig import Rig as Rig
     from dashpot.contract.specimen import Specimen as Specimen
+    from dashpot.data.correction import Correction as Correction
     from dashpot.data.run import Run as Run
     from dashpot.fit.study.reading import read_study as read_study
     from dashpot.fit.study.run import run_study as run_study
@@ -101,6 +103,7 @@ _HOMES = {
     "dashpot.notebook.estimator": ("Estimator",),
     "dashpot.notebook.progress": ("Cancelled",),
     "dashpot.data.run": ("Run",),
+    "dashpot.data.correction": ("Correction",),
     "dashpot.text.problem": ("InputError", "Problem", "Place"),
     "dashpot.kernel.energy": ("energy_balance",),
     "dashpot.campaign.reading": ("read_campaign",),
@@ -115,7 +118,7 @@ _HOMES = {
     "dashpot.contract.registry": ("load_registry",),
     "dashpot.contract.optimizer": ("Space", "Search", "Optimizer"),
     "dashpot.contract.reader": ("Reader", "ReadingError", "Table"),
-    "dashpot.contract.cause": ("added_branch", "Suspect", "Cause", "View"),
+    "dashpot.contract.cause": ("added_branch", "Suspect", "Cause", "View", "ChannelFault"),
     "dashpot.contract.specimen": ("Specimen",),
     "dashpot.contract.rig": ("PrescribedPath", "PlannedRun", "Rig"),
 }

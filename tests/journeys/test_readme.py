@@ -234,7 +234,7 @@ def test_everything_in_the_plugin_is_found(with_plugin, tmp_path):
 
 def test_the_element_conforms():
     found: dict = {}
-    exec(plugin_source() + "\n" + blocks("python", "from dashpot.testing", (PLUGIN,))[0], found)
+    exec(plugin_source() + "\n" + blocks("python", "from dashpot import check_element", (PLUGIN,))[0], found)
 
 
 def test_element_optimizer_and_reader_work_from_the_command_line(with_plugin, tmp_path, seed):

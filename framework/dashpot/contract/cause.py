@@ -129,6 +129,13 @@ class ChannelFault:
     such as lines beside that of the mains: what these explain is the error of the model.
 
     Examples:
+        >>> fault = dp.ChannelFault(
+        ...     "offset",
+        ...     "offset",
+        ...     "N",
+        ...     lambda view, run: np.ones((1, view.force(run).size)),
+        ...     lambda strengths: dp.Correction(offset=strengths[0]),
+        ... )
         >>> fault.quantity, fault.correct([3.0]).offset
         ('offset', 3.0)
     """

@@ -37,6 +37,10 @@ class Correction:
     `offset` and `drift` in N are what the channel showed too much, `drift` at the end T of the run, growing from 0;
     `delay` in s is by how much it was late; `hum` is empty or holds (Hz, N, N) of each line, one behind the other:
     frequency, cosine and sine by the time t of the corrected run.
+
+    Examples:
+        >>> dp.Correction(gain=1.02, offset=5.0).then(dp.Correction(gain=0.5)).gain
+        0.51
     """
 
     gain: float = 1.0

@@ -24,7 +24,7 @@ class Campaign(Printed, CampaignResult):
     Examples:
         >>> campaign = dp.campaign("mounts.yaml")
         >>> print(campaign.headline)
-        None of 3 specimens is named; too few were fitted to hold each against the others.
+        3 specimens: too few were fitted to compare each with the others.
         >>> [column.heading for column in campaign.table().columns][:2]
         ['specimen', 'data']
     """
