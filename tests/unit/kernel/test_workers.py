@@ -112,7 +112,8 @@ def test_what_threads_do_is_not_spread_once_more():
 
 @pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="there is no fork here")
 def test_a_forked_process_has_threads_of_its_own():
-    spread(str, range(4), 2)
+    spread(lambda _: time.sleep(0.02), range(2), 2)
+    time.sleep(0.02)  # both wait for work
     with multiprocessing.get_context("fork").Pool(1) as pool:
         assert pool.apply_async(_spread_there).get(timeout=30) == ["0", "1", "2"]
 
