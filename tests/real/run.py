@@ -117,6 +117,8 @@ def summary(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield f"near the explainable error, or admitted: {sum(map(judge.near_or_admitted, outcomes))} of {count}"
     if again := judge.same_names(outcomes):
         yield f"same names within set and base: {judge.share(again):.0%}"
+        sure = judge.share(judge.same_names(outcomes, judge.SURE))
+        yield f"the same of the names told with a probability of {judge.SURE} or more: {sure:.0%}"
     beyond = judge.share(judge.same_beyond_bases(outcomes))
     yield f"same names from both bases, but for what they do of themselves: {beyond:.0%}"
 

@@ -11,8 +11,8 @@ from real.trial import Outcome
 
 
 def made(verdict="explained", specimen=(), rig=(), base="kelvin_voigt", **changes):
-    causes = [{"cause": word, "class": "specimen"} for word in specimen]
-    causes += [{"cause": word, "class": "measurement"} for word in rig]
+    causes = [{"cause": word, "class": "specimen", "probability": 1.0} for word in specimen]
+    causes += [{"cause": word, "class": "measurement", "probability": 1.0} for word in rig]
     given = {"told": {}, "files": {}, "faults": [], "explainable": 10.0, **changes}
     return Outcome("one", base, 0, False, verdict, causes, floor=None, seconds=1.0, megabytes=1.0, failed=None, **given)
 
@@ -44,6 +44,13 @@ def test_without_a_held_out_figure_nothing_is_near():
 def test_repetitions_agree_with_what_most_of_them_name():
     said = [made(specimen=names) for names in (["friction", "valve"], ["valve", "friction"], ["friction"])]
     assert judge.same_names([*said, made("failed")]) == {("one", "kelvin_voigt"): (2, 4)}
+
+
+def test_what_is_only_probable_may_change():
+    one, two = made(specimen=["friction", "valve"]), made(specimen=["friction"])
+    one.causes[1]["probability"] = 0.6
+    assert judge.same_names([one, two]) == {("one", "kelvin_voigt"): (1, 2)}
+    assert judge.same_names([one, two], judge.SURE) == {("one", "kelvin_voigt"): (2, 2)}
 
 
 def test_bases_agree_but_for_what_they_do_of_themselves():

@@ -1,7 +1,8 @@
 """Boosted trees on what the ridge regression leaves, where scikit-learn is installed (the extra `boosting`).
 
 They grow on one thread: they are small, and threads that wait for each other at every split cost several times as much
-where other work shares the processors.
+where other work shares the processors. Values are sorted into bins here: the library sorts them once for each bin where
+samples have weights.
 """
 
 from __future__ import annotations
@@ -26,10 +27,26 @@ FOLDS = 4
 
 
 @dataclass(frozen=True, eq=False)
+class Trees:
+    """Trees on the numbers of bins, between ``edges`` (BINS - 1, m)."""
+
+    grown: Any
+    edges: Array
+
+    def predict(self, leaves: Array) -> Array:
+        """What all trees together tell (n,)."""
+        return np.asarray(self.grown.predict(_bins(leaves, self.edges)))
+
+    def after_each(self, leaves: Array) -> Array:
+        """What the first one, two, ... of them tell (trees, n)."""
+        return np.array(list(self.grown.staged_predict(_bins(leaves, self.edges))))
+
+
+@dataclass(frozen=True, eq=False)
 class Boosted:
     """Trees; ``left`` is the share of the ridge's error that stays with them on samples whose fold was left out."""
 
-    trees: Any
+    trees: Trees
     left: float
 
     def predict(self, leaves: Array) -> Array:
@@ -71,14 +88,18 @@ def _chosen(asked: Array, left: Array, weights: Array, folds: NDArray[np.intp], 
     return Boosted(_grow(asked, left, weights, best + 1, seed), share)
 
 
+def _bins(values: Array, edges: Array) -> Array:
+    """The number of the bin (n, m) of each value (n, m)."""
+    return np.column_stack([np.searchsorted(edge, value) for edge, value in zip(edges.T, values.T, strict=True)])
+
+
 def _gains(asked: Array, left: Array, weights: Array, out: NDArray[np.bool_], seed: int) -> Array:
     """By how much 1, 2, ... trees lower the sum of squares of the samples that are left out."""
     grown = _grow(asked[~out], left[~out], weights[~out], TREES, seed)
-    told = np.array(list(grown.staged_predict(asked[out])))
-    return weights[out] @ left[out] ** 2 - (left[out] - told) ** 2 @ weights[out]
+    return weights[out] @ left[out] ** 2 - (left[out] - grown.after_each(asked[out])) ** 2 @ weights[out]
 
 
-def _grow(asked: Array, left: Array, weights: Array, trees: int, seed: int) -> Any:
+def _grow(asked: Array, left: Array, weights: Array, trees: int, seed: int) -> Trees:
     from sklearn.ensemble import HistGradientBoostingRegressor
 
     maker = HistGradientBoostingRegressor(
@@ -90,4 +111,6 @@ def _grow(asked: Array, left: Array, weights: Array, trees: int, seed: int) -> A
         early_stopping=False,
         random_state=seed,
     )
-    return maker.fit(asked, left, sample_weight=weights)
+    shares = np.linspace(0.0, 1.0, BINS + 1)[1:-1]
+    edges = np.quantile(asked, shares, axis=0, method="inverted_cdf", weights=weights)
+    return Trees(maker.fit(_bins(asked, edges), left, sample_weight=weights), edges)

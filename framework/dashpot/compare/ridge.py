@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,16 +40,16 @@ class Ridge:
 
 
 def fit_ridge(
-    parts: Sequence[Array], force: Array, weights: Array, folds: NDArray[np.intp], families: Sequence[int]
+    parts: Iterable[Array], force: Array, weights: Array, folds: NDArray[np.intp], families: Sequence[int]
 ) -> Ridge:
     """The ridge regression of ``force`` (n,) N on the columns, given in ``parts`` (n_k, p).
 
     ``weights`` (n,) of the samples; ``folds`` (n,) are left out in turn; ``families`` are numbers of columns that share
     a strength, from the plainest to the richest family. The first family is always there.
     """
-    columns = np.vstack(parts)
+    columns = _stacked(parts, force.size)
     low, high = columns.min(axis=0), columns.max(axis=0)
-    size = np.sqrt(weights @ columns**2 / weights.sum())
+    size = np.sqrt(np.einsum("i,ij,ij->j", weights, columns, columns) / weights.sum())
     size[size == 0.0] = 1.0
     columns /= size
     numbers = np.unique(folds)
@@ -62,6 +62,17 @@ def fit_ridge(
     error = float(np.sqrt(weights @ (force - unseen) ** 2 / weights.sum()))
     left_out = float(np.sqrt(_error(grams, _all_but_one(grams, fit), penalty) / weights.sum()))
     return Ridge(fit / size, low - slack, high + slack, error, unseen, left_out)
+
+
+def _stacked(parts: Iterable[Array], samples: int) -> Array:
+    """The parts (n_k, p) below one another, of which only one is there at a time."""
+    first = next(each := iter(parts))
+    found = np.empty((samples, first.shape[1]))
+    found[: len(first)], at = first, len(first)
+    for part in each:
+        found[at : at + len(part)] = part
+        at += len(part)
+    return found
 
 
 def _gram(columns: Array, force: Array, weights: Array) -> Gram:

@@ -27,7 +27,7 @@ from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import Pursuit
-from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.term import first_model
@@ -169,7 +169,7 @@ def find_causes(
 
 
 def _put_right(refitter: Refitter, accused: Sequence[Accused]) -> Refitter:
-    return replace(refitter, runs=[_corrected(run, accused) for run in refitter.runs], reduced={})
+    return replace(refitter, runs=[_corrected(run, accused) for run in refitter.runs], reduced=Kept())
 
 
 def _corrected(run: ScoredRun, accused: Sequence[Accused]) -> ScoredRun:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -20,6 +19,7 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.influence import Influence
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.workers import streamed
 from dashpot.model.element import Element
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.model.sites import Pair, Site, sites_of
@@ -97,13 +97,12 @@ class Inside:
         inner = [candidate for site in self.sites for candidate in candidates if candidate.site == site]
         changes: dict[str, tuple[NDArray[np.intp], Array]] = {}
         answers = partial(self._answers, inner)
-        with ThreadPoolExecutor(jobs) as pool:
-            for number, found in enumerate((pool.map if jobs > 1 else map)(answers, self.records)):
-                watch(number / len(self.records))
-                for run, rows in found.items():
-                    alive = np.flatnonzero(rows.any(axis=1) & np.isfinite(rows).all(axis=1))
-                    # there are many columns, known to three digits: seven are kept
-                    changes[run] = _places(inner)[alive], rows[alive].astype(np.float32)
+        for number, found in enumerate(streamed(answers, self.records, jobs)):
+            watch(number / len(self.records))
+            for run, rows in found.items():
+                alive = np.flatnonzero(rows.any(axis=1) & np.isfinite(rows).all(axis=1))
+                # there are many columns, known to three digits: seven are kept
+                changes[run] = _places(inner)[alive], rows[alive].astype(np.float32)
         return changes
 
     def _answers(self, inner: Sequence[Candidate], record: str) -> dict[str, Array]:

@@ -48,11 +48,11 @@ class Pursuer:
 
     def run(self, model: Model) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
-        first, look, ended, looks = model, self.looked or self.look(model), False, 0
-        self.looked = None
+        first, ended, looks = model, False, 0
+        self.looked = self.looked or self.look(model)
         seen: set[frozenset[object]] = set()
         while True:
-            look, looks, ended, others = self.climbed(look, looks)
+            look, looks, ended, others = self.climbed(looks)
             fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
             present, without = self.pruned(look, self.scored(look, fitted, odds), odds)
             if present.model.names != look.model.names:
@@ -62,16 +62,21 @@ class Pursuer:
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
-            onward = self._next_look(fresh, present) if ended else None
-            if onward is None:
+            self.looked = self._next_look(fresh, present) if ended else None
+            if self.looked is None:
                 weights = self.weights(len(look.folds.names))
                 return Pursuit(
                     present, look, first, without, rivals, tuple(others), weights, looks, ended, tuple(self.refused)
                 )
-            look = onward
+            del look  # a look is large
 
-    def climbed(self, look: Look, looks: int) -> tuple[Look, int, bool, list[Scored]]:
-        """The look at a structure than which none of those refitted is better, whether it was reached, and these."""
+    def climbed(self, looks: int) -> tuple[Look, int, bool, list[Scored]]:
+        """The look at a structure than which none of those refitted is better, whether it was reached, and these.
+
+        It begins with the look at hand, which is let go.
+        """
+        look, self.looked = self.looked, None
+        assert look is not None
         trials: list[Scored] = []
         while looks < MOST_LOOKS:
             looks += 1
@@ -79,7 +84,7 @@ class Pursuer:
             scores = Scores(look)
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
-            del scores  # a look is large
+            del scores
             onward = self._next_look(trials, present)
             if onward is None:
                 return look, looks, True, trials

@@ -28,10 +28,24 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 STEPS, TOLERANCE = 60, 1e-5
-KEPT_BYTES = 200e6  # of columns
+KEPT_BYTES = 100e6  # of columns
 TRIAL_STEPS, TRIAL_TOLERANCE = 12, 1e-3  # a trial is only compared
 FIRST_STEPS = 4  # from each of two starts, before the one that misses less goes on alone
 SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
+
+
+@dataclass(eq=False)
+class Kept:
+    """Columns that depend on the motion alone, by what they are of, as long as there is room."""
+
+    columns: dict[tuple[object, ...], NDArray[np.float32]] = field(default_factory=dict)
+    nbytes: int = 0
+
+    def keep(self, key: tuple[object, ...], rows: Array) -> None:
+        """Keep rows in single precision; those of an earlier key stay."""
+        if self.nbytes < KEPT_BYTES and key not in self.columns:
+            self.columns[key] = rows.astype(np.float32)
+            self.nbytes += self.columns[key].nbytes
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +61,7 @@ class Refitter:
     jobs: int = 1
     watch: Callable[[float], None] = lambda done: None
     written: dict[tuple[Term, ...], tuple[NetworkSpec, tuple[tuple[str, ...], ...]]] = field(default_factory=dict)
-    reduced: dict[tuple[object, ...], Array] = field(default_factory=dict)
+    reduced: Kept = field(default_factory=Kept)
 
     @cached_property
     def sizes(self) -> Sizes:
@@ -128,15 +142,15 @@ class Refitter:
         found = objective.forces(objective.network.start)
         return {run.name: force[0] for run, force in zip(self.runs, found, strict=True)}
 
-    def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> Array:
+    def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> NDArray[np.floating]:
         """The columns (places, kept) of a candidate on a run, reduced; those of the motion alone are kept in memory."""
         suspect = candidate.suspect
         key = candidate.cause, suspect.form, suspect.grid, run.name
-        if key in self.reduced:
-            return self.reduced[key]
+        if (known := self.reduced.columns.get(key)) is not None:
+            return known
         found = noise.reduce(run.name, np.atleast_2d(suspect.columns(view, run.name))[:, run.first :])
-        if suspect.of_motion and sum(rows.nbytes for rows in list(self.reduced.values())) < KEPT_BYTES:
-            self.reduced[key] = found.astype(np.float32)
+        if suspect.of_motion:
+            self.reduced.keep(key, found)
         return found
 
     def term_forces(self, model: Model) -> list[dict[str, Array]]:

@@ -61,7 +61,8 @@ class Objective:
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
         self.steps = EnoughSteps(network, self.runs)
-        self.rows: Shelf[Rows | SystemRows] = Shelf(self._prepared)
+        # no methods of its own: what is large goes with the last reference, not when garbage is collected
+        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -76,13 +77,6 @@ class Objective:
         other.shares = np.asarray(weights, dtype=float) / np.mean(weights)
         return other
 
-    def _prepared(self, key: tuple[Team, int]) -> Rows | SystemRows:
-        team, refine = key
-        excitation = self.runs[team[0]].excitation
-        if isinstance(self.network, CompiledNetwork):
-            return self.network.prepare(excitation)
-        return self.network.prepare(excitation, refine)
-
     def _rows(self, team: Team) -> Rows | SystemRows:
         """What is prepared of runs that were measured together, with as many steps as they need so far."""
         return self.rows((team, self.steps.of(team)))
@@ -95,7 +89,7 @@ class Objective:
     @cached_property
     def part_rows(self) -> Shelf[PartRows]:
         """The runs, by number, as the branches see them."""
-        return Shelf(lambda number: self.parts.prepare(self.runs[number].excitation))
+        return Shelf(partial(_prepared_parts, self.parts, self.runs))
 
     def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
         """What ``reduce`` makes of one run after the other, from its number and its rows (1 + k, values).
@@ -243,6 +237,19 @@ class Objective:
 
 def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitening | None, shares: Array) -> Objective:
     return Objective(compile_network(spec), runs, 1, whitening, shares.tolist())
+
+
+def _prepared(
+    network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun], key: tuple[Team, int]
+) -> Rows | SystemRows:
+    """The runs of a team as a network sees them, with so many steps a sample."""
+    team, refine = key
+    excitation = runs[team[0]].excitation
+    return network.prepare(excitation) if isinstance(network, CompiledNetwork) else network.prepare(excitation, refine)
+
+
+def _prepared_parts(parts: Parts, runs: Sequence[ScoredRun], number: int) -> PartRows:
+    return parts.prepare(runs[number].excitation)
 
 
 def _squares(signals: Array) -> Array:

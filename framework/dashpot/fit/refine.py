@@ -119,16 +119,24 @@ def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
 
 def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
     """The least of s.matrix.s/2 - right.s within its limits, and of several such steps nearly the shortest."""
-    from scipy.optimize import lsq_linear
-
     values, vectors = np.linalg.eigh(matrix)
     least = NOT_FELT * values.max(initial=0.0)
     if least == 0.0:
         return np.zeros(right.size)
     roots = np.sqrt(np.maximum(values, least))
     aim = np.where(values > least, vectors.T @ right / roots, 0.0)
+    unlimited: Array = vectors @ (aim / roots)
+    if np.all((unlimited >= low) & (unlimited <= high)):
+        return unlimited
+    return _least_at_limits(roots[:, None] * vectors.T, aim, low, high)
+
+
+def _least_at_limits(rows: Array, aim: Array, low: Array, high: Array) -> Array:
+    """The least of |rows.s - aim|^2 within its limits, some of which it comes to."""
+    from scipy.optimize import lsq_linear
+
     wide = np.maximum(high, np.nextafter(low, np.inf))
-    found = lsq_linear(roots[:, None] * vectors.T, aim, (low, wide), "bvls", max_iter=10 * low.size)
+    found = lsq_linear(rows, aim, (low, wide), "bvls", max_iter=10 * low.size)
     return np.clip(found.x, low, high)
 
 

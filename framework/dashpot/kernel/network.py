@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 # vectors in a group, and whether it holds a single lane
 Group = tuple[int, bool]
-ALONE, FEW = (1, True), (1, False)
+ALONE: Group = (1, True)
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,10 @@ class CompiledNetwork(Compiled[Rows]):
         return self.spec.curves()
 
     @cached_property
-    def groups(self) -> tuple[Group, Group, Group]:
-        """How lanes are put together: a single one, few, many."""
-        return ALONE, FEW, (vectors_of(self.program), False)
+    def groups(self) -> tuple[Group, ...]:
+        """How lanes are put together: a single one, then more and more of them in powers of two."""
+        widest = vectors_of(self.program)
+        return ALONE, *((2**power, False) for power in range(widest.bit_length()))
 
     def native(self, vectors: int, alone: bool = False) -> Code:
         """The compiled code for groups of so many vectors of lanes, or for a single lane."""
@@ -102,8 +103,11 @@ class CompiledNetwork(Compiled[Rows]):
         return np.array(spread(lambda each: work(*each), zip(runs, measured, weights, strict=True), jobs))
 
     def _group(self, count: int) -> tuple[Code, int]:
-        vectors, alone = self.groups[(count > 1) + (count > LANES)]
-        return self.native(vectors, alone), vectors * LANES
+        alone, *wider = self.groups
+        if count == 1:
+            return self.native(*alone), alone[0] * LANES
+        vectors, _ = next((group for group in wider if group[0] * LANES >= count), wider[-1])
+        return self.native(vectors), vectors * LANES
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         # a fit asks for the same lanes run by run; runs of one network may be in several threads

@@ -7,10 +7,13 @@ pieces, each of them on one thread, so that no processor is asked for twice.
 
 from __future__ import annotations
 
+import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
+from functools import cache
 from itertools import islice
+from threading import local
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from dashpot.text.problem import InputError, Place
@@ -37,21 +40,48 @@ def threads(jobs: Jobs) -> int:
 
 def spread(work: Callable[[Item], Result], items: Iterable[Item], jobs: int) -> list[Result]:
     """What ``work`` makes of each item, in their order, no more than ``jobs`` threads at once."""
-    return list(streamed(work, items, jobs))
+    each = list(items)
+    shares = [each[first::jobs] for first in range(min(jobs, len(each)))]
+    found: list[Any] = [None] * len(each)
+    for first, done in enumerate(streamed(lambda share: [work(item) for item in share], shares, jobs)):
+        found[first::jobs] = done
+    return found
 
 
 def streamed(work: Callable[[Item], Result], items: Iterable[Item], jobs: int) -> Iterator[Result]:
     """The same one after the other; no more than ``jobs`` of them are ahead of the one that is asked for."""
-    if jobs == 1:
+    if jobs == 1 or _within.thread:
         yield from map(work, items)
         return
-    left = iter(items)
-    with ThreadPoolExecutor(jobs) as pool:
-        ahead = deque(pool.submit(work, item) for item in islice(left, jobs))
+    left, pool = iter(items), _pool(jobs)
+    ahead = deque(pool.submit(work, item) for item in islice(left, jobs))
+    try:
         while ahead:
             found = ahead.popleft().result()
             ahead.extend(pool.submit(work, item) for item in islice(left, 1))
             yield found
+    finally:
+        for future in ahead:
+            future.cancel()
+
+
+class _Within(local):
+    """Whether this is a thread of a pool: what it does is not spread once more."""
+
+    thread = False
+
+
+_within = _Within()
+
+
+@cache
+def _pool(jobs: int) -> ThreadPoolExecutor:
+    """The threads of this process: making new ones each time would take longer than what they do."""
+    return ThreadPoolExecutor(jobs, "dashpot", lambda: setattr(_within, "thread", True))
+
+
+if hasattr(os, "register_at_fork"):  # threads do not come along
+    os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
 def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: Jobs) -> list[Result]:

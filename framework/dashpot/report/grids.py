@@ -20,6 +20,7 @@ ERROR_COLUMNS = (
     Column("ratio", "held-out / noise floor", "", 3),
 )
 UNIT = Column("unit", "unit")
+SURE = 0.9  # probability from which on a cause is told without a doubt; below it is probable
 
 
 def comparison_grid(comparison: Json) -> Grid:
@@ -102,6 +103,11 @@ def unnamed_grid(diagnosis: Json) -> Grid:
 def is_named(cause: Json) -> bool:
     """Whether a cause is part of the answer."""
     return bool(cause.get("accepted") or cause.get("indistinguishable_from"))
+
+
+def is_sure(cause: Json) -> bool:
+    """Whether a cause is told without a doubt: probable enough, and with no other one in its place."""
+    return cause.get("probability", 1.0) >= SURE and not cause.get("indistinguishable_from")
 
 
 def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
@@ -311,7 +317,7 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
 
 def _found(cause: Json) -> str:
     if cause.get("accepted"):
-        return "accepted"
+        return "accepted" if is_sure(cause) else "probable"
     return "possible, not alone" if cause.get("indistinguishable_from") else "resembles it, less likely than not"
 
 

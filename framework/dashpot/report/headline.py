@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value, is_named
+from dashpot.report.grids import cause_name, cause_title, floor_value, is_named, is_sure
 from dashpot.report.readable import join, percent
 from dashpot.text.digits import number, quantity, with_interval
 
@@ -57,7 +57,7 @@ def headline(diagnosis: Json) -> str:
 def short_headline(diagnosis: Json) -> str:
     """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
     errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
-    named = [cause_title(cause) for cause in diagnosis["causes"] if is_named(cause)]
+    named = [_title_as_sure_as_it_is(cause) for cause in diagnosis["causes"] if is_named(cause)]
     if verdict == "nothing_missing" and errors.before is not None and errors.floor:
         error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
         return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
@@ -240,10 +240,23 @@ def _measurement_faults(diagnosis: Json) -> str:
 
 
 def _named(causes: list[Json]) -> str:
-    specimen = [cause_phrase(cause) for cause in causes if cause.get("class") != "measurement"]
-    faults = [cause_phrase(cause) for cause in causes if cause.get("class") == "measurement"]
+    specimen = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") != "measurement"]
+    faults = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") == "measurement"]
     named = [f"{join(specimen)}, missing in the model"] if specimen else []
     return "; and ".join(named + ([f"{join(faults)}, a fault of the measurement"] if faults else []))
+
+
+def _as_sure_as_it_is(cause: Json) -> str:
+    """A cause with its rivals, which have other parameters, and as probable where it is no more than that."""
+    rivals = [cause_title({"cause": word}) for word in cause.get("indistinguishable_from") or ()]
+    if rivals:
+        return " or ".join([cause_title(cause), *rivals])
+    return cause_phrase(cause) if is_sure(cause) else f"probably {cause_phrase(cause)}"
+
+
+def _title_as_sure_as_it_is(cause: Json) -> str:
+    probable = not (is_sure(cause) or cause.get("indistinguishable_from"))
+    return f"{'probably ' * probable}{cause_title(cause)}"
 
 
 def _rivals(diagnosis: Json) -> list[Json]:

@@ -207,7 +207,7 @@ def test_another_processor_compiles_again(folder, monkeypatch):
 def test_other_numbers_compile_nothing(folder, monkeypatch):
     network_with_tables = "it: {{element: spring, stiffness: {{deflection: [0, {x}, 3 mm], force: [0, 5, {x}]}}}}"
     drive = random_drive(np.random.default_rng(1), "sweep", 1e-3, 0.01, 50)
-    for lanes in (1, 9):
+    for lanes in (1, 2, 9, 40):
         found = compiled(network_with_tables.format(x=1e-3))
         found.simulate(found.prepare(drive), np.repeat(found.start[None], lanes, axis=0))
     monkeypatch.setattr(native, "compiled", None)

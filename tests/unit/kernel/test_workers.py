@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import multiprocessing
+import threading
+import time
+
 import numpy as np
 import pytest
 from unit.pools import two_workers
@@ -16,7 +20,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.profile import profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import finished, pieces, threads
+from dashpot.kernel.workers import finished, pieces, spread, streamed, threads
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
 
@@ -84,6 +88,38 @@ def test_what_fails_raises_its_error(pool):
 
 def test_a_pool_gives_each_piece_one_thread(pool):
     assert threads(pool) == 1 and threads(3) == 3
+
+
+@pytest.mark.parametrize("work", [spread, streamed])
+@pytest.mark.parametrize("jobs", [1, 2, 3])
+def test_threads_answer_in_order_and_hand_on_errors(work, jobs):
+    for count in range(6):
+        assert list(work(lambda number: number**2, range(count), jobs)) == [number**2 for number in range(count)]
+    with pytest.raises(ZeroDivisionError):
+        list(work(lambda number: 1 // number, [1, 0, 2, 3], jobs))
+    assert list(work(str, [1], jobs)) == ["1"]
+
+
+def test_what_threads_do_is_not_spread_once_more():
+    def names(_):
+        time.sleep(0.01)
+        return spread(lambda _: threading.current_thread().name, range(4), 2)
+
+    found = spread(names, range(4), 2)
+    assert all(len(set(each)) == 1 for each in found)
+    assert 1 < len({each[0] for each in found}) <= 2 and threading.current_thread().name not in found[0]
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="there is no fork here")
+def test_a_forked_process_has_threads_of_its_own():
+    spread(lambda _: time.sleep(0.02), range(2), 2)
+    time.sleep(0.02)  # both wait for work
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply_async(_spread_there).get(timeout=30) == ["0", "1", "2"]
+
+
+def _spread_there():
+    return spread(str, range(3), 2)
 
 
 @pytest.mark.parametrize("wrong", [0, -1, True, "four", None])

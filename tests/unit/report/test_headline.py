@@ -117,6 +117,16 @@ def test_a_comparison_names_the_closest_model():
     assert comparison_headline({"models": []}) == "No model could be compared."
 
 
+def test_a_cause_is_told_as_sure_as_it_is():
+    sure, probable = friction(probability=0.97), relaxation(probability=0.68, accepted=True)
+    said = headline(diagnosis(causes=[sure, probable]))
+    assert "is dry friction of 41 N [38, 44] and probably relaxation of 160 ms [20, 900], missing" in said
+    assert "dry friction and probably relaxation" in short_headline(diagnosis(causes=[sure, probable]))
+    either = relaxation(probability=0.95, accepted=True, indistinguishable_from=["power_law_damping"])
+    said = headline(diagnosis(verdict="partly_explained", causes=[sure, either]))
+    assert "and relaxation or power law damping, missing" in said
+
+
 def test_a_cause_in_several_branches_is_not_given_the_number_of_one_of_them():
     sliders = {
         "limit": {"value": 9.0, "unit": "N"},

@@ -33,7 +33,12 @@ def cache_folder() -> Path:
 
 def kernel_folder() -> Path:
     """The folder of compiled networks: ``kernels`` in the cache folder, or one for this process alone."""
-    folder = cache_folder() / "kernels"
+    return _own_folder(cache_folder() / "kernels")
+
+
+@cache
+def _own_folder(folder: Path) -> Path:
+    """The folder itself, made and closed to others; one for this process alone where that cannot be."""
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=PRIVATE)
         if is_own(folder):

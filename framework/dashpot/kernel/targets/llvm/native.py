@@ -48,10 +48,15 @@ def load_native(text: str, count: int) -> Native:
 
 def processor() -> tuple[str, str]:
     """The name and the features of the processor to compile for; ``DASHPOT_PROCESSOR`` names another than this one."""
+    given = os.environ.get("DASHPOT_PROCESSOR")
+    return (given, "") if given else _this_processor()
+
+
+@cache
+def _this_processor() -> tuple[str, str]:
     from llvmlite import binding
 
-    given = os.environ.get("DASHPOT_PROCESSOR")
-    return (given, "") if given else (binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten())
+    return binding.get_host_cpu_name(), binding.get_host_cpu_features().flatten()
 
 
 def stamp() -> str:
