@@ -83,4 +83,4 @@ def dashpot_exports() -> list[type[Export]]:  # type: ignore[empty-body]
 
 @hookspec
 def dashpot_metrics() -> list[type[Metric]]:  # type: ignore[empty-body]
-    """Numbers that a test is made for, one of each run, measured and simulated."""
+    """Scalar results of a test, one for each run, measured and simulated."""

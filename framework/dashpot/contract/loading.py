@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.metadata import EntryPoint
@@ -156,7 +156,15 @@ def objection_to(made: object, kind: Kind) -> str:
     word = getattr(made, "word", None)
     if not (isinstance(word, str) and WORD.fullmatch(word)):
         return f"{made.__qualname__} with the word {word!r}, expected small letters, digits and '_', such as 'bouc_wen'"
+    options = made.options if kind.name == "formats" else {}  # type: ignore[attr-defined]
+    if not _are_meanings(options):
+        return f"{made.__qualname__} with the options {options!r}, expected the meaning of each key as a text"
     return ""
+
+
+def _are_meanings(options: object) -> bool:
+    texts = [*options, *options.values()] if isinstance(options, Mapping) else [None]
+    return all(isinstance(text, str) for text in texts)
 
 
 def describe(error: BaseException) -> str:
