@@ -68,7 +68,8 @@ BROKEN = {
         "gave Gum with the word 'my gum', expected small letters, digits and '_'",
     ),
     "has no meanings of its options": (
-        "from dashpot import Reader, hookimpl\nclass Bench(Reader):\n    word, suffixes = 'bench', ()\n    options = ('skip',)\n"
+        "from dashpot import Reader, hookimpl\nclass Bench(Reader):\n"
+        "    word, suffixes, options = 'bench', (), ('skip',)\n"
         "    def read(self, path, options): ...\n@hookimpl\ndef dashpot_formats(): return [Bench]",
         "gave Bench with the options ('skip',), expected the meaning of each key as a text",
     ),
