@@ -13,9 +13,10 @@ from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.table_rows import step_of
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView
-from dashpot.diagnose.whitening import Noise, reduction
+from dashpot.diagnose.whitening import Noise
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import spread
 
@@ -120,7 +121,7 @@ def linearised(
 ) -> Columns:
     """The columns of a model and of candidates beside it; what each term adds only ``with_forces``."""
     runs = refitter.runs
-    steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
+    steps = {run.name: step_of(run, view.highest_frequency) for run in runs}
     plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
     residual, tangents = refitter.linearise(model, plain)
     own, base = _own_and_base(model)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.table_rows import shown
 from dashpot.diagnose.term import Model, Term, extended, inherited
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
@@ -134,7 +135,7 @@ class Refitter:
         key = candidate.cause, suspect.form, suspect.grid, run.name
         if key in self.reduced:
             return self.reduced[key]
-        found = noise.reduce(run.name, np.atleast_2d(suspect.columns(view, run.name))[:, run.first :])
+        found = noise.reduce(run.name, shown(run, np.atleast_2d(suspect.columns(view, run.name))))
         if suspect.of_motion and sum(rows.nbytes for rows in list(self.reduced.values())) < KEPT_BYTES:
             self.reduced[key] = found.astype(np.float32)
         return found

@@ -13,13 +13,11 @@ from dashpot.compare.signals import signal_evidence
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY, cosine, harmonic_of, sine, steady_samples
-from dashpot.diagnose.diagnose import records_of
 from dashpot.fit.api import fit_network
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import score_run, weighted
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
-from dashpot.text.problem import InputError
 
 REGISTRY = load_registry()
 HEAD = "format: dashpot-network/1\nname: mount\nbranches:\n"
@@ -209,12 +207,3 @@ def test_a_shift_with_temperature_is_found(law, numbers, start):
     fit = fit_network(network(model), Dataset("warm", tuple(rows)), registry=REGISTRY)
     found = [slot.value.number for slot in fit.fitted.slots() if law in slot.path]
     assert found == pytest.approx(list(numbers), rel=0.02)
-
-
-def test_a_diagnosis_takes_records_over_time_only():
-    rows = (row("r", 5.0, 1e-3, solid(5.0)),)
-    with pytest.raises(InputError, match="needs runs over time"):
-        records_of(Dataset("rows", rows))
-    time = 1e-3 * np.arange(500)
-    record = Run("t", "random", time, {"displacement": time, "force": time})
-    assert [run.name for run in records_of(Dataset("both", (record, *rows))).runs] == ["t"]
