@@ -12,6 +12,7 @@ from dashpot.contract.cause import ChannelFault
 from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.inside import Inside
+from dashpot.diagnose.plainest import not_shown
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import step_of
 from dashpot.diagnose.term import Model
@@ -56,7 +57,8 @@ class Columns:
 
     ``residual`` (kept,) and ``tangents`` (p, kept) are those of the model, ``own`` (t,) the coordinates of the terms'
     numbers and ``base`` (p - t,) those of the base, ``bends`` (b, n) the functions by which its tables may bend,
-    ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes. In front of the columns of
+    ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes, ``unseen`` the columns of
+    candidates that these runs cannot show. In front of the columns of
     the ``layout`` stand those of the base, and a column of each run for each of the ``faults``.
     """
 
@@ -72,6 +74,7 @@ class Columns:
     forces: Sequence[Mapping[str, Array]]
     candidates: Sequence[Candidate]
     inner: Mapping[str, tuple[NDArray[np.intp], Array]] | None
+    unseen: NDArray[np.intp]
 
     @property
     def layout(self) -> Layout:
@@ -105,6 +108,7 @@ class Columns:
         """Write the columns of the candidates."""
         for candidate in (candidate for candidate in self.candidates if candidate.site is None):
             bank[candidate.columns] = self.refitter.columns(candidate, self.view, run, self.plain)
+        bank[self.unseen] = 0.0
         if self.inner is not None:
             places, values = self.inner[run.name]
             bank[places] = self.plain.reduce(run.name, values)
@@ -138,6 +142,7 @@ def linearised(
         forces=refitter.term_forces(model) if with_forces else [],
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
+        unseen=not_shown(candidates, view, runs),
     )
 
 

@@ -1,9 +1,9 @@
 """Rows of tables of dynamic stiffness in a diagnosis: each counts as two values, F' and F'' of the fundamental.
 
 A row is a steady sine of which the fundamental of the force is known alone; its residual, and what a number, a term or a
-candidate does to it, are complex stiffnesses times the amplitude, in N. The rows of one table weigh by their stated
-scatter, or all alike, and their error is that of the table. They are left out in turn by curves over the frequency, and
-where there are few curves by bands of them.
+candidate does to it, are complex stiffnesses times the amplitude, in N. What is a run in records is a curve over the
+frequency here: it weighs by the error of the model on it, its rows by their stated scatter, or all alike, and curves
+are left out in turn, or where there are few of them bands of frequency.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from dashpot.text.problem import InputError, Place
 Array = NDArray[np.float64]
 
 SHOWN = 1e-6  # of the peak of a force: a fundamental that is smaller is one of rounding and of what still fades
+LONG = 4  # rows of a curve whose error is known by itself
 MOVED = "harmonic"  # the kind of a row as causes see it: with its mean and its harmonics
 
 
@@ -122,12 +123,12 @@ def folds_with_rows(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> Fol
 
 
 def weighed(noise: Noise, residual: Mapping[str, Array], runs: Sequence[ScoredRun]) -> Noise:
-    """A noise in which rows have the error of their table, by their weights, from residuals (2,) in N.
+    """A noise in which rows have the error of their curve, by their weights, from residuals (2,) in N.
 
-    Rows of a table whose residuals follow from one another count as fewer, as samples of a record do.
+    Rows of a curve whose residuals follow from one another count as fewer, as samples of a record do.
     """
     filters, shares = dict(noise.filters), dict(noise.independent)
-    for rows in _tables(runs):
+    for rows in _weighed_alike(runs):
         roots = np.sqrt([row.weight for row in rows])
         left = np.array([residual[row.name] for row in rows]) * roots[:, None]
         smallest = max(abs(row.force).max() for row in rows) * SHOWN
@@ -151,9 +152,9 @@ def _white(like: Array, deviation: float) -> Array:
     return found
 
 
-def _tables(runs: Sequence[ScoredRun]) -> list[list[ScoredRun]]:
-    """The rows of each table, curve after curve."""
+def _weighed_alike(runs: Sequence[ScoredRun]) -> list[list[ScoredRun]]:
+    """The rows of each curve; those of curves that are too short for an error of their own, by table."""
     found: dict[str, list[ScoredRun]] = {}
-    for curve in curves_of([run for run in runs if is_row(run)]).values():
-        found.setdefault(table_of(curve[0]), []).extend(curve)
+    for name, curve in curves_of([run for run in runs if is_row(run)]).items():
+        found.setdefault(name if len(curve) >= LONG else table_of(curve[0]), []).extend(curve)
     return list(found.values())
