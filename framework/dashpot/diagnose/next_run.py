@@ -107,7 +107,7 @@ class _Pair:
 
 
 def noise_deviation(refitter: Refitter, noise: Noise) -> float:
-    """The median over runs of the noise per sample in N, as if it were white; of rows of tables per sample of a period."""
+    """The median over runs of the noise per sample in N, as if it were white; of rows per sample of a period."""
     samples = {run.name: np.sqrt(0.5 * SAMPLES) if is_row(run) else 1.0 for run in refitter.runs}
     return float(np.median([samples[name] / np.abs(np.sum(noise.filters[name])) for name in samples]))
 

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 MOST_PROBED = 12  # rows on which laws are compared
 TWINS = 1.0 - 1e-6  # the cosine between fundamentals that no table tells apart
 PLAINER = 1e-3  # share of the square of a force that has to be fundamental in one and not in the other
-STEADY = 0.05  # of a fundamental: what changes by more from one of the last periods to the next is not steady
+STEADY = 0.1  # of a fundamental: what would change by more in another run as long, as fast as in the last period
 
 
 def not_shown(candidates: Sequence[Candidate], view: View, runs: Sequence[ScoredRun]) -> NDArray[np.intp]:
@@ -60,6 +60,6 @@ def _probe(run: ScoredRun, forces: Array) -> Mapping[str, Array]:
     parts = parts_of(shown(run, forces))
     last, before = forces[:, -SAMPLES:], forces[:, -2 * SAMPLES : -SAMPLES]
     square, change = np.mean(last**2, axis=1), np.linalg.norm(parts_of(last) - parts_of(before), axis=1)
-    size = np.linalg.norm(parts, axis=1)
+    size, periods = np.linalg.norm(parts, axis=1), forces.shape[1] / SAMPLES
     share = np.divide(np.mean(parts**2, axis=1), square, out=np.zeros(len(forces)), where=square > 0.0)
-    return {"parts": parts, "share": share, "fades": change > STEADY * size}
+    return {"parts": parts, "share": share, "fades": change * periods > STEADY * size}

@@ -1,7 +1,7 @@
 """Rows of tables of dynamic stiffness in a diagnosis: each counts as two values, F' and F'' of the fundamental.
 
-A row is a steady sine of which the fundamental of the force is known alone; its residual, and what a number, a term or a
-candidate does to it, are complex stiffnesses times the amplitude, in N. What is a run in records is a curve over the
+A row is a steady sine of which the fundamental of the force is known alone; its residual, and what a number, a term or
+a candidate does to it, are complex stiffnesses times the amplitude, in N. What is a run in records is a curve over the
 frequency here: it weighs by the error of the model on it, its rows by their stated scatter, or all alike, and curves
 are left out in turn, or where there are few of them bands of frequency.
 """
@@ -80,7 +80,7 @@ def bands_of(rows: Sequence[ScoredRun]) -> dict[str, str]:
     """The curve of each row, at one table, amplitude, preload and so on; of few curves the bands of frequency."""
     curves = curves_of(rows)
     pieces = -(-FEWEST // len(curves)) if curves and len(curves) < FEWEST else 1
-    found = {}
+    found: dict[str, str] = {}
     for name, curve in curves.items():
         for band, part in enumerate(np.array_split(np.arange(len(curve)), min(pieces, len(curve)))):
             found |= {curve[k].name: f"{name}, band {band + 1}" if pieces > 1 else name for k in part}
@@ -141,9 +141,7 @@ def weighed(noise: Noise, residual: Mapping[str, Array], runs: Sequence[ScoredRu
 def stated(noise: Noise, sheets: Mapping[str, Mapping[str, float]], runs: Sequence[ScoredRun]) -> Noise:
     """A noise of records in which rows have the scatter that their table states."""
     told = {run.name: sheets[run.name]["noise"] for run in runs if is_row(run) and "noise" in sheets.get(run.name, {})}
-    return replace(
-        noise, filters={**noise.filters, **{run: _white(noise.filters[run], told[run]) for run in told}}
-    )
+    return replace(noise, filters={**noise.filters, **{run: _white(noise.filters[run], told[run]) for run in told}})
 
 
 def _white(like: Array, deviation: float) -> Array:

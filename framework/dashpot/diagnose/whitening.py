@@ -26,9 +26,10 @@ HARMONICS = 5  # of the end of the driven band that the reduced records still ho
 
 @dataclass(frozen=True, eq=False)
 class Noise:
-    """For every run how many samples are averaged, ``ROW`` for a row of a table, of which two values are kept, and the prediction-error filter (order + 1,) of what is left.
+    """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of what is left.
 
-    Filtered noise has variance one. ``filters`` in 1/N; ``independent`` is the share of independent samples.
+    ``ROW`` stands for a row of a table, of which two values are kept. Filtered noise has variance one. ``filters`` in
+    1/N; ``independent`` is the share of independent samples.
     """
 
     steps: Mapping[str, int]

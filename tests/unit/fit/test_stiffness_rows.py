@@ -7,12 +7,13 @@ import pytest
 from scipy.special import iv
 from seeds import seed_of
 from unit.fit.bench import rows_of
+from unit.steady_rows import row
 
 from dashpot import load_registry
 from dashpot.compare.signals import signal_evidence
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
-from dashpot.data.steady import STEADY, cosine, harmonic_of, sine, steady_samples
+from dashpot.data.steady import harmonic_of
 from dashpot.fit.api import fit_network
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import score_run, weighted
@@ -31,23 +32,6 @@ MODEL = """\
 
 def network(branches: str):
     return parse_network(HEAD + branches, REGISTRY.elements)
-
-
-def row(
-    name: str,
-    frequency: float,
-    amplitude: float,
-    stiffness: complex,
-    preload: float = 0.0,
-    scatter: float = 0.0,
-    **settings: float,
-) -> Run:
-    count = steady_samples(frequency)
-    force = amplitude * (stiffness.real * sine(count) + stiffness.imag * cosine(count))
-    sensors = {"force": {"noise": scatter * amplitude}} if scatter else {}
-    told = {"frequency": frequency, "amplitude": amplitude, "preload": preload, **settings}
-    channels = {"displacement": preload + amplitude * sine(count), "force": force}
-    return Run(name, STEADY, np.arange(count) / (100.0 * frequency), channels, told, group=name, sensors=sensors)
 
 
 def solid(frequency: float, time: float = TIME) -> complex:
