@@ -21,7 +21,7 @@ from dashpot.fit.scored import ScoredRun
 Array = NDArray[np.float64]
 
 MOST_PROBED = 12  # rows on which laws are compared
-TWINS = 1.0 - 1e-6  # the cosine between fundamentals that no table tells apart
+TWINS = 0.999999  # the cosine between fundamentals that no table tells apart
 PLAINER = 1e-3  # share of the square of a force that has to be fundamental in one and not in the other
 STEADY = 0.1  # of a fundamental: what would change by more in another run as long, as fast as in the last period
 
