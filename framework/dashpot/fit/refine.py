@@ -55,11 +55,11 @@ def refine(
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
-    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After a few
-    steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley the
-    steps are short, however far it leads. The Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. The second
-    of two steps, each from one loss to another that is ``hopeless``, is the last one, unless a number grew or fell as
-    fast as it may.
+    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After some
+    steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley
+    steps are short, however far it leads. The Jacobian counts as one parameter vector for each coordinate, and
+    ``budget`` is the largest number of vectors. The second of two steps, each from one loss to another that is
+    ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
