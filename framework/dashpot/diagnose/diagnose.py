@@ -29,7 +29,7 @@ from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
-from dashpot.diagnose.table_rows import folds_with_rows, groups_of, records, require_enough
+from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -74,7 +74,7 @@ def diagnose(
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress, jobs = progress or silent, threads(jobs)
-    triage = examine(require_enough(one_force_each(dataset)))
+    triage = examine(diagnosed(spec, one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(

@@ -14,7 +14,6 @@ from dashpot.contract.cause import Suspect
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
 from dashpot.diagnose.candidate import Candidate
-from dashpot.diagnose.table_rows import moved, shown
 from dashpot.diagnose.view import ModelView
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
@@ -128,12 +127,11 @@ class Inside:
         for run in runs:
             end = self._system.number_of(run.end)
             base = self._solved[record][1][end]
-            found = observation.linear(np.vstack([base, changes[:, end]]), run.drive.dt)[1:]
-            seen[run.name] = shown(run, found)
+            seen[run.name] = observation.linear(np.vstack([base, changes[:, end]]), run.drive.dt)[1:, run.first :]
         return seen
 
     def _at(self, site: Site, pair: Pair, record: str) -> ScoredRun:
-        (run,), (motions, _) = moved(self.records[record][:1]), self._solved[record]
+        run, (motions, _) = self.records[record][0], self._solved[record]
         deflection = motions[pair[0]] - motions[pair[1]] + site.offset
         drive = drive_from_samples(run.drive.dt, deflection)
         whole = replace(Excitation.of_drive(drive), settings=run.excitation.settings)

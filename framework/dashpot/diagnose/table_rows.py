@@ -21,6 +21,7 @@ from dashpot.data.steady import STEADY
 from dashpot.diagnose.folds import FEWEST, MOST, Folds, folds_of
 from dashpot.diagnose.whitening import ROW, Noise, independent_share, reduction
 from dashpot.fit.scored import ScoredRun
+from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
@@ -35,15 +36,25 @@ def is_row(run: ScoredRun) -> bool:
     return run.kind == STEADY
 
 
-def require_enough(dataset: Dataset) -> Dataset:
-    """The dataset. Raises InputError where it has nothing but a few rows of tables."""
-    if len(dataset.runs) < FEWEST and all(run.kind == STEADY for run in dataset.runs):
+def diagnosed(spec: NetworkSpec, dataset: Dataset) -> Dataset:
+    """The runs that a diagnosis of a network takes: of one with nodes the records alone.
+
+    Raises InputError where there is nothing but a few rows of tables, or nothing but rows for a network with nodes.
+    """
+    recorded = [run.name for run in dataset.runs if run.kind != STEADY]
+    if spec.joints and not recorded:
+        raise InputError.at(
+            Place(dataset.name),
+            f"a diagnosis of tables needs a network between two ends, '{spec.name}' has nodes",
+            "give runs over time, or fit and compare networks on the tables",
+        )
+    if not recorded and len(dataset.runs) < FEWEST:
         raise InputError.at(
             Place(dataset.name),
             f"a diagnosis of tables needs {FEWEST} rows or more, got {len(dataset.runs)}",
             "add rows at other frequencies, amplitudes or preloads, or runs over time",
         )
-    return dataset
+    return dataset.select(recorded) if spec.joints and len(recorded) < len(dataset.runs) else dataset
 
 
 def moved(runs: Sequence[ScoredRun]) -> list[ScoredRun]:

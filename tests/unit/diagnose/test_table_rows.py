@@ -16,6 +16,7 @@ from dashpot.data.steady import SAMPLES, cosine, parts_of, sine
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.plainest import not_shown
+from dashpot.diagnose.table_rows import diagnosed as taken_of
 from dashpot.diagnose.table_rows import folds_with_rows, groups_of, shown, weighed
 from dashpot.diagnose.view import view_of
 from dashpot.diagnose.whitening import ROW, Noise
@@ -123,6 +124,18 @@ def test_records_and_rows_are_diagnosed_together():
 def test_a_few_rows_are_refused():
     with pytest.raises(InputError, match="6 rows or more, got 5"):
         diagnosed(table(nothing)[:5])
+
+
+def test_of_a_network_with_nodes_records_alone_are_diagnosed():
+    text = "format: dashpot-network/1\nname: two\nnodes: {a: driven, b: {mass: 2 kg}, c: ground}\nbranches:\n"
+    text += "  k: {between: [a, b], element: spring, stiffness: {start: 1e5}}\n"
+    text += "  d: {between: [b, c], element: spring, stiffness: {start: 1e5}}\n"
+    spec, rows = parse_network(text, REGISTRY.elements), table(nothing)
+    with pytest.raises(InputError, match="needs a network between two ends, 'two' has nodes"):
+        diagnose(spec, Dataset("rows", tuple(rows)), registry=REGISTRY)
+    time = 1e-3 * np.arange(500)
+    record = Run("r", "random", time, {"displacement": time, "force": time})
+    assert [run.name for run in taken_of(spec, Dataset("both", (record, *rows))).runs] == ["r"]
 
 
 def test_two_values_have_the_mean_square_of_their_period():
