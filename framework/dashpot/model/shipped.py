@@ -46,7 +46,7 @@ def _called(name: str, path: Path) -> set[str]:
     """The words of a network's name, and of what it calls itself: before the colon of what it says about itself."""
     title, colon, _ = _about(path).strip('"').partition(":")
     head = re.split(r",| of | on ", title)[0] if colon else ""
-    return {*name.split("_"), *re.findall(r"[a-z]+", head.lower())}
+    return {*name.split("_"), *re.findall(r"[a-z]{4,}", head.lower())}  # no articles
 
 
 def find_network(path_or_name: str | Path) -> Path:

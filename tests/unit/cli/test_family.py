@@ -41,7 +41,7 @@ def test_bushings_and_mounts_are_families_and_a_network_is_none():
     assert {"rubber_bushing", "ubs", "eub"} == set(shipped.family_of("bushing"))
     assert {"engine_mount", "strut_mount", "ubs"} < set(shipped.family_of("mount"))
     assert shipped.family_of("mount") == shipped.family_of("mounts")
-    for word in ("gehmann", "damper", "nothing", "a/b.yaml"):
+    for word in ("gehmann", "damper", "nothing", "a", "the", "a/b.yaml"):
         assert not shipped.family_of(word)
 
 
