@@ -34,7 +34,8 @@ def small(tmp_path, monkeypatch):
         (tmp_path / "networks" / folder).mkdir(parents=True, exist_ok=True)
         text = head.format(name, about) + "  b: {element: damper, damping: {start: 30}}\n" * (name == "oily")
         (tmp_path / "networks" / folder / f"{name}.yaml").write_text(text)
-    monkeypatch.setattr(shipped, "spec_folder", lambda: tmp_path)
+    found = {path.stem: path for path in sorted((tmp_path / "networks").glob("*/*.yaml"))}
+    monkeypatch.setattr(shipped, "shipped_networks", lambda: found)
 
 
 def test_bushings_and_mounts_are_families_and_a_network_is_none():
