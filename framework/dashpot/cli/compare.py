@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from dashpot.cli.arguments import models_and_dataset
+from dashpot.cli.family import with_families
 from dashpot.cli.results import COMPARISON_FILES, comparison_text, write_comparison
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
@@ -27,17 +28,19 @@ def verb(
 ) -> None:
     """Compare several networks on one dataset.
 
-    All are fitted to the same runs. Each MODEL is a network file or a shipped name. Errors are given on the runs that
-    were fitted and on the runs held out, next to the noise floor.
+    All are fitted to the same runs. Each MODEL is a network file, a shipped name, or a family of shipped networks such
+    as tires, mounts or bushing. Errors are given on the runs that were fitted and on the runs held out, next to the
+    noise floor.
 
     \b
     Example:
       dashpot compare kelvin_voigt gehmann tire_model_5 my/dataset.yaml -o comparison
+      dashpot compare bushing my/dataset.yaml -o comparison
     """
     from dashpot.compare.comparison import compare
 
     session = Session(switches, optimizer, settings)
-    networks = [session.network(model) for model in models]
+    networks = [session.network(model) for model in with_families(models, session)]
     measured = session.sound_dataset(dataset)
     folder = session.claim(output, *COMPARISON_FILES)
     comparison = session.run(compare, networks, measured)

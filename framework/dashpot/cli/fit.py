@@ -8,9 +8,11 @@ from pathlib import Path
 import click
 
 from dashpot.cli.arguments import model_and_dataset
+from dashpot.cli.family import fit_family, refuse_family
 from dashpot.cli.results import fit_files, write_fit
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, optimizer_options, output_option, switches
+from dashpot.model.shipped import family_of
 
 
 @click.command("fit")
@@ -48,10 +50,12 @@ def verb(
 
     MODEL is a network file or a shipped name. The identified network is the same file with the
     identified parameters, their 95 % intervals, and the data and range of the identification.
+    Of a family of shipped networks, such as bushing or mounts, all are fitted and compared.
 
     \b
     Example:
       dashpot fit tire_model_1 my/dataset.yaml --seed 7 -o identified
+      dashpot fit bushing my/dataset.yaml -o bushings
     """
     from dashpot.fit.api import fit_network
     from dashpot.fit.posterior import STEPS, require_sampler
@@ -61,7 +65,11 @@ def verb(
         require_sampler(sampler, steps or STEPS)
     elif steps:
         raise click.UsageError("--sampler-steps is for a sampler: name it with --sampler")
+    for option in ["--prior"] * bool(earlier) + ["--sampler"] * bool(sampler):
+        refuse_family(model, option)
     session = Session(switches, optimizer, settings)
+    if family_of(model):
+        return fit_family(model, session.sound_dataset(dataset), output, session)
     network, measured = session.network(model), session.sound_dataset(dataset)
     if earlier:
         network = with_earlier(network, session.network(str(earlier)), measured.digest, earlier.name)

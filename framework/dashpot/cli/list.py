@@ -15,6 +15,7 @@ from dashpot.cli.complete import beginning
 from dashpot.cli.session import Session
 from dashpot.cli.switches import Switches, switches
 from dashpot.contract.origin import Origin
+from dashpot.model.shipped import family_of
 from dashpot.text.problem import InputError, nearest
 
 if TYPE_CHECKING:
@@ -72,20 +73,24 @@ def verb(kind: str | None, switches: Switches) -> None:
     """List what is installed.
 
     Each thing stands with the distribution and the plugin that brought it. KIND is elements, networks (or models),
-    optimizers, causes, formats, specimens, rigs, studies, exports, metrics or plugins; without it, everything is
-    listed. `dashpot show MODEL` tells more of a network.
+    optimizers, causes, formats, specimens, rigs, studies, exports, metrics or plugins, or a family of networks, such as
+    mounts or bushing; without it, everything is listed. `dashpot show MODEL` tells more of a network.
 
     \b
     Example:
       dashpot list models
       dashpot list elements
+      dashpot list bushing
     """
     kind = ALSO.get(kind, kind) if kind else None
-    if kind is not None and kind not in KINDS:
+    members = family_of(kind) if kind and kind not in KINDS else ()
+    if kind is not None and kind not in KINDS and not members:
         hint = nearest(kind, (*KINDS, *ALSO)) or f"there are: {', '.join(KINDS)}"
         raise click.UsageError(f"No list of '{kind}', {hint}")
     session = Session(switches)
-    shown = {name: entries_of(name, session) for name in ([kind] if kind else KINDS)}
+    shown = {name: entries_of(name, session) for name in (["networks"] if members else [kind] if kind else KINDS)}
+    if members:
+        shown["networks"] = [entry for entry in shown["networks"] if entry.word in members]
     session.talk.result(as_text(shown), {"format": "dashpot-list/1", **shown})
 
 

@@ -66,8 +66,8 @@ def write_fit(fit: FitResult, folder: OutputFolder) -> Path:
         return results.write("report.html", render(fit_page(content, comparison.as_dict(), evidence)))
 
 
-def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
-    """Write the comparison as JSON, CSV and report; the path of the report."""
+def write_comparison(comparison: Comparison, folder: OutputFolder, identified: bool = False) -> Path:
+    """Write the comparison as JSON, CSV and report, and the ``identified`` networks; the path of the report."""
     from dashpot.report.comparison import comparison_page
     from dashpot.report.grids import comparison_grid
     from dashpot.report.json_text import json_text
@@ -81,6 +81,8 @@ def write_comparison(comparison: Comparison, folder: OutputFolder) -> Path:
     with folder.together() as results:
         results.write("compare.json", json_text(content))
         results.write("compare.csv", to_csv(grid.rows, grid.columns))
+        for fit in comparison.fits if identified else ():
+            results.write(f"{fit.declared.name}.yaml", fit.identified_text)
         return results.write("report.html", render(comparison_page(content, evidence)))
 
 

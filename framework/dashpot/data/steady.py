@@ -45,6 +45,15 @@ def harmonic_of(force: Array) -> NDArray[np.complex128]:
     return np.asarray(np.asarray(force)[..., first:] @ weights)
 
 
+def parts_of(period: Array) -> Array:
+    """The fundamental (..., 2) in N of one period (..., n) that begins at a zero: in phase with the sine, and ahead.
+
+    The two values have the root mean square of the period.
+    """
+    count = period.shape[-1]
+    return np.asarray(period @ np.array([sine(count), cosine(count)]).T * (2.0 / count))
+
+
 def fundamental_of(force: Array) -> Array:
     """Forces (..., n) in N as a table knows them: their fundamental, without mean and harmonics."""
     found, count = harmonic_of(force), force.shape[-1]

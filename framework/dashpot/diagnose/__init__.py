@@ -5,6 +5,8 @@ location     where suspects are looked for
 inside       the inside of a network with nodes
 candidate    a form of a cause as columns of a matrix
 whitening    the noise of each run, and signals in units of it
+table_rows   rows of tables: two values each, curves of them left out
+plainest     what tables alone cannot show
 term         a network with the terms that were added to it
 refit        fitting a structure to whitened misfits
 bends        what a table may do between its knots

@@ -12,10 +12,12 @@ from dashpot.contract.cause import ChannelFault
 from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.inside import Inside
+from dashpot.diagnose.plainest import not_shown
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.table_rows import step_of
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView
-from dashpot.diagnose.whitening import Noise, reduction
+from dashpot.diagnose.whitening import Noise
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import spread
 
@@ -55,7 +57,8 @@ class Columns:
 
     ``residual`` (kept,) and ``tangents`` (p, kept) are those of the model, ``own`` (t,) the coordinates of the terms'
     numbers and ``base`` (p - t,) those of the base, ``bends`` (b, n) the functions by which its tables may bend,
-    ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes. In front of the columns of
+    ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes, ``unseen`` the columns of
+    candidates that these runs cannot show. In front of the columns of
     the ``layout`` stand those of the base, and a column of each run for each of the ``faults``.
     """
 
@@ -71,6 +74,7 @@ class Columns:
     forces: Sequence[Mapping[str, Array]]
     candidates: Sequence[Candidate]
     inner: Mapping[str, tuple[NDArray[np.intp], Array]] | None
+    unseen: NDArray[np.intp]
 
     @property
     def layout(self) -> Layout:
@@ -104,6 +108,7 @@ class Columns:
         """Write the columns of the candidates."""
         for candidate in (candidate for candidate in self.candidates if candidate.site is None):
             bank[candidate.columns] = self.refitter.columns(candidate, self.view, run, self.plain)
+        bank[self.unseen] = 0.0
         if self.inner is not None:
             places, values = self.inner[run.name]
             bank[places] = self.plain.reduce(run.name, values)
@@ -120,7 +125,7 @@ def linearised(
 ) -> Columns:
     """The columns of a model and of candidates beside it; what each term adds only ``with_forces``."""
     runs = refitter.runs
-    steps = {run.name: reduction(run.drive.dt, view.highest_frequency) for run in runs}
+    steps = {run.name: step_of(run, view.highest_frequency) for run in runs}
     plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
     residual, tangents = refitter.linearise(model, plain)
     own, base = _own_and_base(model)
@@ -137,6 +142,7 @@ def linearised(
         forces=refitter.term_forces(model) if with_forces else [],
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
+        unseen=not_shown(candidates, view, runs),
     )
 
 

@@ -15,11 +15,10 @@ from dashpot.contract.registry import Registry
 from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
-from dashpot.data.steady import STEADY
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
-from dashpot.diagnose.folds import FEWEST, folds_of
+from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.named import MORE_LIKELY
@@ -30,6 +29,7 @@ from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
+from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -74,7 +74,7 @@ def diagnose(
     if not registry.causes:
         raise InputError.at(Place(), "expected plugins with causes, got none", "`dashpot list plugins` says why")
     progress, jobs = progress or silent, threads(jobs)
-    triage = examine(records_of(one_force_each(dataset)))
+    triage = examine(diagnosed(spec, one_force_each(dataset)))
     setting = prepare(triage.dataset, seed)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     fit, restarts = fit_to_rest(
@@ -90,7 +90,8 @@ def diagnose(
     corrected = {one.name: _corrected(one, accused) for one in setting.train}
     runs = list(corrected.values())
     model = pursuit.best.model
-    final = known(polished(model, runs, jobs), model, runs, groups, jobs, setting.floor.value)
+    together = groups_of(runs, groups)
+    final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)
     removals = [Removal(one.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
     last = _put_right(refitter, accused)
     spare = spare_branches(last, pursuit.look, pursuit.best.model)
@@ -114,18 +115,6 @@ def diagnose(
     )
 
 
-def records_of(dataset: Dataset) -> Dataset:
-    """The runs that were recorded over time. Raises InputError where there are rows of tables alone."""
-    records = [run.name for run in dataset.runs if run.kind != STEADY]
-    if not records:
-        raise InputError.at(
-            Place(dataset.name),
-            "a diagnosis needs runs over time, got rows of tables alone, which tell the fundamental of the force only",
-            "fit and compare networks on them",
-        )
-    return dataset if len(records) == len(dataset.runs) else dataset.select(records)
-
-
 def find_causes(
     refitter: Refitter,
     fit: FitResult,
@@ -146,16 +135,19 @@ def find_causes(
         # what a cause does to the slow loop, the curve must be able to give way to
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
-    folds = folds_of(refitter.runs, groups)
+    folds = folds_with_rows(refitter.runs, groups)
     first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)
-    doubted = doubts(refitter, first, kinds, groups)
+    recorded = replace(refitter, runs=records(refitter.runs), reduced={})
+    doubted = doubts(recorded, first, kinds, groups) if recorded.runs else []
     pairs = repeats_of(refitter, groups)
     pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
     del first  # a look is large
     pursuit = pursuer.run(model)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
-    accused = accuse(refitter, pursuit.look, kinds, groups, measured, doubted, relevance)
+    accused: list[Accused] = []
+    if recorded.runs:
+        accused = accuse(recorded, pursuit.look, kinds, groups, measured, doubted, relevance)
     if accused:
         again = _put_right(refitter, accused)
         refitted = replace(pursuit.look, model=again.fit(pursuit.look.model, pursuit.look.noise))

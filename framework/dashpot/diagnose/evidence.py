@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
+from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Model, Term
 
 Array = NDArray[np.float64]
@@ -98,7 +99,8 @@ def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
 
     squares = np.zeros((2, 2))
     for run in refitter.runs:
-        path, velocity = run.drive.displacement[run.first :], run.drive.velocity[run.first :]
+        first = 0 if is_row(run) else run.first  # a row is one period beside the warm-up
+        path, velocity = run.drive.displacement[first:], run.drive.velocity[first:]
         pair = np.array([velocity - velocity.mean(), hilbert(path - path.mean()).imag]) * tukey(path.size, 2.0 * FADED)
         gram = pair @ pair.T
         at = list(look.folds.parts[run.name][1])

@@ -25,6 +25,7 @@ from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursuit import Pursuit
+from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
 from dashpot.fit.objective import Objective
@@ -206,8 +207,9 @@ class Findings:
     @cached_property
     def left_out(self) -> float | None:
         """The error in N of the final network on training runs left out in turn; None where they cannot be."""
-        groups = {run.name: run.cluster for run in self.setting.dataset.runs}
-        return left_out_error(self.final, self.pursuit.best.model, list(self.corrected.values()), groups, self.jobs)
+        runs = list(self.corrected.values())
+        groups = groups_of(runs, {run.name: run.cluster for run in self.setting.dataset.runs})
+        return left_out_error(self.final, self.pursuit.best.model, runs, groups, self.jobs)
 
     @cached_property
     def _trained(self) -> float:

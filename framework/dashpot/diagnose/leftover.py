@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from dashpot.diagnose.lines import strongest_line
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.table_rows import records
 from dashpot.diagnose.view import ModelView
 
 Array = NDArray[np.float64]
@@ -50,7 +51,7 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
         _correlation(refitter, look, residual, tangents),
         _single_runs(refitter, look, residual),
         _agreement(residual, pairs),
-        _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in refitter.runs}),
+        _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in records(refitter.runs)}),
     ]
     found = max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
     square = np.concatenate(list(residual.values())) @ np.concatenate(list(residual.values()))
@@ -86,7 +87,7 @@ def _correlation(
 def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
     """Whether single runs have a gain, an offset or a drift of their own."""
     found, count, samples = {}, 0, 0
-    for run in refitter.runs:
+    for run in records(refitter.runs):
         functions = single_functions(look.view, run.name)
         rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
         for name, row in zip(functions, rows, strict=True):
@@ -96,6 +97,8 @@ def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) 
         count, samples = count + len(rows), samples + residual[run.name].size
     excess = sum(value for name, value in found.items() if name.startswith("run '")) - count
     alone = {name: value for name, value in found.items() if not name.startswith("run '")}
+    if not found:
+        return Leftover(0.0, 0.0, "is of no single run")
     score = excess / float(np.sqrt(2.0 * count))
     return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {max(alone, key=lambda k: alone[k])}")
 
@@ -109,7 +112,9 @@ def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> 
 
 
 def _line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Leftover:
-    found = strongest_line(white, steps)
+    if not steps:
+        return Leftover(0.0, 0.0, "is no line")
+    found = strongest_line({run: white[run] for run in steps}, steps)
     return Leftover(found.score, found.size, f"is a line at {found.frequency:.4g} Hz")
 
 
@@ -119,7 +124,7 @@ def general_functions(view: ModelView, run: str) -> dict[str, Array]:
     local = view.displacement(run) - np.mean(view.displacement(run))
     local = local / max(float(np.std(local)), 1e-300)
     v = view.velocity(run) / view.speed
-    a = np.gradient(v)
+    a = np.gradient(v, view.step(run) / view.dt)
     plain = {
         "the deflection": x,
         "the square of the deflection": x**2,

@@ -20,6 +20,7 @@ from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.table_rows import moved, stated, weighed
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
 from dashpot.diagnose.whitening import Noise, independent_share, learn_filter
@@ -82,7 +83,7 @@ def look_at(
     run may have the ``doubted`` faults, as large as repeats differ. The candidates may be ``known`` from an earlier
     look.
     """
-    runs, view = refitter.runs, view_of(model.fitted, refitter.runs, refitter.elements, refitter.jobs)
+    runs, view = refitter.runs, view_of(model.fitted, moved(refitter.runs), refitter.elements, refitter.jobs)
     inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
     if known is None:
         candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside), refitter.sheet)
@@ -97,9 +98,10 @@ def look_at(
     if noise is None:
         lines = _shown_at_rest(causes, view, runs, plain)
         left = {run.name: _beside_lines(columns.residual[run.name], lines[run.name]) for run in runs}
-        noise = searched_noise(left, plain, runs)
+        noise = weighed(searched_noise(left, plain, runs), columns.residual, runs)
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
         alone, rich = recorded_noise(rows, grams.sum(axis=0), first, plain, runs, lines)
+        alone = stated(alone, refitter.sensors, runs)
     else:
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
     del rows

@@ -15,8 +15,10 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
+from dashpot.data.steady import SAMPLES
 from dashpot.diagnose.proposals import LONGEST, Proposal, runs_to_choose_from
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import view_of
 from dashpot.diagnose.whitening import Noise
@@ -105,8 +107,9 @@ class _Pair:
 
 
 def noise_deviation(refitter: Refitter, noise: Noise) -> float:
-    """The median over runs of the noise per sample in N, as if it were white."""
-    return float(np.median([1.0 / np.abs(np.sum(noise.filters[run.name])) for run in refitter.runs]))
+    """The median over runs of the noise per sample in N, as if it were white; of rows per sample of a period."""
+    samples = {run.name: np.sqrt(0.5 * SAMPLES) if is_row(run) else 1.0 for run in refitter.runs}
+    return float(np.median([samples[name] / np.abs(np.sum(noise.filters[name])) for name in samples]))
 
 
 def known_directions(refitter: Refitter, model: Model, noise: Noise) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.table_rows import shown
 from dashpot.diagnose.term import Model, Term, extended, inherited
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
@@ -148,7 +149,7 @@ class Refitter:
         key = candidate.cause, suspect.form, suspect.grid, run.name
         if (known := self.reduced.columns.get(key)) is not None:
             return known
-        found = noise.reduce(run.name, np.atleast_2d(suspect.columns(view, run.name))[:, run.first :])
+        found = noise.reduce(run.name, shown(run, np.atleast_2d(suspect.columns(view, run.name))))
         if suspect.of_motion:
             self.reduced.keep(key, found)
         return found

@@ -24,6 +24,8 @@ def spare_branches(refitter: Refitter, look: Look, model: Model) -> list[str]:
     """
     present, found = _nats(refitter, look, model), []
     for branch in reversed(_branches(model.base)):
+        if len(model.fitted.root.members) == 1:
+            break  # a network has a branch
         searched = sum(path.startswith(f"{branch}.") for path in model.coordinates.paths)
         with suppress(InputError):  # another branch asks for it
             less = refitter.refit_without(model, branch, look.noise)

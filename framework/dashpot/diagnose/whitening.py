@@ -14,9 +14,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.steady import parts_of
+
 Array = NDArray[np.float64]
 
 ORDER = 8
+ROW = 0  # in place of a number of samples: of a row of a table the fundamental is kept
 NYQUIST = 4.0 / np.pi**2  # of the square of a line at the end of the band is left by averages over blocks
 HARMONICS = 5  # of the end of the driven band that the reduced records still hold
 
@@ -25,7 +28,8 @@ HARMONICS = 5  # of the end of the driven band that the reduced records still ho
 class Noise:
     """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of the residual.
 
-    Filtered noise has variance one. ``filters`` in 1/N; ``independent`` is the share of independent samples.
+    ``ROW`` stands for a row of a table, of which two values are kept. Filtered noise has variance one. ``filters`` in
+    1/N; ``independent`` is the share of independent samples.
     """
 
     steps: Mapping[str, int]
@@ -34,11 +38,13 @@ class Noise:
 
     def kept(self, run: str, samples: int) -> int:
         """How many values are kept of so many samples."""
-        return samples // self.steps[run]
+        return samples // self.steps[run] if self.steps[run] != ROW else 2
 
     def reduce(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run averaged over blocks (..., kept); white noise keeps its deviation."""
         step = self.steps[run]
+        if step == ROW:
+            return parts_of(signals)
         kept = signals.shape[-1] // step
         if step == 1:
             return signals
@@ -48,6 +54,8 @@ class Noise:
     def reduce_shapes(self, run: str, shapes: Array) -> Array:
         """Shapes (k, n) of a run averaged over blocks (k, kept); zero for one beyond the band that they show."""
         reduced = self.reduce(run, shapes)
+        if self.steps[run] == ROW:
+            return np.zeros_like(reduced)  # no fault of a record
         gone = np.sum(reduced**2, axis=-1) < NYQUIST * np.sum(shapes**2, axis=-1)
         return np.where(gone[..., None], 0.0, reduced)
 

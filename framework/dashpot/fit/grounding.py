@@ -32,25 +32,27 @@ class TakenCurve:
 
 
 def ground_curves(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
-    """The network with every curve that is to come from data as a table; one that has knots keeps them where they fit.
+    """The network with every curve that is to come from data as a table; one that has knots keeps them where they hold.
 
     The mid line of the widest quasi-static run, which is kept, known as well as its scatter says; knots beyond that run
     are searched. Without such a run a smooth curve through all runs, of which all knots are searched. The knots cover
     the deflections of all runs.
     """
     for path, curve in spec.data_curves().items():
-        if curve.form == "data" or not _spans(curve, runs):
+        if curve.form == "data" or not _holds(spec, curve, runs):
             spec = spec.with_curve(path, table_of(curve, _widen(_taken(runs, curve.knots or None), runs)))
     return spec
 
 
-def _spans(curve: Characteristic, runs: Sequence[ScoredRun]) -> bool:
-    """Whether the knots of a table reach as far as these runs, to a quarter of their distance.
+def _holds(spec: NetworkSpec, curve: Characteristic, runs: Sequence[ScoredRun]) -> bool:
+    """Whether the knots of a table are used: beside a slow loop where they reach as far as the runs, to a quarter of
+    their distance, without one where an earlier fit has identified them.
 
-    A table that ends before, from another test or from the literature, cannot follow the slow loop: it is taken anew.
+    A table that ends before, from another test, cannot follow the slow loop, and knots of the literature are those of
+    another specimen: the curve is taken anew.
     """
     if widest(runs) is None:
-        return True
+        return bool(spec.identified.record)
     slack = 0.25 * (curve.at[-1] - curve.at[0]) / (len(curve.at) - 1)
     low = min(run.drive.displacement.min() for run in runs)
     high = max(run.drive.displacement.max() for run in runs)

@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 OWN_METHOD = "gauss_newton"  # its name in files
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 NOT_FELT = 1e-12  # of the largest eigenvalue
+CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
+LEAPS = (1.0, 4.0)  # times the way of these steps
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
 
 
@@ -53,20 +55,22 @@ def refine(
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
-    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. The
-    Jacobian counts as one parameter vector for each coordinate; ``budget`` is the largest number of vectors. The second
-    of two steps, each from one loss to another that is ``hopeless``, is the last one, unless a number grew or fell as
-    fast as it may.
+    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After some
+    steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley
+    steps are short, however far it leads. The Jacobian counts as one parameter vector for each coordinate, and
+    ``budget`` is the largest number of vectors. The second of two steps, each from one loss to another that is
+    ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
-    spent, slack, hoped = 1, 1.0, True
+    spent, slack, hoped, trail = 1, 1.0, True, [point]
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
-        if budget is not None and spent + 1 + point.size + len(DAMPINGS) > budget:
+        if budget is not None and spent + 1 + point.size + len(DAMPINGS) + len(LEAPS) > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
         tries = candidates(linearise(objective, coordinates, point), coordinates, point, slack)
+        tries = np.vstack([tries, *leaps(coordinates, trail)])
         losses = objective.losses(coordinates.to_values(tries))
         spent += 1 + point.size + len(tries)
         best = int(np.argmin(losses))
@@ -78,7 +82,8 @@ def refine(
             continue
         strides = _strides(tries[best] - point, coordinates)
         before, loss, point = loss, float(losses[best]), tries[best]
-        slack = max(DAMPINGS[best] / 10.0, 1e-3)
+        slack = max(DAMPINGS[best] / 10.0, 1e-3) if best < len(DAMPINGS) else slack
+        trail = [*trail[-PATIENCE:], point] if 1.0 - loss / before < CREEP else [point]
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
         hope = strides or not hopeless(before, loss)
@@ -101,6 +106,14 @@ def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: fl
         damped = matrix + damping * np.eye(free.sum())
         each[free] = rising_step(least_within, damped, downhill[free] / scale, (low, high), place, rising) / scale
     return coordinates.allowed(coordinates.moved(point, steps), np.where(free, np.diag(normal), 0.0))
+
+
+def leaps(coordinates: Coordinates, trail: list[Array]) -> list[Array]:
+    """Where the way of the last short steps leads if it goes on (leaps, p); nothing as long as they are few."""
+    if len(trail) <= PATIENCE:
+        return []
+    way = np.outer(LEAPS, trail[-1] - trail[0])
+    return [coordinates.allowed(trail[-1] + way)]
 
 
 def _among(rising: tuple[tuple[int, ...], ...], free: NDArray[np.bool_]) -> list[list[int]]:

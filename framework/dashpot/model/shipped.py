@@ -28,6 +28,27 @@ def shipped_networks() -> dict[str, Path]:
     return {path.stem: path for path in sorted((spec_folder() / "networks").glob("*/*.yaml"))}
 
 
+def family_of(word: str) -> tuple[str, ...]:
+    """The shipped networks of a family: a folder such as ``mounts`` or ``mount``, or what they are called, such as
+    ``bushing``, in their name or at the head of what they say about themselves. Fewer than two are none.
+
+    A file or a network of that name comes first.
+    """
+    shipped, asked = shipped_networks(), word.lower()
+    if asked in shipped or Path(word).exists() or not asked.isidentifier():
+        return ()
+    found = tuple(name for name, path in shipped.items() if path.parent.name in (asked, f"{asked}s"))
+    found = found or tuple(name for name, path in shipped.items() if asked in _called(name, path))
+    return found if len(found) > 1 else ()
+
+
+def _called(name: str, path: Path) -> set[str]:
+    """The words of a network's name, and of what it calls itself: before the colon of what it says about itself."""
+    title, colon, _ = _about(path).strip('"').partition(":")
+    head = re.split(r",| of | on ", title)[0] if colon else ""
+    return {*name.split("_"), *re.findall(r"[a-z]{4,}", head.lower())}  # no articles
+
+
 def find_network(path_or_name: str | Path) -> Path:
     """The file of a network given by path or by shipped name. Raises InputError when there is none."""
     path = Path(path_or_name)

@@ -198,8 +198,6 @@ def _read_over(form: Form, kind: Kind, reading: Reading) -> Over | None:
         value = read_value(node, Kind(unit, bounds, scale), reading.named(f"{reading.what}, {name}"))
         if value and (value.over or value.setting):
             reading.complain(node.place, f"the {name} cannot depend on a setting itself", "write a value")
-        elif value and value.expression:
-            reading.complain(node.place, f"the {name} cannot follow from other parameters", "write a value")
         return value
 
     return read_over(below, kind.unit, read)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from seeds import seed_of
@@ -10,6 +12,7 @@ from unit.fit.bench import DT, network, run
 from dashpot.data.drive import drive_from_samples
 from dashpot.fit.grounding import correct_ends, free_curves, ground_curves, widest
 from dashpot.fit.scored import ScoredRun
+from dashpot.model.identified import Identified
 
 SPRING = "rubber: {element: spring, stiffness: {from: quasi_static}}"
 FRICTION = "friction: {element: dahl, stiffness: 5e4, limit: 50}"
@@ -141,3 +144,16 @@ def test_the_intervals_of_kept_knots_are_those_of_the_mean_of_noise():
         inner = range(2, len(curve.at) - 2)
         found += [low <= progressive(curve.at[k]) <= high for k in inner for low, high in [curve.values[k].interval]]
     assert 0.9 < np.mean(found) < 0.99
+
+
+def test_knots_of_the_literature_give_way_to_the_runs_where_there_is_no_slow_loop_and_those_of_a_fit_do_not():
+    """The file knows a spring that is five times as stiff as that of the runs."""
+    curve = "{from: quasi_static, deflection: [-3 mm, 0 mm, 3 mm], force: [-3 kN, 0 kN, 3 kN]}"
+    spec = network(f"rubber: {{element: spring, stiffness: {curve}}}")
+    quick = [run("quick", 2e-3, 2.0, lambda x, v, a: 2e5 * x)]
+    searched = ground_curves(spec, quick).curves()["rubber.stiffness"]
+    assert all(value.searched for value in searched.values)
+    forces = np.array([value.number for value in searched.values])
+    assert np.interp(1e-3, searched.at, forces) == pytest.approx(200.0, rel=0.02)
+    identified = replace(spec, identified=Identified({"data": "0123"}))
+    assert ground_curves(identified, quick) == identified

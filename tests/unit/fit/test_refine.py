@@ -13,7 +13,7 @@ from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, kelvin
 
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Outcome, least_within, refine
+from dashpot.fit.refine import LEAPS, PATIENCE, Outcome, leaps, least_within, refine
 from dashpot.fit.starts import KEPT, refine_from_starts
 from dashpot.kernel.network import compile_network
 
@@ -32,6 +32,49 @@ def test_it_finds_the_numbers_that_made_the_data():
     assert found.loss < 1e-4
     assert heard == sorted(heard, reverse=True)
     assert found.loss == pytest.approx(objective.losses(coordinates.to_values(found.point))[0])
+
+
+def test_a_walk_of_short_steps_is_continued_and_stays_in_its_range():
+    _, _, coordinates = ready("\n        a: {element: spring, stiffness: {start: 1, bounds: [1, 1e3]}}", runs())
+    trail = [np.array([0.1 * k]) for k in range(PATIENCE + 1)]
+    assert leaps(coordinates, trail[:-1]) == []
+    (found,) = leaps(coordinates, trail)
+    ends = trail[-1] + np.outer(LEAPS, trail[-1] - trail[0])
+    assert found == pytest.approx(np.minimum(ends, np.log(1e3)))
+    (clipped,) = leaps(coordinates, [5.0 * place for place in trail])
+    assert clipped[-1] == pytest.approx(coordinates.high)
+
+
+class BentValley:
+    """A floor that sinks along a circle: steps along its tangent leave it, so that they are short."""
+
+    radius, steepness, aim = 1e3, 1e-2, 1e-2
+
+    def residual(self, values):
+        away = np.hypot(*values.T) - self.radius
+        angle = np.arctan2(values[:, 1], values[:, 0])
+        return np.stack([self.steepness * away, self.aim * (angle - 1.5)])
+
+    def losses(self, values):
+        return np.sqrt(np.mean(self.residual(np.atleast_2d(values)) ** 2, axis=0))
+
+    def linearise(self, values, moves, reduce):
+        at = self.residual(values[None])
+        changes = [self.residual((values + move)[None]) - at for move in moves]
+        yield reduce(0, np.concatenate([at[None], changes])[..., 0])
+
+
+def test_a_walk_along_a_bent_valley_leaps():
+    _, _, coordinates = ready(
+        """
+        a: {element: spring, stiffness: {start: 999.8, bounds: [1, 1e6]}}
+        b: {element: damper, damping: {start: 20, bounds: [1, 1e6]}}
+        """,
+        runs(),
+    )
+    found = refine(BentValley(), coordinates, coordinates.start, steps=400)
+    a, b = np.exp(found.point)
+    assert np.arctan2(b, a) > 1.1  # without leaps as many steps lead to 0.99
 
 
 def test_friction_and_relaxation_are_found_from_a_distant_start():

@@ -7,19 +7,18 @@ import pytest
 from scipy.special import iv
 from seeds import seed_of
 from unit.fit.bench import rows_of
+from unit.steady_rows import row
 
 from dashpot import load_registry
 from dashpot.compare.signals import signal_evidence
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
-from dashpot.data.steady import STEADY, cosine, harmonic_of, sine, steady_samples
-from dashpot.diagnose.diagnose import records_of
+from dashpot.data.steady import harmonic_of
 from dashpot.fit.api import fit_network
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import score_run, weighted
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
-from dashpot.text.problem import InputError
 
 REGISTRY = load_registry()
 HEAD = "format: dashpot-network/1\nname: mount\nbranches:\n"
@@ -33,23 +32,6 @@ MODEL = """\
 
 def network(branches: str):
     return parse_network(HEAD + branches, REGISTRY.elements)
-
-
-def row(
-    name: str,
-    frequency: float,
-    amplitude: float,
-    stiffness: complex,
-    preload: float = 0.0,
-    scatter: float = 0.0,
-    **settings: float,
-) -> Run:
-    count = steady_samples(frequency)
-    force = amplitude * (stiffness.real * sine(count) + stiffness.imag * cosine(count))
-    sensors = {"force": {"noise": scatter * amplitude}} if scatter else {}
-    told = {"frequency": frequency, "amplitude": amplitude, "preload": preload, **settings}
-    channels = {"displacement": preload + amplitude * sine(count), "force": force}
-    return Run(name, STEADY, np.arange(count) / (100.0 * frequency), channels, told, group=name, sensors=sensors)
 
 
 def solid(frequency: float, time: float = TIME) -> complex:
@@ -211,10 +193,68 @@ def test_a_shift_with_temperature_is_found(law, numbers, start):
     assert found == pytest.approx(list(numbers), rel=0.02)
 
 
-def test_a_diagnosis_takes_records_over_time_only():
-    rows = (row("r", 5.0, 1e-3, solid(5.0)),)
-    with pytest.raises(InputError, match="needs runs over time"):
-        records_of(Dataset("rows", rows))
-    time = 1e-3 * np.arange(500)
-    record = Run("t", "random", time, {"displacement": time, "force": time})
-    assert [run.name for run in records_of(Dataset("both", (record, *rows))).runs] == ["t"]
+SHIFT, PLACE = (8.0, 80.0), 296.15
+SHARED = """\
+  a: {element: spring, stiffness: {start: 1e5}}
+  b:
+    element: maxwell
+    stiffness: {start: 3e4}
+    relaxation_time: {start: 5e-2, over: {setting: temperature, at: 23 degC, wlf: [{start: 15}, {start: 50 K}]}}
+  c:
+    element: maxwell
+    stiffness: {start: 3e4}
+    relaxation_time:
+      start: 5e-3
+      over:
+        setting: temperature
+        at: 23 degC
+        wlf:
+          - expression: b.relaxation_time.wlf[0]
+          - expression: b.relaxation_time.wlf[1]
+"""
+BRANCHES = ((6e4, 2e-2), (4e4, 2e-3))
+
+
+def shifted(warm: float) -> float:
+    return 10.0 ** (-SHIFT[0] * (warm - PLACE) / (SHIFT[1] + warm - PLACE))
+
+
+def shifted_rows() -> list[Run]:
+    found = []
+    for warm in (286.15, 291.15, 296.15, 306.15, 316.15):
+        for frequency in (1.0, 4.0, 16.0, 40.0):
+            rate = 2j * np.pi * frequency * shifted(warm)
+            stiffness = STIFFNESS + sum(size * rate * time / (1.0 + rate * time) for size, time in BRANCHES)
+            found.append(row(f"r{len(found)}", frequency, 1e-3, stiffness, temperature=warm))
+    return found
+
+
+def shifted_records() -> list[Run]:
+    """Sines from rest: in each branch F = k A w T / (1 + w^2 T^2) (cos wt + w T sin wt - exp(-t/T))."""
+    time, found = 2e-4 * np.arange(5000), []
+    for warm in (286.15, 296.15, 306.15, 316.15):
+        for frequency in (2.0, 12.0):
+            turn = 2.0 * np.pi * frequency * time
+            force = STIFFNESS * 1e-3 * np.sin(turn)
+            for size, base in BRANCHES:
+                fading = base * shifted(warm)
+                share = 2.0 * np.pi * frequency * fading
+                wave = np.cos(turn) + share * np.sin(turn) - np.exp(-time / fading)
+                force = force + size * 1e-3 * share / (1.0 + share**2) * wave
+            channels = {"displacement": 1e-3 * np.sin(turn), "force": force}
+            settings = {"temperature": warm, "warm_up": 0.1}
+            name = f"t{len(found)}"
+            found.append(Run(name, "harmonic", time, channels, settings, group=name))
+    return found
+
+
+@pytest.mark.parametrize("measured", [shifted_rows, shifted_records])
+def test_branches_that_share_a_shift_with_temperature_are_found_with_it(measured):
+    fit = fit_network(network(SHARED), Dataset("warm", tuple(measured())), registry=REGISTRY)
+    found = {slot.path: slot.value.number for slot in fit.fitted.slots()}
+    assert [found[f"b.relaxation_time.wlf[{k}]"] for k in (0, 1)] == pytest.approx(list(SHIFT), rel=0.03)
+    assert [found[f"c.relaxation_time.wlf[{k}]"] for k in (0, 1)] == [
+        found[f"b.relaxation_time.wlf[{k}]"] for k in (0, 1)
+    ]
+    pairs = sorted((found[f"{name}.stiffness"], found[f"{name}.relaxation_time"]) for name in "bc")
+    assert np.array(pairs) == pytest.approx(np.array(sorted(BRANCHES)), rel=0.03)
