@@ -138,7 +138,7 @@ def find_causes(
     folds = folds_with_rows(refitter.runs, groups)
     first = look_at(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)
-    recorded = replace(refitter, runs=records(refitter.runs), reduced={})
+    recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
     doubted = doubts(recorded, first, kinds, groups) if recorded.runs else []
     pairs = repeats_of(refitter, groups)
     pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
