@@ -62,12 +62,13 @@ class Drift(Cause):
         )
 
     def channel_faults(self, view: View) -> Iterable[ChannelFault]:
-        """A zero that moves evenly over a run, wherever it began."""
+        """A zero that moves evenly over a run, wherever it began: where it began is an offset, and no evidence."""
         yield ChannelFault(
             "steady drift",
             "drift by the end",
             "N",
             lambda view, run: np.array([np.linspace(0.0, 1.0, view.force(run).size), np.ones(view.force(run).size)]),
             lambda strengths: Correction(drift=strengths[0], offset=strengths[1]),
+            free=1,
             scatters=False,
         )

@@ -126,7 +126,8 @@ class ChannelFault:
     disagree, ``at_rest`` where it acts without motion, which ``evidence`` then tells in words. Where it ``scatters``,
     specimens differ like that from one test to the next as well, as in stiffness and zero: then a repeat has to stand
     out from the scatter of all repeats. ``alike(view, run)`` are shapes (m, k, n) of faults like it that no rig has,
-    such as lines beside that of the mains: what these explain is the error of the model.
+    such as lines beside that of the mains: what these explain is the error of the model. The last ``free`` shapes go
+    along with the others, and are no evidence of the fault.
 
     Examples:
         >>> fault = dp.ChannelFault(
@@ -149,6 +150,7 @@ class ChannelFault:
     evidence: str = ""
     scatters: bool = True
     alike: Callable[[View, str], Array] | None = None
+    free: int = 0
 
 
 class Cause(ABC):

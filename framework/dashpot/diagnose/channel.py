@@ -199,7 +199,7 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = pairs_that_differ(rows, pairs, kind, price)
+    demonstrated = pairs_that_differ(rows, pairs, kind, price, kinds[kind].fault.free)
     if kinds[kind].fault.scatters:
         demonstrated = [pair for pair in demonstrated if outlier(rows, pair, pairs, kind) > price]
     differ = [name for pair in demonstrated if run in pair for name in pair if name != run]

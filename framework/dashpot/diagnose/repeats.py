@@ -68,7 +68,7 @@ def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mappin
     price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
     found = []
     for number, kind in enumerate(kinds):
-        if pairs_that_differ(rows, pairs, number, price):
+        if pairs_that_differ(rows, pairs, number, price, kind.fault.free):
             strengths = np.array([strengths_of(*_difference(rows, *pair, number)) for pair in pairs])
             found.append(Doubt(kind.fault, np.sqrt(np.mean(strengths**2, axis=0))))
     return found
@@ -87,14 +87,17 @@ def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
     return found
 
 
-def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, price: float) -> list[Pair]:
-    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test."""
+def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, price: float, free: int = 0) -> list[Pair]:
+    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test.
+
+    The last ``free`` shapes of the fault are no evidence of it.
+    """
     strengths = {pair: strengths_of(*_difference(rows, *pair, kind)) for pair in pairs}
     found = []
     for pair in pairs:
         others = [strengths[other] for other in pairs if other != pair]
         usual = np.mean(others, axis=0) if others else np.zeros_like(strengths[pair])
-        if _contrast(*_difference(rows, *pair, kind), usual) > price + usual.size:
+        if _contrast(*_difference(rows, *pair, kind), usual, free) > price + usual.size - free:
             found.append(pair)
     return found
 
@@ -127,10 +130,13 @@ def _difference(rows: Rows, one: str, other: str, kind: int) -> tuple[Array, Arr
     return filtered(difference, coefficients), filtered(shapes, coefficients)
 
 
-def _contrast(difference: Array, shapes: Array, usual: Array) -> float:
-    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do."""
-    rest, changed = beside(difference, shapes), difference - usual @ shapes
-    before = min(float(difference @ difference), float(changed @ changed))
+def _contrast(difference: Array, shapes: Array, usual: Array, free: int) -> float:
+    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do.
+
+    And beyond what the last ``free`` ones explain.
+    """
+    rest, last = beside(difference, shapes), shapes[len(shapes) - free :]
+    before = min(float(left @ left) for left in (beside(difference, last), beside(difference - usual @ shapes, last)))
     explained = before / max(float(rest @ rest), 1e-300)
     return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
 

@@ -52,13 +52,15 @@ def refine(
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
     hopeless: Callable[[float, float], bool] = lambda before, after: False,
+    leaping: bool = True,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After some
     steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley
-    steps are short, however far it leads. The Jacobian counts as one parameter vector for each coordinate, and
-    ``budget`` is the largest number of vectors. The second of two steps, each from one loss to another that is
+    steps are short, however far it leads. Fits that are only compared take the same few steps each without ``leaping``,
+    as one that leaps by chance is no better a model. The Jacobian counts as one parameter vector for each coordinate,
+    and ``budget`` is the largest number of vectors. The second of two steps, each from one loss to another that is
     ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
@@ -70,7 +72,7 @@ def refine(
         if budget is not None and spent + 1 + point.size + len(DAMPINGS) + len(LEAPS) > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
         tries = candidates(linearise(objective, coordinates, point), coordinates, point, slack)
-        tries = np.vstack([tries, *leaps(coordinates, trail)])
+        tries = np.vstack([tries, *(leaps(coordinates, trail) if leaping else [])])
         losses = objective.losses(coordinates.to_values(tries))
         spent += 1 + point.size + len(tries)
         best = int(np.argmin(losses))

@@ -67,7 +67,9 @@ def test_a_repeat_is_accused_where_it_stands_out_from_the_scatter_of_all_repeats
     differ = SCATTER | {"again_4": offset}
     repeats = dict(zip(differ, ("a1_p5", "a3_p5", "a1_p11", "a3_p8"), strict=True))
     fault = {name: lambda force, by=by: force + by for name, by in differ.items()}
-    assert {key for key in examined(dataset(repeats=repeats, fault=fault)) if key[1] == "offset"} == accused
+    found = set(examined(dataset(repeats=repeats, fault=fault)))
+    assert {key for key in found if key[1] == "offset"} == accused
+    assert not [key for key in found if key[1] == "drift"], "nothing moves during a run"
 
 
 def test_a_difference_of_two_repeats_accuses_one_of_them():
