@@ -80,7 +80,8 @@ def generated_pages_hold_what_is_installed(site: Path) -> None:
     for kind in ("elements", "causes", "optimizers", "formats", "rigs", "specimens", "exports"):
         page = (site / "generated" / f"{kind}.html").read_text(encoding="utf-8")
         assert not [word for word in things(kind) if f">{word}</span>" not in page], kind
-    assert (site / "generated" / "elements.html").read_text(encoding="utf-8").count('<math display="block">') > 20
+    families = (site / "generated" / "elements").glob("*.html")
+    assert sum(page.read_text(encoding="utf-8").count('<math display="block">') for page in families) > 20
 
 
 def plots_and_formulas_are_drawn(site: Path, chromium: str) -> None:
