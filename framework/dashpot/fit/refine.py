@@ -58,10 +58,10 @@ def refine(
 
     Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After some
     steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley
-    steps are short, however far it leads. Fits that are only compared take the same few steps each without ``leaping``,
-    as one that leaps by chance is no better a model. The Jacobian counts as one parameter vector for each coordinate,
-    and ``budget`` is the largest number of vectors. The second of two steps, each from one loss to another that is
-    ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
+    steps are short, however far it leads. Structures of a diagnosis are refitted in a few steps each and compared; one
+    that happens to leap would be ahead, so that they do without ``leaping``. The Jacobian counts as one parameter
+    vector for each coordinate, and ``budget`` is the largest number of vectors. The second of two steps, each from one
+    loss to another that is ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])

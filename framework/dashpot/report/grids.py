@@ -20,7 +20,6 @@ ERROR_COLUMNS = (
     Column("ratio", "held-out / noise floor", "", 3),
 )
 UNIT = Column("unit", "unit")
-SURE = 0.9  # probability from which on a cause is told without a doubt; below it is probable
 
 
 def comparison_grid(comparison: Json) -> Grid:
@@ -107,7 +106,9 @@ def is_named(cause: Json) -> bool:
 
 def is_sure(cause: Json) -> bool:
     """Whether a cause is told without a doubt: probable enough, and with no other one in its place."""
-    return cause.get("probability", 1.0) >= SURE and not cause.get("indistinguishable_from")
+    from dashpot.diagnose.pursuit import NAMED
+
+    return cause.get("probability", 1.0) >= NAMED and not cause.get("indistinguishable_from")
 
 
 def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
