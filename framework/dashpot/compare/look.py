@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dashpot.compare.explainable import Explainable, explainable_error
 from dashpot.compare.metrics import metric_rows
 from dashpot.compare.shapes import shapes_of
+from dashpot.compare.signals import measured_signals
 from dashpot.compare.strokes import Seen, cycle_values, see, work
 from dashpot.contract.metric import Metric
 from dashpot.data.dataset import Dataset
@@ -69,7 +70,7 @@ class Look:
     def evidence(self) -> dict[str, Any]:
         """Arrays and texts for the report."""
         runs = self.setting.dataset.runs
-        measured = {run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs}
+        measured = {run.name: measured_signals(run) for run in runs}
         return {
             "loops": {"measured": measured, "simulated": {}},
             "shapes": shapes_of(runs),

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dashpot.compare.bands import Band, frequency_bands
 from dashpot.compare.conditions import Conditions, conditions_of
 from dashpot.data.average import average_bands
+from dashpot.data.excitation import Excitation
 from dashpot.data.order_tracking import DynamicStiffness, Oscillation, harmonics_of
 from dashpot.data.run import Run
 from dashpot.data.tracking import track as followed
@@ -27,15 +28,19 @@ SHORTEST = 0.2  # s that a run has to spend in a band
 WHOLE_RUN = "whole run"
 
 
+def measured_signals(run: Run) -> dict[str, Array]:
+    """Time (n,) in s, displacement in m, velocity in m/s and force in N of a run with one deflection."""
+    velocity = Excitation.of_run(run).motions[""].velocity
+    return {"time": run.time, "displacement": run.displacement, "velocity": velocity, "force": run.force}
+
+
 def signal_evidence(runs: tuple[Run, ...], residuals: Residuals) -> dict[str, Any]:
     """Loops, residuals, dynamic stiffness, harmonics and misfit map of labelled residuals (measured - simulated)."""
     tracked = {run.name: track for run in runs if (track := followed(run)) is not None}
     conditions = {run.name: conditions_of(run, tracked[run.name]) for run in runs if run.name in tracked}
     return {
         "loops": {
-            "measured": {
-                run.name: {"time": run.time, "displacement": run.displacement, "force": run.force} for run in runs
-            },
+            "measured": {run.name: measured_signals(run) for run in runs},
             "simulated": {
                 label: {run.name: run.force - found[run.name] for run in runs} for label, found in residuals.items()
             },

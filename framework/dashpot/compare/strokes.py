@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.drive import drive_from_samples
+from dashpot.data.excitation import Excitation
 from dashpot.data.reversals import noise_threshold, stroke_edges
 from dashpot.data.run import Run
 from dashpot.fit.scored import warm_up
@@ -83,7 +83,7 @@ class Seen:
 
 def see(run: Run, simulated: Mapping[str, Mapping[str, Array]] | None = None) -> Seen:
     """The run with its measured force and with those of ``simulated[label][run]`` (n,) N that there are."""
-    path = drive_from_samples(run.sample_time, np.array(run.displacement))
+    path = Excitation.of_run(run).motions[""]
     forces = {"measured": np.asarray(run.force, dtype=float)}
     forces |= {label: found[run.name] for label, found in (simulated or {}).items() if run.name in found}
     least = max(noise_threshold(run.displacement), SMALLEST_STROKE * float(np.ptp(run.displacement)))

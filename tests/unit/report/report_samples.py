@@ -23,7 +23,8 @@ def sweep(amplitude: float, preload: float, rng: np.random.Generator) -> dict[st
     measured = linear + friction + NOISE * rng.standard_normal(x.size)
     before = linear + 0.55 * friction.std() / amplitude * (x - preload)
     after = linear + 0.98 * friction
-    return {"time": time, "displacement": x, "force": measured, "before": before, "after": after}
+    velocity = np.gradient(x, time)
+    return {"time": time, "displacement": x, "velocity": velocity, "force": measured, "before": before, "after": after}
 
 
 def slide(x: np.ndarray) -> np.ndarray:
@@ -88,7 +89,9 @@ def evidence() -> dict[str, Any]:
     residuals = {label: {k: run["force"] - run[label] for k, run in data.items()} for label in ("before", "after")}
     return {
         "loops": {
-            "measured": {name: {k: run[k] for k in ("time", "displacement", "force")} for name, run in data.items()},
+            "measured": {
+                name: {k: run[k] for k in ("time", "displacement", "velocity", "force")} for name, run in data.items()
+            },
             "simulated": {label: {name: run[label] for name, run in data.items()} for label in ("before", "after")},
         },
         "residuals": {"time": {name: run["time"] for name, run in data.items()}, "residuals": residuals},

@@ -23,12 +23,17 @@ EVIDENCE = evidence()
 HOSTILE = "</script><img src=x onerror=alert(1)><b>%{x}"
 
 
+def signals(time: np.ndarray, displacement: np.ndarray, force: np.ndarray) -> dict[str, np.ndarray]:
+    velocity = np.gradient(displacement, time)
+    return {"time": time, "displacement": displacement, "velocity": velocity, "force": force}
+
+
 def every_figure(run: str = "run 1", label: str = "before") -> list[Figure]:
     time = np.linspace(0.0, 1.0, 50)
     response = {"stiffness": np.array([2e5, 3e5]), "loss_angle": np.array([0.1, np.pi / 4])}
     curve = {"run": run, "frequency": np.array([1.0, 2.0]), "measured": response, "simulated": {label: response}}
     return [
-        figures.loops({run: {"time": time, "displacement": 1e-3 * time, "force": time}}, {label: {run: time}}),
+        figures.loops({run: signals(time, 1e-3 * time, time)}, {label: {run: time}}),
         figures.dynamic_stiffness([curve | {"amplitude": 1e-3, "preload": 0.01}, curve]),
         figures.steady_stiffness([steady(run, 1e-3, 2.0, label), steady(run, 2e-3, 2.0, label)]),
         figures.residual_traces({run: time}, {label: {run: time}}),
@@ -157,9 +162,7 @@ def test_a_measured_damper_curve_stands_as_points_over_the_identified_one():
 
 def test_loops_are_drawn_in_millimetres_and_newtons():
     time = np.array([0.0, 0.1, 0.2])
-    figure = figures.loops(
-        {"a": {"time": time, "displacement": np.array([1e-3, 2e-3, 3e-3]), "force": np.array([5.0, 6.0, 7.0])}}, {}
-    )
+    figure = figures.loops({"a": signals(time, np.array([1e-3, 2e-3, 3e-3]), np.array([5.0, 6.0, 7.0]))}, {})
     measured = plotly_figure(figure).data[0]
     assert np.allclose(measured.x, [1.0, 2.0, 3.0])
     assert np.allclose(measured.y, [5.0, 6.0, 7.0])
@@ -168,7 +171,7 @@ def test_loops_are_drawn_in_millimetres_and_newtons():
 def test_loops_over_velocity_show_a_damper_as_a_line():
     time = np.linspace(0.0, 1.0, 501)
     x, v = 1e-3 * np.sin(20.0 * time), 2e-2 * np.cos(20.0 * time)
-    figure = figures.loops({"a": {"time": time, "displacement": x, "force": 500.0 * v}}, {})
+    figure = figures.loops({"a": {"time": time, "displacement": x, "velocity": v, "force": 500.0 * v}}, {})
     over_displacement, over_velocity = plotly_figure(figure).data
     assert (over_displacement.xaxis, over_velocity.xaxis) == ("x", "x2")
     assert np.asarray(over_velocity.y) == pytest.approx(500.0 * np.asarray(over_velocity.x), abs=1e-3)
@@ -177,8 +180,8 @@ def test_loops_over_velocity_show_a_damper_as_a_line():
 def test_branches_are_drawn_beside_the_measured_force():
     time = np.linspace(0.0, 1.0, 50)
     measured = {
-        "a": {"time": time, "displacement": time, "force": time},
-        "b": {"time": time, "displacement": np.sin(9.0 * time), "force": 3.0 * time},
+        "a": signals(time, time, time),
+        "b": signals(time, np.sin(9.0 * time), 3.0 * time),
     }
     forces = {"rubber": 90.0 * time, "oil": time, "friction": 0.5 * time}
     figure = figures.branch_loops(measured, {name: {"a": force, "b": force} for name, force in forces.items()})
@@ -260,7 +263,7 @@ def test_thinning_a_trace_keeps_its_extremes(values, points):
 
 def test_the_run_with_the_largest_error_is_shown_first():
     time = np.linspace(0.0, 1.0, 20)
-    measured = {name: {"time": time, "displacement": time, "force": 0.0 * time} for name in "abc"}
+    measured = {name: signals(time, time, 0.0 * time) for name in "abc"}
     figure = figures.loops(measured, {"before": {"a": time, "b": 9.0 * time, "c": 2.0 * time}})
     assert {trace["meta"]["run"] for trace in figure.plot["data"] if trace["visible"] is True} == {"b"}
 
@@ -373,6 +376,6 @@ def test_a_model_keeps_its_dash_where_another_is_missing():
 def test_many_models_do_not_make_the_page_larger(models):
     time = np.linspace(0.0, 30.0, 30001)
     x = 0.02 + 0.005 * np.sin(2.0 * np.pi * (time + 0.4 * time**2))
-    measured = {f"run {i}": {"time": time, "displacement": x, "force": 1e4 * x} for i in range(17)}
+    measured = {f"run {i}": signals(time, x, 1e4 * x) for i in range(17)}
     simulated = {f"model {k}": {run: 1.01e4 * x for run in measured} for k in range(models)}
     assert len(json.dumps(plot_json(figures.loops(measured, simulated)))) < 1.1e6

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from dashpot.data.drive import drive_from_samples
 from dashpot.report.figures import excerpt, toggles
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
@@ -33,9 +32,10 @@ def loops(
 ) -> Figure:
     """Measured and simulated force over displacement, and beside it over velocity.
 
-    `measured[run]` holds `time` (n,) s, `displacement` (n,) m and `force` (n,) N; `simulated[label][run]` is a force
-    (n,) N, the labels being "before", "after" or names of models. The runs in `shown` are drawn at first; without
-    them it is the run with the largest error of the first label drawn. So are the labels in `series`, without them all.
+    `measured[run]` holds `time` (n,) s, `displacement` (n,) m, `velocity` (n,) m/s and `force` (n,) N;
+    `simulated[label][run]` is a force (n,) N, the labels being "before", "after" or names of models. The runs in
+    `shown` are drawn at first; without them it is the run with the largest error of the first label drawn. So are the
+    labels in `series`, without them all.
     Long runs are drawn as cycles spread over the run.
     """
     return _figure("Force over displacement and velocity", CYCLES, measured, simulated, shown, series)
@@ -48,7 +48,7 @@ def branch_loops(
 
     The fastest run is drawn at first, and of the branches those that are not far stronger than the others.
     """
-    fastest = max(measured, key=lambda run: float(np.ptp(_velocity(measured[run]))), default="")
+    fastest = max(measured, key=lambda run: float(np.ptp(measured[run]["velocity"])), default="")
     strokes = {name: float(np.ptp(runs[fastest])) for name, runs in branches.items() if fastest in runs}
     usual = float(np.median(list(strokes.values()))) if strokes else 0.0
     series = [name for name, stroke in strokes.items() if stroke <= STRONG * usual]
@@ -97,15 +97,10 @@ def _block(
         "run": run,
         TIME: _drawn(signals["time"], pieces),
         X: 1e3 * _drawn(signals["displacement"], pieces),
-        V: _drawn(_velocity(signals), pieces),
+        V: _drawn(signals["velocity"], pieces),
         MEASURED: _drawn(signals["force"], pieces),
     }
     return block | {_heading(label): _drawn(runs[run], pieces) for label, runs in simulated.items() if run in runs}
-
-
-def _velocity(signals: Mapping[str, np.ndarray]) -> np.ndarray:
-    time = np.asarray(signals["time"], dtype=float)
-    return drive_from_samples(float(time[1] - time[0]), np.asarray(signals["displacement"], dtype=float)).velocity
 
 
 def _drawn(values: np.ndarray, pieces: Sequence[np.ndarray]) -> np.ndarray:
