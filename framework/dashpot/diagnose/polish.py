@@ -29,7 +29,7 @@ LEVEL = 0.975
 def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = STEPS) -> NetworkSpec:
     """The network of a model with the numbers at which the plain error of the runs is smallest, all weighing alike."""
     objective = Objective(compile_network(model.fitted), runs, jobs)
-    found = refine(objective, model.coordinates, model.coordinates.start, steps, leaping=False)
+    found = refine(objective, model.coordinates, model.coordinates.start, steps, thorough=False)
     return ordered(model.fitted, with_point(model.fitted, model.coordinates, found.point))
 
 

@@ -222,6 +222,6 @@ class Refitter:
         tolerance: float = TOLERANCE,
     ) -> Model:
         coordinates = search_coordinates(start)
-        found = refine(self._objective(start, noise), coordinates, coordinates.start, steps, tolerance, leaping=False)
+        found = refine(self._objective(start, noise), coordinates, coordinates.start, steps, tolerance, thorough=False)
         fitted = with_point(start, coordinates, found.point)
         return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +18,12 @@ Array = NDArray[np.float64]
 
 OWN_METHOD = "gauss_newton"  # its name in files
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
+BOXES = (0.7, 0.2, 0.05)  # smaller ones, each with the two smallest dampings
 NOT_FELT = 1e-12  # of the largest eigenvalue
 CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
 LEAPS = (1.0, 4.0)  # times the way of these steps
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
+TRIED = len(DAMPINGS) + 2 * len(BOXES) + len(LEAPS)  # in a step, at most
 
 
 class Outcome(Enum):
@@ -52,16 +55,18 @@ def refine(
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
     hopeless: Callable[[float, float], bool] = lambda before, after: False,
-    leaping: bool = True,
+    thorough: bool = True,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
 
-    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. After some
-    steps that hardly help the way that they have come is tried as well, once and several times as far: in a bent valley
-    steps are short, however far it leads. Structures of a diagnosis are refitted in a few steps each and compared; one
-    that happens to leap would be ahead, so that they do without ``leaping``. The Jacobian counts as one parameter
-    vector for each coordinate, and ``budget`` is the largest number of vectors. The second of two steps, each from one
-    loss to another that is ``hopeless``, is the last one, unless a number grew or fell as fast as it may.
+    Each step solves the damped normal equations for a ladder of dampings and tries all of them in one block. A
+    ``thorough`` refinement also tries steps within smaller boxes (rectangular trust regions), since a parameter that is
+    hardly felt takes the longest stride and spoils every step of little damping; and after some steps that hardly help
+    the way that they have come, once and several times as far: in a bent valley steps are short, however far it leads.
+    Structures of a diagnosis are refitted in a few steps each and compared; one that happens to leap would be ahead, so
+    that they do without. The Jacobian counts as one parameter vector for each coordinate, and ``budget`` is the largest
+    number of vectors. The second of two steps, each from one loss to another that is ``hopeless``, is the last one,
+    unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
@@ -69,10 +74,11 @@ def refine(
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
-        if budget is not None and spent + 1 + point.size + len(DAMPINGS) + len(LEAPS) > budget:
+        if budget is not None and spent + 1 + point.size + TRIED > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
-        tries = candidates(linearise(objective, coordinates, point), coordinates, point, slack)
-        tries = np.vstack([tries, *(leaps(coordinates, trail) if leaping else [])])
+        linear = linearise(objective, coordinates, point)
+        tries = candidates(linear, coordinates, point, slack, BOXES if thorough else ())
+        tries = np.vstack([tries, *(leaps(coordinates, trail) if thorough else [])])
         losses = objective.losses(coordinates.to_values(tries))
         spent += 1 + point.size + len(tries)
         best = int(np.argmin(losses))
@@ -95,18 +101,24 @@ def refine(
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
 
 
-def candidates(linear: Linear, coordinates: Coordinates, point: Array, slack: float = 1.0) -> Array:
-    """Where Gauss-Newton steps from a point (p,) lead within the bounds (dampings, p), the undamped one first."""
+def candidates(
+    linear: Linear, coordinates: Coordinates, point: Array, slack: float = 1.0, boxes: Sequence[float] = ()
+) -> Array:
+    """Where Gauss-Newton steps from a point (p,) lead within the bounds (tried, p), the undamped one first.
+
+    After the ladder of dampings come steps of which no logarithm moves by more than the half width of one of ``boxes``.
+    """
     normal, downhill = linear.normal, -linear.gradient
     free = np.diag(normal) > 0.0
     scale = np.sqrt(np.diag(normal)[free])
     matrix = normal[np.ix_(free, free)] / np.outer(scale, scale)
-    low, high = (side[free] * scale for side in _reach(coordinates, point))
-    steps = np.zeros((len(DAMPINGS), point.size))
+    tried = [(STRIDE, damping) for damping in DAMPINGS * slack] + list(product(boxes, DAMPINGS[:2]))
+    steps = np.zeros((len(tried), point.size))
     place, rising = (point[free], coordinates.unit[free] / scale), _among(coordinates.rising, free)
-    for each, damping in zip(steps, DAMPINGS * slack, strict=True):
+    for each, (stride, damping) in zip(steps, tried, strict=True):
+        reach = tuple(side[free] * scale for side in _reach(coordinates, point, stride))
         damped = matrix + damping * np.eye(free.sum())
-        each[free] = rising_step(least_within, damped, downhill[free] / scale, (low, high), place, rising) / scale
+        each[free] = rising_step(least_within, damped, downhill[free] / scale, reach, place, rising) / scale
     return coordinates.allowed(coordinates.moved(point, steps), np.where(free, np.diag(normal), 0.0))
 
 
@@ -124,11 +136,11 @@ def _among(rising: tuple[tuple[int, ...], ...], free: NDArray[np.bool_]) -> list
     return [[int(place[knot]) for knot in knots if free[knot]] for knots in rising]
 
 
-def _reach(coordinates: Coordinates, point: Array) -> tuple[Array, Array]:
-    """How far each number may move down and up in one step, in natural steps."""
-    stride = np.where(coordinates.log, STRIDE, np.inf)
-    low, high = np.maximum(coordinates.low - point, -stride), np.minimum(coordinates.high - point, stride)
-    grown = np.where(coordinates.log, np.expm1(np.minimum(high, STRIDE)), high)
+def _reach(coordinates: Coordinates, point: Array, stride: float) -> tuple[Array, Array]:
+    """How far each number may move down and up in one step, in natural steps; logarithms by ``stride`` at most."""
+    most = np.where(coordinates.log, stride, np.inf)
+    low, high = np.maximum(coordinates.low - point, -most), np.minimum(coordinates.high - point, most)
+    grown = np.where(coordinates.log, np.expm1(np.minimum(high, stride)), high)
     return low / coordinates.unit, grown / coordinates.unit
 
 

@@ -12,8 +12,9 @@ from seeds import seed_of
 from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, kelvin_voigt, network, ready, run, runs
 
 from dashpot.fit.coordinates import search_coordinates, with_point
+from dashpot.fit.linear import Linear
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import LEAPS, PATIENCE, Outcome, leaps, least_within, refine
+from dashpot.fit.refine import DAMPINGS, LEAPS, PATIENCE, Outcome, candidates, leaps, least_within, refine
 from dashpot.fit.starts import KEPT, refine_from_starts
 from dashpot.kernel.network import compile_network
 
@@ -75,6 +76,25 @@ def test_a_walk_along_a_bent_valley_leaps():
     found = refine(BentValley(), coordinates, coordinates.start, steps=400)
     a, b = np.exp(found.point)
     assert np.arctan2(b, a) > 1.1  # without leaps as many steps lead to 0.99
+
+
+@pytest.mark.parametrize("half_width", [0.7, 0.05])
+def test_within_a_box_each_of_two_orthogonal_numbers_goes_as_far_as_it_may(half_width):
+    _, _, coordinates = ready(
+        """
+        a: {element: spring, stiffness: {start: 1000, bounds: [1, 1e6]}}
+        b: {element: damper, damping: {start: 20, bounds: [1, 1e6]}}
+        """,
+        runs(),
+    )
+    # the second one is hardly felt, and would move by e^5
+    wanted = np.array([0.02, 5.0]) / coordinates.unit
+    felt = np.array([4.0, 1e-6])
+    gram = np.block([[np.ones((1, 1)), -(felt * wanted)[None]], [-(felt * wanted)[:, None], np.diag(felt)]])
+    nothing = np.zeros(2, dtype=bool)
+    linear = Linear(None, 2, coordinates.to_values(coordinates.start)[0], np.eye(2), np.ones(2), gram, nothing)
+    found = candidates(linear, coordinates, coordinates.start, boxes=[half_width])[len(DAMPINGS)]
+    assert found - coordinates.start == pytest.approx([np.log1p(0.02), half_width], rel=1e-9)
 
 
 def test_friction_and_relaxation_are_found_from_a_distant_start():
