@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext
 from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -142,13 +142,17 @@ class Session:
                 self.talk.say(f"printed: {printed}")
 
     @contextmanager
-    def workers(self, memory: float | None = None) -> Iterator[Jobs]:
+    def workers(self, memory: float | None = None, parts: int = 1) -> Iterator[Jobs]:
         """Who does the work: threads of this process, or the workers of ``--scheduler``, a piece in ``memory`` bytes.
 
-        InputError where no such scheduler answers.
+        Several ``parts`` that do not need each other are done by processes. InputError where no such scheduler answers.
         """
         if self.switches.scheduler is None:
-            yield self.switches.jobs
+            from dashpot.kernel.workers import processes
+
+            count = min(self.switches.jobs, parts)
+            with processes(count) if count > 1 else nullcontext(self.switches.jobs) as jobs:
+                yield jobs
             return
         from dashpot.campaign.scheduler import scheduled
 
@@ -160,7 +164,7 @@ class Session:
     def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
         """Do the work of a verb on a network (or several) and a dataset, showing its progress."""
         parts = len(subject) if isinstance(subject, list) else 1
-        with self.workers() as jobs, self.watch("compiling", parts) as progress:
+        with self.workers(parts=parts) as jobs, self.watch("compiling", parts) as progress:
             return work(
                 subject,
                 dataset,

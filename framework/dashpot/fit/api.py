@@ -176,9 +176,11 @@ def fit_each(
     shared = (settings, method, seed, threads(jobs), progress if isinstance(jobs, int) else silent)
     found: dict[int, FitResult | InputError] = {}
     for number, future in finished(_fitted, shared, each, jobs):
-        found[number] = result_of(future)
+        found[number] = fit = result_of(future)
         if not isinstance(jobs, int):
             progress(f"{specs[number].name}: fitted", 1.0)
+            if isinstance(fit, FitResult):  # one dataset for all, not a copy with each
+                found[number] = replace(fit, dataset=settings[each[number][1]].dataset)
     return [found[number] for number in range(len(specs))]
 
 

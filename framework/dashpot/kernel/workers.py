@@ -11,6 +11,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
+from contextlib import contextmanager
 from functools import cache
 from itertools import islice
 from threading import local
@@ -82,6 +83,31 @@ def _pool(jobs: int) -> ThreadPoolExecutor:
 
 if hasattr(os, "register_at_fork"):  # threads do not come along
     os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
+@contextmanager
+def processes(count: int) -> Iterator[Executor]:
+    """So many processes of this machine, which end with the block, at once where it fails or is interrupted."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import active_children, get_context
+
+    pool, others = ProcessPoolExecutor(count, get_context("spawn"), initializer=_left_to_the_parent), active_children()
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for child in active_children():
+            if child not in others:
+                child.terminate()
+        raise
+    pool.shutdown()
+
+
+def _left_to_the_parent() -> None:
+    """A key that interrupts reaches all processes of a terminal; the parent ends the others."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def pieces(work: Callable[..., Result], shared: Any, each: Sequence[Any], jobs: Jobs) -> list[Result]:

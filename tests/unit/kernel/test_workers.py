@@ -20,7 +20,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.profile import profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import finished, pieces, spread, streamed, threads
+from dashpot.kernel.workers import finished, pieces, processes, spread, streamed, threads
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
 
@@ -73,6 +73,24 @@ def halved(shared: float, one: float) -> float:
     if one < 0.0:
         raise ValueError(f"{one} is below 0")
     return one / shared
+
+
+def test_processes_give_the_same_and_end_with_the_block():
+    before = multiprocessing.active_children()
+    with processes(2) as pool:
+        assert pieces(halved, 2.0, [6.0, 4.0], pool) == [3.0, 2.0]
+    assert multiprocessing.active_children() == before
+
+
+def test_processes_of_a_block_that_is_interrupted_do_not_go_on():
+    before = multiprocessing.active_children()
+    with pytest.raises(KeyboardInterrupt), processes(2) as pool:
+        assert pool.submit(abs, -1).result() == 1
+        pool.submit(time.sleep, 3600.0)
+        raise KeyboardInterrupt
+    for child in set(multiprocessing.active_children()) - set(before):
+        child.join(60.0)
+    assert multiprocessing.active_children() == before
 
 
 def test_pieces_come_in_their_order(pool):
