@@ -129,6 +129,17 @@ def look_at(
     )
 
 
+def look_settled(
+    refitter: Refitter, model: Model, causes: Sequence[type[Cause]], folds: Folds, doubted: Sequence[Doubt] = ()
+) -> Look:
+    """Linearise a model after a refit under the noise that it leaves.
+
+    Structures are compared at their own optimum only: beside it the linear step promises what a refit does not keep.
+    """
+    noise = look_at(refitter, model, (), folds, doubted=doubted).noise
+    return look_at(refitter, refitter.refit(model, model.terms, noise), causes, folds, doubted=doubted)
+
+
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
     """The precision (f,) of the columns in front: none of the ``free`` ones, then that of the faults of each run."""
     each = [np.maximum(doubt.strengths, 1e-300) ** -2.0 for doubt in doubted]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.look import Doubt, Look, look_at
+from dashpot.diagnose.look import Doubt, Look, look_at, look_settled
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
@@ -53,10 +53,10 @@ class Pursuer:
         seen: set[frozenset[object]] = set()
         while True:
             look, looks, ended, others = self.climbed(looks)
-            fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
-            present, without = self.pruned(look, self.scored(look, fitted, odds), odds)
-            if present.model.names != look.model.names:
+            present, without = self.pruned(look)
+            while present.model.terms != look.model.terms:
                 look, others = self.look(present.model), []
+                present, without = self.pruned(look)
             scores = Scores(look)
             rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
             del scores
@@ -92,18 +92,25 @@ class Pursuer:
         return look, looks, False, trials
 
     def _next_look(self, trials: Iterable[Scored], present: Scored) -> Look | None:
-        """The look at the best of some structures than the present one, under the noise of the look at either."""
+        """The look at the best of some structures than the present one, under the noise of the look at either.
+
+        Under each of them both are refitted.
+        """
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
                 scores = Scores(self.look(trial.model))
-                before = self.scored(scores.look, present.model, scores.odds)
+                before = self.scored(scores.look, self.refitted_under(scores.look, present.model), scores.odds)
                 if self._better(scored_by(scores, scores.odds), before):
                     return scores.look
         return None
 
     def look(self, model: Model) -> Look:
         """All candidates beside a model."""
-        return look_at(self.refitter, model, self.causes, self.folds, doubted=self.doubted)
+        return look_settled(self.refitter, model, self.causes, self.folds, self.doubted)
+
+    def refitted_under(self, look: Look, model: Model) -> Model:
+        """A model, its parameters fitted under the noise of a look."""
+        return self.refitter.refit(model, model.terms, look.noise)
 
     def weights(self, folds: int) -> Array:
         """Random weights (draws, folds) of the folds, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
@@ -182,8 +189,10 @@ class Pursuer:
         untold = {term for number, term in terms if not is_determined(seen, number)}
         return untold, {term for number, term in terms if not has_evidence(self.refitter, seen, number)}
 
-    def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
+    def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
+        odds = Odds(look.layout.bank)
+        present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.scores_of(look, present.model)
             found = [self._without(look, present, (term,), odds) for term in present.model.terms]
