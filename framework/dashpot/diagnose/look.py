@@ -108,6 +108,7 @@ def look_at(
     terms = 1 + layout.tangents
     plainly = grams[:, : first + terms, : first + terms]
     moves = in_front(plainly.sum(axis=0), precision)
+    moves[:, 0] *= bool(doubted)  # the residual is that of the parameters as they are
     exact = np.array([beside(gram, moves) for gram in plainly])
     front = front_of(grams, precision[free:], free, layout, model, candidates)
     return Look(
