@@ -83,7 +83,7 @@ def test_gram_matrices_are_those_of_the_residual_and_of_what_a_refit_of_the_base
 
 
 def test_a_model_is_refitted_under_the_noise_that_it_leaves(made):
-    """At the optimum under that noise the residual is orthogonal to the tangents of the base, run by run in its units."""
+    """At the optimum the residual is orthogonal to the tangents of the base, each run by its independent samples."""
     settled = look_settled(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
     residual, tangents = made.refitter.linearise(settled.model, settled.noise)
     weights = {run: np.sqrt(settled.noise.independent[run]) for run in residual}
