@@ -20,7 +20,7 @@ from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import look_at
+from dashpot.diagnose.look import look_settled
 from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
@@ -136,7 +136,7 @@ def find_causes(
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
     folds = folds_with_rows(refitter.runs, groups)
-    first = look_at(refitter, model, causes, folds)
+    first = look_settled(refitter, model, causes, folds)
     kinds = kinds_of(causes, first)
     recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
     doubted = doubts(recorded, first, kinds, groups) if recorded.runs else []

@@ -107,7 +107,10 @@ class Front:
 def front_of(
     grams: Array, known: Array, free: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
 ) -> Front:
-    """From Gram matrices (groups, f + c, f + c) behind ``free`` columns of the base and ``known`` (f - free,) ones."""
+    """From Gram matrices (groups, f + c, f + c) behind ``free`` columns of the base and ``known`` (f - free,) ones.
+
+    The residual is that of the base as it is, unless faults of each run are ``known``, to which no fit has adapted it.
+    """
     first = free + known.size
     errors, precision, owners = form_errors(np.einsum("gii->i", grams), first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
@@ -115,6 +118,7 @@ def front_of(
     at = np.ix_(order, order)
     total = grams.sum(axis=0)[at]
     moves = in_front(total, np.zeros(free))
+    moves[:, first - free + len(errors)] *= known.size > 0
     left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
     for number, gram in enumerate(grams):
         left[number] = beside(gram[at], moves)

@@ -108,6 +108,7 @@ def look_at(
     terms = 1 + layout.tangents
     plainly = grams[:, : first + terms, : first + terms]
     moves = in_front(plainly.sum(axis=0), precision)
+    moves[:, 0] *= bool(doubted)  # the residual is that of the parameters as they are
     exact = np.array([beside(gram, moves) for gram in plainly])
     front = front_of(grams, precision[free:], free, layout, model, candidates)
     return Look(
@@ -127,6 +128,17 @@ def look_at(
         own=columns.own,
         base=columns.base,
     )
+
+
+def look_settled(
+    refitter: Refitter, model: Model, causes: Sequence[type[Cause]], folds: Folds, doubted: Sequence[Doubt] = ()
+) -> Look:
+    """Linearise a model after a refit under the noise that it leaves.
+
+    Structures are compared at their own optimum only: beside it the linear step promises what a refit does not keep.
+    """
+    noise = look_at(refitter, model, (), folds, doubted=doubted).noise
+    return look_at(refitter, refitter.refit(model, model.terms, noise), causes, folds, doubted=doubted)
 
 
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.look import Doubt, Look, look_at
+from dashpot.diagnose.look import Doubt, Look, look_at, look_settled
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
@@ -34,7 +34,11 @@ DRAWS = 200
 
 @dataclass(eq=False)
 class Pursuer:
-    """What the steps of a pursuit share; ``looked`` is the first look where there is one, let go when it is used."""
+    """What the steps of a pursuit share.
+
+    ``looked`` is the first look where there is one, let go when it is used; ``looks`` counts them, and ``ended`` says
+    whether the search came to its end.
+    """
 
     refitter: Refitter
     causes: Sequence[type[Cause]]
@@ -45,65 +49,84 @@ class Pursuer:
     doubted: Sequence[Doubt] = ()
     looked: Look | None = None
     refused: list[tuple[Term, str]] = field(default_factory=list)
+    looks: int = 0
+    ended: bool = False
 
     def run(self, model: Model) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
-        first, ended, looks = model, False, 0
         self.looked = self.looked or self.look(model)
         seen: set[frozenset[object]] = set()
         while True:
-            look, looks, ended, others = self.climbed(looks)
-            fitted, odds = self.refitter.fit(look.model, look.noise), Odds(look.layout.bank)
-            present, without = self.pruned(look, self.scored(look, fitted, odds), odds)
-            if present.model.names != look.model.names:
-                look, others = self.look(present.model), []
+            look, present, without, others = self.summit(seen)
             scores = Scores(look)
             rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
-            self.looked = self._next_look(fresh, present) if ended else None
+            self.looked = self._next_look(fresh, present) if self.ended else None
             if self.looked is None:
                 weights = self.weights(len(look.folds.names))
-                return Pursuit(
-                    present, look, first, without, rivals, tuple(others), weights, looks, ended, tuple(self.refused)
-                )
+                found = (present, look, model, without, rivals, tuple(others), weights)
+                return Pursuit(*found, self.looks, self.ended, tuple(self.refused))
             del look  # a look is large
 
-    def climbed(self, looks: int) -> tuple[Look, int, bool, list[Scored]]:
-        """The look at a structure than which none of those refitted is better, whether it was reached, and these.
+    def summit(self, seen: set[frozenset[object]]) -> tuple[Look, Scored, tuple[Without, ...], list[Scored]]:
+        """The look at the best structure, all terms of which are worth their place, and what was refitted beside it.
+
+        Where terms go the search continues from the rest, unless that was ``seen``.
+        """
+        look, others = self.climbed()
+        while True:
+            present, without = self.pruned(look)
+            if present.model.terms == look.model.terms:
+                return look, present, without, others
+            self.looked = self.look(present.model)
+            fresh = present.model.forms not in seen
+            seen.add(present.model.forms)
+            look, others = self.climbed() if fresh else (self.looked, [])
+
+    def climbed(self) -> tuple[Look, list[Scored]]:
+        """The look at a structure than which none of those refitted is better, if it is reached, and these.
 
         It begins with the look at hand, which is let go.
         """
         look, self.looked = self.looked, None
         assert look is not None
         trials: list[Scored] = []
-        while looks < MOST_LOOKS:
-            looks += 1
-            self.watch(looks, len(look.model.terms))
+        self.ended = False
+        while not self.ended and self.looks < MOST_LOOKS:
+            self.looks += 1
+            self.watch(self.looks, len(look.model.terms))
             scores = Scores(look)
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
             del scores
             onward = self._next_look(trials, present)
-            if onward is None:
-                return look, looks, True, trials
-            look = onward
-        return look, looks, False, trials
+            self.ended, look = onward is None, onward or look
+        return look, trials
 
     def _next_look(self, trials: Iterable[Scored], present: Scored) -> Look | None:
-        """The look at the best of some structures than the present one, under the noise of the look at either."""
+        """The look at the best of some structures than the present one, under the noise of the look at either.
+
+        Under each of them both are refitted, and the terms keep their evidence.
+        """
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
                 scores = Scores(self.look(trial.model))
-                before = self.scored(scores.look, present.model, scores.odds)
+                if any(self._lacking(scores)):
+                    continue
+                before = self.scored(scores.look, self.refitted_under(scores.look, present.model), scores.odds)
                 if self._better(scored_by(scores, scores.odds), before):
                     return scores.look
         return None
 
     def look(self, model: Model) -> Look:
         """All candidates beside a model."""
-        return look_at(self.refitter, model, self.causes, self.folds, doubted=self.doubted)
+        return look_settled(self.refitter, model, self.causes, self.folds, self.doubted)
+
+    def refitted_under(self, look: Look, model: Model) -> Model:
+        """A model, its parameters fitted under the noise of a look."""
+        return self.refitter.refit(model, model.terms, look.noise)
 
     def weights(self, folds: int) -> Array:
         """Random weights (draws, folds) of the folds, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
@@ -182,8 +205,10 @@ class Pursuer:
         untold = {term for number, term in terms if not is_determined(seen, number)}
         return untold, {term for number, term in terms if not has_evidence(self.refitter, seen, number)}
 
-    def pruned(self, look: Look, present: Scored, odds: Odds) -> tuple[Scored, tuple[Without, ...]]:
+    def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
+        odds = Odds(look.layout.bank)
+        present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.scores_of(look, present.model)
             found = [self._without(look, present, (term,), odds) for term in present.model.terms]

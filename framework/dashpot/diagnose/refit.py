@@ -93,7 +93,7 @@ class Refitter:
                 with suppress(InputError):  # a small share may be less than an element admits
                     starts.append(self._start(model, part, model.moved(share * change)))
         declared, owned, start = starts[0]
-        objective = self._objective(start, noise)
+        objective = self._objective(start, noise.counted)
         points = [search_coordinates(one) for _, _, one in starts]
         places = np.array([each.to_values(each.start)[0] for each in points])
         losses = objective.losses(places)
@@ -222,6 +222,7 @@ class Refitter:
         tolerance: float = TOLERANCE,
     ) -> Model:
         coordinates = search_coordinates(start)
-        found = refine(self._objective(start, noise), coordinates, coordinates.start, steps, tolerance, thorough=False)
+        objective = self._objective(start, noise.counted)
+        found = refine(objective, coordinates, coordinates.start, steps, tolerance, thorough=False)
         fitted = with_point(start, coordinates, found.point)
         return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)

@@ -150,9 +150,11 @@ class Scores:
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
         at, target, gone = self.columns(structure), self.target(structure), structure.dropped
         front, gram, samples = self.look.front, self.gram(gone), self.look.samples
-        left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target)
+        foreseen = structure != Structure()
+        left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target, foreseen)
         rest = target.copy()
-        rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+        if foreseen:
+            rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
         rest *= self.scale[0] / self.scale
         return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
@@ -165,7 +167,7 @@ class Scores:
         known = np.diag(np.append(0.0, np.full(scale.size - 1, REACH**-2)))
         target = np.eye(scale.size)[0]
         combined = _scaled(scale, alive, target)
-        left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target)
+        left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target, foreseen=False)
         squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
         return 0.5 * self.look.samples * np.log(squares)
 
@@ -200,17 +202,20 @@ def _scaled(scale: Array, at: NDArray[np.intp], target: Array) -> Array:
     return found
 
 
-def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array) -> Array:
+def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, foreseen: bool) -> Array:
     """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
 
     ``grams`` (groups, k + 1, k + 1) are those of the columns and the target; ``gram`` (c, c), of all columns, is their
-    sum over the groups, and what is known of the strengths beforehand.
+    sum over the groups, and what is known of the strengths beforehand. Where the strengths are not ``foreseen`` the
+    model stays as it is, but for what leaving a group out changes: a step that a fit has not made promises too much.
     """
     inner, cross, square = grams[:, :-1, :-1], grams[:, :-1, -1], grams[:, -1, -1]
     whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)
     solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])
+    if not foreseen:
+        solved -= np.linalg.solve(whole, right)[:, None]
     left: Array = square - 2.0 * np.sum(solved[..., 0] * cross, axis=1)
     return left + np.sum(solved * (inner @ solved), axis=(1, 2))
 

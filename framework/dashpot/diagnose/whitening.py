@@ -9,7 +9,7 @@ the detection limits.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +66,12 @@ class Noise:
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
         return self.filter(run, self.reduce(run, signals))
+
+    @property
+    def counted(self) -> Noise:
+        """The same, but a run weighs no more samples than are independent: its likelihood."""
+        filters = {run: np.sqrt(self.independent.get(run, 1.0)) * found for run, found in self.filters.items()}
+        return replace(self, filters=filters)
 
     def with_white(self, deviations: Mapping[str, float]) -> Noise:
         """The same blocks under white noise of the given standard deviations in N."""

@@ -1,5 +1,7 @@
 """A look against plain least squares: Gram matrices of all columns beside which the base is refitted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dataset, friction, plain
@@ -7,7 +9,9 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.front import Front, beside, in_front, occam
-from dashpot.diagnose.look import look_at
+from dashpot.diagnose.look import look_at, look_settled
+from dashpot.diagnose.score import Scores
+from dashpot.fit.coordinates import search_coordinates
 
 
 class Closed(Made):
@@ -60,10 +64,12 @@ def columns(made, look):
     return found
 
 
-def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, columns):
+def test_gram_matrices_are_those_of_the_residual_and_of_what_a_refit_of_the_base_leaves_of_columns(look, columns):
+    """A step that would make the residual smaller is the fit's to make."""
     base = np.concatenate([tangents for tangents, _ in columns.values()], axis=1)
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
+    strengths[:, 0] = 0.0
     scale = np.sqrt(look.front.beside().squares)
     left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
     seen = set()
@@ -74,6 +80,27 @@ def test_gram_matrices_are_those_of_what_a_refit_of_the_base_leaves(look, column
             assert look.samples[number] == pytest.approx(look.noise.independent[run] * (part.stop - part.start))
             seen.add(number)
     assert seen == set(range(len(look.folds.names)))
+
+
+def test_a_model_is_refitted_under_the_noise_that_it_leaves(made):
+    """At the optimum the residual is orthogonal to the tangents of the base, each run by its independent samples."""
+    settled = look_settled(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
+    residual, tangents = made.refitter.linearise(settled.model, settled.noise)
+    weights = {run: np.sqrt(settled.noise.independent[run]) for run in residual}
+    slopes = sum(weights[run] ** 2 * tangents[run] @ residual[run] for run in residual)
+    sizes = sum(weights[run] ** 2 * np.sum(tangents[run] ** 2, axis=1) for run in residual)
+    whole = sum(weights[run] ** 2 * residual[run] @ residual[run] for run in residual)
+    assert np.abs(slopes / np.sqrt(sizes * whole)).max() < 0.02
+
+
+def test_a_step_that_the_fit_has_not_made_does_not_count(made):
+    """Beside its optimum a model predicts worse, though its tangents would take it back there."""
+    folds = folds_of(made.refitter.runs, made.groups)
+    settled = look_settled(made.refitter, made.model, [], folds)
+    moved = settled.model.moved(np.array([0.1, -0.2]))
+    beside = replace(settled.model, fitted=moved, point=search_coordinates(moved).start)
+    other = look_at(made.refitter, beside, [], folds, settled.noise)
+    assert Scores(other).exact_nats().sum() > Scores(settled).exact_nats().sum() + 1.0
 
 
 def test_held_out_runs_take_no_part(made, look):
