@@ -31,6 +31,7 @@ from dashpot.kernel.targets.scalar.online import storing, write_common
 
 COURSE: Arguments = [("array", "s"), ("count", "w")]
 PARTS = (2, 4)  # of a sample, for long steps and for short ones
+SAME = 1e-6  # share of a step by which one may differ that is the same: differences of times are rounded
 
 
 def write_coupled(code: Code, online: Online) -> None:
@@ -54,10 +55,10 @@ def write_coupled(code: Code, online: Online) -> None:
         write_high_order(code, online)
     with code.function("nothing", "advance", MEMORY, "The step to the inputs: fills the outputs."):
         with code.when(f"s[{DT}] != dt"):
-            code.do("prepare(s, dt, p)")
             if online.high_order:
-                with code.when(f"s[{STEPS}] > 0.0"):  # those taken were others
+                with code.when(f"(fabs(s[{DT}] - dt) > {SAME} * dt) & (s[{STEPS}] > 0.0)"):  # those taken were others
                     code.set(f"s[{STEPS}]", "0.0")
+            code.do("prepare(s, dt, p)")
         with code.when(f"s[{BEGUN}] == 0.0"):
             _begin(code, online)
         with code.otherwise():

@@ -8,7 +8,6 @@ and so are those that follow. Whether it begins with them is told at rest.
 from __future__ import annotations
 
 from dashpot.kernel.ir.online import BEGUN, STATUS, STEPS, Online
-from dashpot.kernel.ir.system import MOST_CORRECTIONS
 from dashpot.kernel.scheme import FILLED, PLACE, RENEWED, SPEED
 from dashpot.kernel.targets.scalar.code import MEMORY, Arguments, Code
 from dashpot.kernel.targets.scalar.motion import give
