@@ -71,20 +71,22 @@ class _Vectors:
     def at_least(self, x: Any, least: float) -> Any:
         return self.builder.select(self.builder.fcmp_ordered("<", x, self.all(least)), self.all(least), x)
 
-    def exponential(self, x: Any) -> Any:
+    def exponential(self, x: Any, binary: Any) -> Any:
+        """The exponential of ``x``; ``binary`` is about its logarithm of base 2, which may be there sooner."""
         builder, low = self.builder, self.at_least(x, LOWEST)
-        shifted = self.fma(low, self.stored(1.0 / log(2.0)), self.stored(MAGIC))
+        shifted = builder.fadd(self.at_least(binary, LOWEST / log(2.0)), self.stored(MAGIC))
         power = builder.fsub(shifted, self.stored(MAGIC))
         rest = self.fma(power, self.stored(-LOG_LOW), self.fma(power, self.stored(-LOG_HIGH), low))
         series = self.polynomial(SERIES, rest)
         raised = builder.shl(builder.bitcast(shifted, BITS), ir.Constant(BITS, [EXPONENT] * WIDTH))
         return builder.bitcast(builder.add(builder.bitcast(series, BITS), raised), VECTOR)
 
-    def begin_omega(self, x: Any) -> Any:
-        """The logarithm of the first guess."""
+    def begin_omega(self, x: Any) -> tuple[Any, Any]:
+        """The logarithm of the first guess, and about that of base 2."""
         low = self.at_least(x, OMEGA_LOW)
         guess = self.builder.fdiv(self.polynomial(OMEGA_TOP, low), self.polynomial(OMEGA_BOTTOM, low))
-        return self.fma(self.stored(log(2.0)), guess, self.builder.fsub(x, low))
+        far = self.builder.fsub(x, low)
+        return self.fma(self.stored(log(2.0)), guess, far), self.fma(self.stored(1.0 / log(2.0)), far, guess)
 
     def end_omega(self, x: Any, start: Any, y: Any) -> Any:
         """The guess ``y``, whose logarithm is ``start``, corrected."""
@@ -119,8 +121,11 @@ class Packed:
         """Its instructions; answers its answers."""
         x, vectors = _vector(builder, arguments), _Vectors(builder)
         chosen = ir.Constant(ir.VectorType(ir.IntType(1), WIDTH), [int(k < self.omegas) for k in range(WIDTH)])
-        start = builder.select(chosen, vectors.begin_omega(x), x) if self.omegas else x
-        y = vectors.exponential(start)
+        start, binary = x, builder.fmul(x, vectors.stored(1.0 / log(2.0)))
+        if self.omegas:
+            begun = vectors.begin_omega(x)
+            start, binary = (builder.select(chosen, *each) for each in zip(begun, (start, binary), strict=True))
+        y = vectors.exponential(start, binary)
         found = builder.select(chosen, vectors.end_omega(x, start, y), y) if self.omegas else y
         return [builder.extract_element(found, ir.Constant(ir.IntType(32), place)) for place in range(WIDTH)]
 
