@@ -22,6 +22,7 @@ from parity.test_targets import (
 from seeds import seed_of
 from unit.exports.modelica_functions import Array, functions_of
 from verification.shipped import NAMES
+from verification.systems import shipped
 
 from dashpot import declare, load_registry
 from dashpot.data.drive import Drive

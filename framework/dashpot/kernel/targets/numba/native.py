@@ -14,8 +14,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numba
 from llvmlite import ir
-from numba import config, types
+from numba import types
 from numba.core.errors import TypingError
 from numba.extending import intrinsic
 
@@ -37,6 +38,7 @@ AT_EVERY_SAMPLE = ("advance", "step_")
 
 def native(function: Callable[..., Any]) -> Any:
     """The function for code that numba compiles; its annotations are the kinds of its arguments and of its answer."""
+    config: Any = numba.config
     if config.DISABLE_JIT:
         return function
     *kinds, answer = function.__annotations__.values()

@@ -26,7 +26,8 @@ MAGIC = 6755399441055744.0  # 1.5 * 2^52: a number added to it is rounded, and s
 EXPONENT = 52  # of the bits of a number, the first one of its exponent
 
 SERIES = [1.0 / factorial(k) for k in range(TERMS)]
-STORED = tuple(dict.fromkeys([*OMEGA_TOP, *OMEGA_BOTTOM, *SERIES, log(2.0), 1.0 / log(2.0), -LOG_HIGH, -LOG_LOW, MAGIC]))
+OTHERS = [log(2.0), 1.0 / log(2.0), -LOG_HIGH, -LOG_LOW, MAGIC]
+STORED = tuple(dict.fromkeys([*OMEGA_TOP, *OMEGA_BOTTOM, *SERIES, *OTHERS]))
 
 VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
 BITS = ir.VectorType(ir.IntType(64), WIDTH)

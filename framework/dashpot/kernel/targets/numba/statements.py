@@ -115,9 +115,7 @@ class Statements:
 
         self._loop(lambda: self.builder.icmp_signed("<", self._load(name), end), statement.body, go_on)
 
-    def _loop(
-        self, test: Callable[[], Any], body: Sequence[ast.stmt], go_on: Callable[[], None] | None = None
-    ) -> None:
+    def _loop(self, test: Callable[[], Any], body: Sequence[ast.stmt], go_on: Callable[[], None] | None = None) -> None:
         head, inside, after = (self.function.append_basic_block(name) for name in ("while", "do", "after"))
         self.builder.branch(head)
         self.builder.position_at_end(head)
