@@ -13,7 +13,6 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -76,10 +75,8 @@ class Task:
         os.environ["DASHPOT_BACKEND"] = backend
         network = compile_network(self.spec)
         if isinstance(network, CompiledSystem):
-            # by the steps that a solver takes which is stepped by others
-            plain = replace(network, quick=False)
-            prepared = plain.prepare(self.excitation)
-            return lambda: plain.solve(prepared).force[0]
+            prepared = network.prepare(self.excitation)
+            return lambda: network.solve(prepared).force[0]
         run = network.prepare(self.drives[0])
         return lambda: network.simulate(run, self.values)[None]
 

@@ -15,7 +15,6 @@ from parity.test_targets import (
     SYSTEMS,
     TOLERANCE,
     WITHOUT_MEMORY,
-    by_steps_for_all_numbers,
     error,
     shipped_case,
     system_case,
@@ -23,6 +22,7 @@ from parity.test_targets import (
 from seeds import seed_of
 from unit.exports.modelica_functions import Array, functions_of
 from verification.shipped import NAMES
+from verification.systems import shipped
 
 from dashpot import declare, load_registry
 from dashpot.data.drive import Drive
@@ -78,7 +78,7 @@ def test_modelica_agrees_on_more_random_networks(number):
 def test_modelica_agrees_on_networks_with_nodes(name):
     spec, excitation = system_case(name)
     cubic = replace(excitation, motions={node: along_cubics(each) for node, each in excitation.motions.items()})
-    network = by_steps_for_all_numbers(name)
+    network = shipped(name)
     expected = network.solve(network.prepare(cubic))
     found = sampled(spec, list(cubic.motions.values()), network.start)
     count = len(expected.driven)
@@ -91,7 +91,7 @@ def test_modelica_agrees_on_a_network_in_which_nothing_turns():
     drive = along_cubics(
         random_drive(np.random.default_rng(seed_of("nothing turns")), "multisine", 3e-3, 0.02, 200, 1e-3)
     )
-    network = replace(compile_network(spec), quick=False)
+    network = compile_network(spec)
     excitation = Excitation({"lower": drive}, {}, {}, drive.dt, drive.samples, "run")
     expected = network.solve(network.prepare(excitation)).force[0, 0]
     assert error(sampled(spec, [drive], network.start)[:, 0], expected) <= TOLERANCE

@@ -20,7 +20,7 @@ from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
 from dashpot.kernel.jit import jit_network
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.system import CompiledSystem, Status
+from dashpot.kernel.system import Status
 from dashpot.model.network import NetworkSpec
 from dashpot.testing import random_drive
 
@@ -109,15 +109,10 @@ def system_case(name: str) -> tuple[NetworkSpec, Excitation]:
     return network.spec, Excitation(motions, {}, {"added_mass": 0.0}, drive.dt, drive.samples, "run")
 
 
-def by_steps_for_all_numbers(name: str) -> CompiledSystem:
-    """Without the steps of high order, which a solver that is stepped by others does not take."""
-    return replace(shipped(name), quick=False)
-
-
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_c_agrees_on_networks_with_nodes(name, tmp_path):
     spec, excitation = system_case(name)
-    network = by_steps_for_all_numbers(name)
+    network = shipped(name)
     expected = network.solve(network.prepare(excitation))
     outputs, status = Library.build(spec, tmp_path).along(list(excitation.motions.values()), network.start)
     count = len(expected.driven)
@@ -139,8 +134,7 @@ def test_numba_agrees_on_networks_with_nodes(name, monkeypatch):
     assert found.status == expected.status and Status.NOT_FINITE in found.status
     assert error(found.force[[0, 2]], expected.force[[0, 2]]) <= TOLERANCE
     cubic = replace(excitation, motions={node: along_cubics(each) for node, each in excitation.motions.items()})
-    plain = by_steps_for_all_numbers(name)
-    stepped, alone = walked(spec, cubic, network.start), plain.solve(plain.prepare(cubic))
+    stepped, alone = walked(spec, cubic, network.start), network.solve(network.prepare(cubic))
     assert error(stepped[:, : len(alone.driven)].T, alone.force[0]) <= TOLERANCE
     assert error(stepped[:, len(alone.driven) :].T, alone.motion[0]) <= TOLERANCE
 
@@ -218,7 +212,7 @@ def test_every_target_solves_a_network_in_which_nothing_turns(tmp_path, monkeypa
     drive = along_cubics(
         random_drive(np.random.default_rng(seed_of("nothing turns")), "multisine", 3e-3, 0.02, 200, 1e-3)
     )
-    network = replace(compile_network(spec), quick=False)
+    network = compile_network(spec)
     assert not network.system.passes["turn"].updates
     excitation = Excitation({"lower": drive}, {}, {}, drive.dt, drive.samples, "run")
     expected = network.solve(network.prepare(excitation)).force[0, 0]
@@ -226,7 +220,7 @@ def test_every_target_solves_a_network_in_which_nothing_turns(tmp_path, monkeypa
     assert status == 0 and error(outputs[:, 0], expected) <= TOLERANCE
     assert error(jitted(spec, drive, network.start), expected) <= TOLERANCE
     monkeypatch.setenv("DASHPOT_BACKEND", "numba")
-    other = replace(compile_network(spec), quick=False)
+    other = compile_network(spec)
     assert error(other.solve(other.prepare(excitation)).force[0, 0], expected) <= TOLERANCE
 
 

@@ -8,25 +8,46 @@ from numba import njit
 from scipy.special import wrightomega
 
 from dashpot.kernel.targets.numba import packed
+from dashpot.kernel.targets.numba.module import load_module
 
-PACKS = (packed.packed_0, packed.packed_1, packed.packed_2, packed.packed_3, packed.packed_4)
 CLOSE = 1e-14
+MODULE = """\
+from __future__ import annotations
+
+from dashpot.kernel.targets.numba.native import native
+from dashpot.kernel.targets.numba.packed import packed_0, packed_1, packed_2, packed_3, packed_4
+
+
+@native
+def along(x: array, out: array, count: count) -> nothing:
+    for k in range(0, count):
+        a, b, c, d = packed_{omegas}(x[4 * k], x[4 * k + 1], x[4 * k + 2], x[4 * k + 3])
+        out[4 * k] = a
+        out[4 * k + 1] = b
+        out[4 * k + 2] = c
+        out[4 * k + 3] = d
+"""
+
+
+def along(omegas: int, x: np.ndarray) -> np.ndarray:
+    """The answers (n, 4) of a pack for arguments (n, 4)."""
+    run, out = load_module(MODULE.format(omegas=omegas)).along, np.empty(x.size)
+    njit(lambda x, out, count: run(x, out, count))(x.ravel(), out, len(x))
+    return out.reshape(x.shape)
 
 
 @pytest.mark.parametrize("omegas", range(5))
 def test_each_place_has_its_function(omegas):
-    pack = PACKS[omegas]
-    compiled = njit(lambda a, b, c, d: pack(a, b, c, d))
     rng = np.random.default_rng(omegas)
-    for x in np.vstack([rng.uniform(-690.0, 24.0, (300, 4)), rng.uniform(-3.0, 3.0, (300, 4)), np.zeros((1, 4))]):
-        expected = [wrightomega(each) if k < omegas else np.exp(each) for k, each in enumerate(x)]
-        assert compiled(*x) == pytest.approx(expected, rel=CLOSE, abs=0.0)
-        assert pack(*x) == pytest.approx(expected, rel=CLOSE, abs=0.0)
+    x = np.vstack([rng.uniform(-690.0, 24.0, (300, 4)), rng.uniform(-3.0, 3.0, (300, 4)), np.zeros((1, 4))])
+    expected = np.hstack([wrightomega(x[:, :omegas]), np.exp(x[:, omegas:])])
+    assert along(omegas, x) == pytest.approx(expected, rel=CLOSE, abs=0.0)
+    in_python = [packed.Packed(omegas)(*each) for each in x]
+    assert np.array(in_python) == pytest.approx(expected, rel=CLOSE, abs=0.0)
 
 
 def test_one_that_is_not_a_number_does_not_touch_the_others():
-    pack = packed.packed_3
-    found = njit(lambda a, b, c, d: pack(a, b, c, d))(np.nan, 1.0, -1e300, np.nan)
+    (found,) = along(3, np.array([[np.nan, 1.0, -1e300, np.nan]]))
     assert np.isnan(found[0]) and np.isnan(found[3])
     assert found[1] == pytest.approx(1.0, rel=CLOSE) and 0.0 <= found[2] < 1e-300
 

@@ -1,8 +1,8 @@
 """The program of a network that somebody else steps: one lane, one sample at a time, all its memory in one array.
 
 The array holds, one after the other: the step that the constants were made for, how far the run is, how it went, the
-span of the motion, the inputs, the outputs, the inputs of the sample before, the followers, the motion within a step,
-the rows of one or two workspaces, and the tables.
+span of the motion, how many steps of high order were taken, the inputs, the outputs, the inputs of the sample before,
+the followers, the motion within a step, the rows of one or two workspaces, and the tables.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dashpot.kernel.ir.layout import Shelf
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import SystemProgram
 
-DT, BEGUN, STATUS, SPAN, INPUTS = range(5)
+DT, BEGUN, STATUS, SPAN, STEPS, INPUTS = range(6)
 MOTION = ("x", "v", "a")
 NOT_FINITE = 3  # as a status: a force that is no finite number
 POWERS = 4  # coefficients of a cubic
@@ -58,6 +58,11 @@ class Online:
     def accelerated(self) -> bool:
         """Whether the forces depend on the accelerations."""
         return self.system is not None or any(name.endswith(".acceleration") for name in self.read)
+
+    @property
+    def high_order(self) -> bool:
+        """Whether there are steps of high order, where the numbers allow them."""
+        return self.system is not None and self.system.pace is not None
 
     @cached_property
     def known(self) -> tuple[str, ...]:

@@ -26,8 +26,13 @@ from dashpot.kernel.targets.scalar.code import Arguments
 from dashpot.kernel.targets.scalar.functions import write_functions
 from dashpot.kernel.targets.scalar.graph import Writer, truth
 
-ARRAYS = ("columns", "index", "local", "tables", "w")
-PASS: Arguments = [*(("array", name) for name in ARRAYS), ("count", "c"), ("count", "i")]
+PASS: Arguments = [
+    ("array", "columns"),
+    ("counts", "index"),
+    *(("array", name) for name in ("local", "tables", "w")),
+    ("count", "c"),
+    ("count", "i"),
+]
 RUN: Arguments = [
     *(("array", name) for name in ("columns", "index", "local")),
     ("count", "samples"),
@@ -186,7 +191,7 @@ def _write_system_pass(code: PythonCode, layout: Layout) -> None:
         shelf = layout.shelves[node.payload[0]]
         x, k = code.new(argument), code.new(str(shelf.base), "count")
         with code.loop("j", shelf.base + 1, shelf.base + 1 + shelf.count), code.when(f"{x} >= knots[j]"):
-            code.set(k, "j")
+            code.set(k, f"{k} + 1")
         place = code.new(f"4 * {k}", "count")
         return _cubic("tables", place, f"({x} - knots[{k}])", node.payload[1])
 

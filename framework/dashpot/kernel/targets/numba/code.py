@@ -7,9 +7,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import ClassVar
 
-from dashpot.kernel.targets.omega import OMEGA_HIGH
 from dashpot.kernel.targets.scalar.code import COMMON, Arguments, Block, Code, Kind
 
+FUTURE = """\
+from __future__ import annotations
+
+"""
 LIBRARIES = """\
 from math import cos, exp, expm1, fabs, inf, log, log1p, pow, sin, sqrt, tanh
 
@@ -18,20 +21,26 @@ from numba import njit
 """
 HELPERS = """
 from dashpot.kernel.targets.numba.borrowed import borrowed, zeros_on_stack
+from dashpot.kernel.targets.numba.native import native
+from dashpot.kernel.targets.numba.packed import beyond_0, beyond_1, beyond_2, beyond_3, beyond_4
 from dashpot.kernel.targets.numba.packed import packed_0, packed_1, packed_2, packed_3, packed_4
 
 """
 SETTINGS = 'cache=True, nogil=True, error_model="numpy", fastmath={"contract"}'
 INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
 WIDTH = 4  # of a pack
-HIGHEST = 700.0  # exponent that a pack takes
 OMEGA = "wrightomega"
 PACK = """
 
-@njit({settings})
-def pack_{omegas}(a, b, c, d):
-    if {beyond}:
-        return {answers}
+@native
+def apart_{omegas}(a: number, b: number, c: number, d: number) -> four:
+    return {answers}
+
+
+@native
+def pack_{omegas}(a: number, b: number, c: number, d: number) -> four:
+    if beyond_{omegas}(a, b, c, d):
+        return apart_{omegas}(a, b, c, d)
     return packed_{omegas}(a, b, c, d)
 """
 AT_EVERY_SAMPLE = frozenset({"advance", "step", "step_"})  # written into the loop that calls them
@@ -40,7 +49,7 @@ AT_EVERY_SAMPLE = frozenset({"advance", "step", "step_"})  # written into the lo
 class PythonCode(Code):
     """A module of compiled functions."""
 
-    head: ClassVar[str] = LIBRARIES + HELPERS
+    head: ClassVar[str] = FUTURE + LIBRARIES + HELPERS
     operations = {**COMMON, "logical_not": "(not {0})", "where": "({1} if {0} else {2})"}
 
     def __init__(self, *called: str) -> None:
@@ -56,8 +65,6 @@ class PythonCode(Code):
         return super().text + "".join(
             PACK.format(
                 omegas=omegas,
-                settings=f"{SETTINGS}, {INNER}",
-                beyond=" | ".join(f"({x} > {OMEGA_HIGH if k < omegas else HIGHEST})" for k, x in enumerate("abcd")),
                 answers=", ".join(f"omega({x})" if k < omegas else f"exp({x})" for k, x in enumerate("abcd")),
             )
             for omegas in sorted(self.packs)
@@ -82,14 +89,20 @@ class PythonCode(Code):
     @contextmanager
     def function(self, kind: Kind, name: str, arguments: Arguments, about: str) -> Iterator[None]:
         """A compiled function."""
-        settings = SETTINGS if name in self.called else f"{SETTINGS}, {INNER}"
-        settings += ", forceinline=True" if name in AT_EVERY_SAMPLE else ""
-        self.lines += ["", "", f"@njit({settings})"]
-        with self.indented(f"def {name}({', '.join(name for _, name in arguments)}):"):
-            before = len(self.lines)
-            yield
-            if len(self.lines) == before:  # a pass of a network that has nothing to do in it
-                self.write("pass")
+        self.lines += ["", "", *self.declared(kind, name, arguments)]
+        self.depth += 1
+        before = len(self.lines)
+        yield
+        if len(self.lines) == before:  # a pass of a network that has nothing to do in it
+            self.write("pass")
+        self.depth -= 1
+
+    def declared(self, kind: Kind, name: str, arguments: Arguments) -> list[str]:
+        """The lines before the body of a function: numba compiles those alone that are called from Python, too."""
+        if name in self.called:
+            return compiled(name, arguments, SETTINGS)
+        own = ", ".join(f"{argument}: {each}" for each, argument in arguments)
+        return ["@native", f"def {name}({own}) -> {kind}:"]
 
     def when(self, condition: str) -> Block:
         """An if."""
@@ -147,10 +160,20 @@ class PythonCode(Code):
         return "inf" if value > 0.0 else "(-inf)"
 
 
+def compiled(name: str, arguments: Arguments, settings: str) -> list[str]:
+    """The lines before the body of a function that numba compiles."""
+    settings += ", forceinline=True" if name in AT_EVERY_SAMPLE else ""
+    return [f"@njit({settings})", f"def {name}({', '.join(argument for _, argument in arguments)}):"]
+
+
 class AloneCode(PythonCode):
     """The same for a module that needs numba and numpy alone."""
 
     head = LIBRARIES
+
+    def declared(self, kind: Kind, name: str, arguments: Arguments) -> list[str]:
+        """The lines before the body of a function."""
+        return compiled(name, arguments, SETTINGS if name in self.called else f"{SETTINGS}, {INNER}")
 
     def together(self, calls: Sequence[tuple[str, str]]) -> list[str]:
         """One function after the other."""

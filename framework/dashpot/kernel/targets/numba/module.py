@@ -12,7 +12,7 @@ from types import ModuleType
 
 from dashpot.kernel.targets.cache import keep, kernel_folder, passing_folder
 
-PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "packed.py")
+PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "native.py", "packed.py", "statements.py")
 
 
 def load_module(text: str) -> ModuleType:

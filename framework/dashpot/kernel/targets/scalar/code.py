@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from typing import ClassVar, Literal
 
-Kind = Literal["number", "count", "truth", "array", "nothing"]
+Kind = Literal["number", "count", "truth", "array", "counts", "nothing"]
 Block = AbstractContextManager[None]
 Arguments = Sequence[tuple[Kind, str]]
 

@@ -10,9 +10,10 @@ from collections.abc import Callable
 
 from dashpot.expr.node import Node
 from dashpot.kernel.ir.layout import Layout
-from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, MOTION, SPAN, STATUS, Online
+from dashpot.kernel.ir.online import BEGUN, DT, INPUTS, MOTION, SPAN, STATUS, STEPS, Online
 from dashpot.kernel.ir.system import (
     FARTHEST,
+    MOST_CORRECTIONS,
     MOST_PLACES,
     MOST_STATIC_STEPS,
     MOST_STEPS,
@@ -24,10 +25,13 @@ from dashpot.kernel.ir.system import (
 )
 from dashpot.kernel.targets.scalar.code import MEMORY, Arguments, Code
 from dashpot.kernel.targets.scalar.graph import truth
+from dashpot.kernel.targets.scalar.high_order import EULER, give_others, write_high_order
+from dashpot.kernel.targets.scalar.motion import give, write_motion
 from dashpot.kernel.targets.scalar.online import storing, write_common
 
 COURSE: Arguments = [("array", "s"), ("count", "w")]
 PARTS = (2, 4)  # of a sample, for long steps and for short ones
+SAME = 1e-6  # share of a step by which one may differ that is the same: differences of times are rounded
 
 
 def write_coupled(code: Code, online: Online) -> None:
@@ -41,19 +45,41 @@ def write_coupled(code: Code, online: Online) -> None:
     _write_newton(code, online.system, "launch", MOST_PLACES)
     _write_newton(code, online.system, "improve", MOST_STEPS)
     _write_newton(code, online.system, "search", MOST_PLACES, UNSOLVED)
-    _write_path(code)
-    _write_move(code, online)
+    if online.system.kept:
+        _write_newton(code, online.system, "correct", MOST_CORRECTIONS)
+    write_motion(code, online)
+    _write_rules(code, online)
     _write_course(code, online)
+    _write_begin(code, online)
+    if online.high_order:
+        write_high_order(code, online)
     with code.function("nothing", "advance", MEMORY, "The step to the inputs: fills the outputs."):
         with code.when(f"s[{DT}] != dt"):
+            if online.high_order:
+                with code.when(f"(fabs(s[{DT}] - dt) > {SAME} * dt) & (s[{STEPS}] > 0.0)"):  # those taken were others
+                    code.set(f"s[{STEPS}]", "0.0")
             code.do("prepare(s, dt, p)")
         with code.when(f"s[{BEGUN}] == 0.0"):
             _begin(code, online)
         with code.otherwise():
-            for start, parts in zip(online.courses, PARTS, strict=True):
-                code.do(f"course(s, {code.index(start)}, {code.index(parts)}, dt)")
+            _go_on(code, online)
             code.set(f"s[{BEGUN}]", "2.0")
         _answer(code, online)
+
+
+def _go_on(code: Code, online: Online) -> None:
+    if not online.high_order:
+        _write_courses(code, online)
+        return
+    with code.when(f"s[{STEPS}] >= 0.0"):
+        code.do("high_order(s, dt)")
+    with code.when(f"s[{STEPS}] < 0.0"):
+        _write_courses(code, online)
+
+
+def _write_courses(code: Code, online: Online) -> None:
+    for start, parts in zip(online.courses, PARTS, strict=True):
+        code.do(f"course(s, {code.index(start)}, {code.index(parts)}, dt)")
 
 
 def _moved(layout: Layout) -> dict[str, Node]:
@@ -87,109 +113,73 @@ def _write_newton(code: Code, system: SystemProgram, name: str, most: int, failu
                 code.set(f"s[{STATUS}]", f"{failure}.0")
 
 
-def _write_path(code: Code) -> None:
-    """The quintic and its derivatives at a share u of the step; ``i`` and ``o`` are where the motion stands."""
-    arguments: Arguments = [
-        ("array", "s"),
-        ("count", "o"),
-        ("count", "i"),
-        ("number", "u"),
-        ("number", "dt"),
-        ("count", "order"),
-    ]
-    with code.function("number", "path", arguments, "Place, velocity or acceleration between two samples."):
-        code.let("far", "s[i] - s[o] - dt * (s[o + 1] + 0.5 * dt * s[o + 2])")
-        code.let("fast", "dt * (s[i + 1] - s[o + 1] - dt * s[o + 2])")
-        code.let("bent", "0.5 * dt * dt * (s[i + 2] - s[o + 2])")
-        code.let("c3", "10.0 * far - 4.0 * fast + bent")
-        code.let("c4", "-15.0 * far + 7.0 * fast - 2.0 * bent")
-        code.let("c5", "6.0 * far - 3.0 * fast + bent")
-        with code.when("u == 1.0"):
-            code.answer("s[i + order]")
-        with code.when("order == 0"):
-            code.answer("s[o] + u * (dt * s[o + 1] + u * (0.5 * dt * dt * s[o + 2] + u * (c3 + u * (c4 + u * c5))))")
-        with code.when("order == 1"):
-            rest = "u * (dt * dt * s[o + 2] + u * (3.0 * c3 + u * (4.0 * c4 + u * 5.0 * c5)))"
-            code.answer(f"(dt * s[o + 1] + {rest}) / dt")
-        code.answer("(dt * dt * s[o + 2] + u * (6.0 * c3 + u * (12.0 * c4 + u * 20.0 * c5))) / (dt * dt)")
-
-
-def _write_move(code: Code, online: Online) -> None:
-    arguments: Arguments = [("array", "s"), ("number", "before"), ("number", "now"), ("number", "dt")]
-    with code.function("nothing", "move", arguments, "The motion within a step, between two shares of a sample."):
-        for number, joint in enumerate(online.driven):
-            places = f"s, {online.before + len(MOTION) * number}, {INPUTS + len(MOTION) * number}"
-            moved = {
-                "old": ("before", 0),
-                "new": ("now", 0),
-                "velocity_old": ("before", 1),
-                "velocity_new": ("now", 1),
-                "acceleration": ("now", 2),
-            }
-            for key, (share, order) in moved.items():
-                _give(code, online, f"node:{joint}.{key}", f"path({places}, {share}, dt, {order})")
-        for number, joint in enumerate(online.loaded, len(MOTION) * len(online.driven)):
-            old, new = f"s[{online.before + number}]", f"s[{INPUTS + number}]"
-            _give(code, online, f"node:{joint}.load", f"{old} + now * ({new} - {old})")
-
-
-def _give(code: Code, online: Online, name: str, value: str) -> None:
-    code.set(f"s[{online.motion + online.known.index(name)}]", value)
-
-
 def _write_course(code: Code, online: Online) -> None:
-    """The rules are those of ``kernel.scheme``."""
-    arguments: Arguments = [("array", "s"), ("count", "w"), ("count", "parts"), ("number", "dt")]
+    arguments: Arguments = [*COURSE, ("count", "parts"), ("number", "dt")]
     with code.function("nothing", "course", arguments, "All steps from one sample to the next."):
         code.let("h", "dt / parts")
-        _give(code, online, "dt", "h")
+        give(code, online, "dt", "h")
         with code.loop("j", 0, "parts"):
             code.do("move(s, j / (1.0 * parts), (j + 1) / (1.0 * parts), dt)")
-            code.let("rule", "j % 2", "count")
+            code.let("number", "j % 2", "count")
             with code.when(f"(j == 0) & (s[{BEGUN}] == 1.0)"):
-                code.set("rule", "2")
-            _write_rule(code, online)
-            code.do("predict_(s, w)")
-            code.do("improve(s, w)")
-            code.do("search(s, w)")
-            code.do("commit_(s, w)")
+                code.set("number", f"{EULER}")
+            code.do("rule(s, number, h)")
+            for name in ("predict_", "improve", "search", "commit_"):
+                code.do(f"{name}(s, w)")
 
 
-def _write_rule(code: Code, online: Online) -> None:
-    # trapezoidal, backward differences, and Euler's for the very first step
+def _write_rules(code: Code, online: Online) -> None:
+    """Those of ``kernel.scheme``: trapezoidal, backward differences, Euler's for the very first step."""
     rules = (("2.0", "-2.0", "0.0", "-1.0"), ("1.5", "-2.0", "0.5", "0.0"), ("1.0", "-1.0", "0.0", "0.0"))
-    for number, (slope, now, before, swing) in enumerate(rules):
-        with code.when(f"rule == {number}"):
-            for key, value in (("slope", slope), ("now", now), ("before", before)):
-                _give(code, online, f"rule.{key}", f"{value} / h")
-            _give(code, online, "rule.swing", swing)
-            if online.system and online.system.turns:
-                _give(code, online, "rule.pull", f"{slope} / h")
+    arguments: Arguments = [("array", "s"), ("count", "number"), ("number", "h")]
+    with code.function("nothing", "rule", arguments, "The rule of a step of h seconds."):
+        for number, (slope, now, before, swing) in enumerate(rules):
+            with code.when(f"number == {number}"):
+                for key, value in (("slope", slope), ("now", now), ("before", before)):
+                    give(code, online, f"rule.{key}", f"{value} / h")
+                give(code, online, "rule.swing", swing)
+                if online.high_order:
+                    give_others(code, online, f"{slope} / h", "0.0", "1.0")
+
+
+def _write_begin(code: Code, online: Online) -> None:
+    arguments: Arguments = [*COURSE, ("number", "dt")]
+    with code.function("nothing", "begin", arguments, "The first sample."):
+        for name, value in (("slope", "1.0 / dt"), ("now", "0.0"), ("before", "0.0"), ("swing", "0.0")):
+            give(code, online, f"rule.{name}", value)
+        if online.high_order:
+            give_others(code, online, "0.0", "0.0", "0.0")
+        give(code, online, "dt", "dt")
+        for name in ("start_", "settle", "rest_", "launch", "set_off_"):
+            code.do(f"{name}(s, w)")
 
 
 def _begin(code: Code, online: Online) -> None:
-    assert online.system is not None
-    for name, value in (("slope", "1.0 / dt"), ("now", "0.0"), ("before", "0.0"), ("swing", "0.0")):
-        _give(code, online, f"rule.{name}", value)
-    _give(code, online, "dt", "dt")
-    _give(code, online, "newton.tolerance", f"{TOLERANCE} * s[{SPAN}]")
-    _give(code, online, "newton.farthest", f"{FARTHEST} * s[{SPAN}]")
+    give(code, online, "newton.tolerance", f"{TOLERANCE} * s[{SPAN}]")
+    give(code, online, "newton.farthest", f"{FARTHEST} * s[{SPAN}]")
     with code.loop("k", 0, online.inputs):
         code.set(f"s[{online.before} + k]", f"s[{INPUTS} + k]")
     code.do("move(s, 1.0, 1.0, dt)")
-    for start in online.courses:
-        for name in ("start_", "settle", "rest_", "launch", "set_off_"):
-            code.do(f"{name}(s, {code.index(start)})")
+    long, short = map(code.index, online.courses)
+    code.do(f"begin(s, {long}, dt)")
+    if online.high_order:
+        code.do(f"try_high_order(s, dt / {PARTS[0]}.0)")
+    code.do(f"begin(s, {short}, dt)")
     code.set(f"s[{BEGUN}]", "1.0")
 
 
 def _answer(code: Code, online: Online) -> None:
     assert online.system is not None
     long, short = online.courses
-    for number, name in enumerate((*online.system.forces, *online.system.places)):
-        row = online.system.row(name)
-        value = f"s[{short + row}] + {THIRD!r} * (s[{short + row}] - s[{long + row}])"
-        code.set(f"s[{online.outputs + number}]", value)
+    rows = [online.system.row(name) for name in (*online.system.forces, *online.system.places)]
+    best = [f"s[{short + row}] + {THIRD!r} * (s[{short + row}] - s[{long + row}])" for row in rows]
+    if online.high_order:
+        with code.when(f"s[{STEPS}] >= 0.0"):
+            _write_answers(code, online, [f"s[{long + row}]" for row in rows])
+        with code.otherwise():
+            _write_answers(code, online, best)
+    else:
+        _write_answers(code, online, best)
     for number, joint in enumerate(online.free):
         if joint in online.mounts:
             place = f"s[{online.outputs + len(online.driven) + number}]"
@@ -197,3 +187,8 @@ def _answer(code: Code, online: Online) -> None:
             code.set(place, f"{place} + s[{moved}]")
     with code.loop("k", 0, online.inputs):
         code.set(f"s[{online.before} + k]", f"s[{INPUTS} + k]")
+
+
+def _write_answers(code: Code, online: Online, values: list[str]) -> None:
+    for number, value in enumerate(values):
+        code.set(f"s[{online.outputs + number}]", value)

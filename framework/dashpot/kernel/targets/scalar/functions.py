@@ -109,7 +109,7 @@ def write_tables(code: Code, orders: set[int]) -> None:
         with code.function("number", f"table{order}", TABLE, "A table at x, or its first or second derivative."):
             code.let("k", "first", "count")
             with code.loop("j", "first + 1", "first + count + 1"), code.when("x >= knots[j]"):
-                code.set("k", "j")
+                code.set("k", "k + 1")  # a sum, for which compilers compare with several knots at once
             code.let("u", "x - knots[k]")
             code.let("c", "t + 4 * k", "count")
             code.answer(value)

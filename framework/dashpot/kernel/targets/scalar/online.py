@@ -173,7 +173,7 @@ def _write_turns(code: Code) -> None:
     about = "Turns wherever the cubic path does since the last sample; answers where it last did."
     with code.function("number", "turns", arguments, about):
         code.let("since", "xo")
-        code.let("rise", "(x - xo) / dt")
+        code.let("rise", "(1.0 / dt) * (x - xo)")  # the factor is the same at every sample
         code.let("c", "3.0 * (vo + v) - 6.0 * rise")
         code.let("b", "v - vo - c")
         code.let("middle", "vo + 0.5 * b")
