@@ -116,9 +116,9 @@ def candidates(
     steps = np.zeros((len(tried), point.size))
     place, rising = (point[free], coordinates.unit[free] / scale), _among(coordinates.rising, free)
     for each, (stride, damping) in zip(steps, tried, strict=True):
-        reach = tuple(side[free] * scale for side in _reach(coordinates, point, stride))
+        low, high = (side[free] * scale for side in _reach(coordinates, point, stride))
         damped = matrix + damping * np.eye(free.sum())
-        each[free] = rising_step(least_within, damped, downhill[free] / scale, reach, place, rising) / scale
+        each[free] = rising_step(least_within, damped, downhill[free] / scale, (low, high), place, rising) / scale
     return coordinates.allowed(coordinates.moved(point, steps), np.where(free, np.diag(normal), 0.0))
 
 
