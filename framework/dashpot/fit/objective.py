@@ -240,6 +240,7 @@ class Objective:
 
     def _shown(self, team: Team, values: Array, solution: Solution) -> Iterator[tuple[int, Array]]:
         # what the load cells show of a solution
+        assert isinstance(self.network, CompiledSystem)
         excitation, forces = self.runs[team[0]].excitation, solution.solved_force
         see = self.network.observation(values, excitation.settings).see
         for number in team:
