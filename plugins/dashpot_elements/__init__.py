@@ -35,6 +35,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
     "relaxation": ("maxwell", "springpot", "creep", "preload_creep", "relaxing_spring"),
     "friction": (
         "coulomb",
+        "ideal_coulomb",
         "dahl",
         "prandtl",
         "stribeck",

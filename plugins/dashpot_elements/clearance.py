@@ -19,7 +19,7 @@ class Clearance(Element):
 
     picture = Series(Symbol.PLAY, Symbol.SPRING)
 
-    stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e9), symbol="k")
+    stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e12), symbol="k")
     gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -21,7 +21,7 @@ class EndStop(Element):
 
     picture = Series(Symbol.GAP, Symbol.SPRING)
 
-    stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e9), symbol="k")
+    stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e12), symbol="k")
     compression = Parameter(
         "m",
         "deflection at which the compression stop is touched",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.interpolate import make_interp_spline
 from seeds import seed_of
 
 from dashpot.data.drive import drive_from_samples
@@ -11,8 +12,8 @@ from dashpot.data.smoothing import HALF_WIDTHS, smooth_path
 
 DT, COUNT, AMPLITUDE, PLACES, DEVIATION = 1e-3, 4000, 5e-3, 1e-6, 2e-6
 INSIDE = slice(100, -100)
-# samples in a period, and the error of the velocity of a clean sine that the quintic spline leaves, with some room
-PERIODS = {200: 1e-9, 50: 2e-9, 25: 1e-7, 16: 2e-6, 12: 1e-5, 10: 3e-5, 8: 1e-4, 6: 6e-4, 5: 2e-3, 4: 8e-3, 3: 8e-2}
+# samples in a period, and the error of the velocity of a clean sine that a spline leaves, with some room
+PERIODS = {200: 1e-9, 50: 2e-9, 25: 1e-7, 16: 1e-6, 12: 1e-8, 10: 1e-8, 8: 1e-8, 6: 1e-7, 5: 1e-6, 4: 1e-5, 3: 1e-3}
 
 
 def sine(period, rng):
@@ -31,7 +32,10 @@ def sweep(period):
 
 
 def error(x, v, **how):
-    found = drive_from_samples(DT, x, **how).velocity
+    return relative(drive_from_samples(DT, x, **how).velocity, v)
+
+
+def relative(found, v):
     return np.sqrt(np.mean((found - v)[INSIDE] ** 2) / np.mean(v[INSIDE] ** 2))
 
 
@@ -47,7 +51,9 @@ def test_noise_and_steps_of_the_sensor_are_smoothed_where_that_brings_the_veloci
     rng = np.random.default_rng(seed_of(f"noisy rates {period}"))
     for x, v in (sine(period, rng), sweep(period)):
         for spoilt in (PLACES * np.round(x / PLACES), x + DEVIATION * rng.standard_normal(COUNT)):
-            spline, smoothed = error(spoilt, v, smooth=False), error(spoilt, v, smooth=True)
+            time = DT * np.arange(COUNT)
+            splines = [make_interp_spline(time, spoilt, k=degree)(time, 1) for degree in (5, 11)]
+            spline, smoothed = min(relative(each, v) for each in splines), error(spoilt, v, smooth=True)
             # the choice is made from an estimate, and need not be right where both are alike
             assert error(spoilt, v) < 1.3 * min(spline, smoothed)
             assert period < 25 or error(spoilt, v) < 0.5 * spline
@@ -85,3 +91,47 @@ def test_a_noisy_motion_of_many_frequencies_gets_nearly_the_best_window(motion, 
     speeds = [smooth_path(DT, noisy, half)[1] for half in HALF_WIDTHS]
     errors = [np.sqrt(np.mean((speed - v)[INSIDE] ** 2) / np.mean(v[INSIDE] ** 2)) for speed in speeds]
     assert error(noisy, v) < 1.3 * min(errors) < 0.5 * errors[0]
+
+
+def triangle(period, phase):
+    u = (np.arange(COUNT) + phase) / period % 1.0
+    return AMPLITUDE * np.where(u < 0.5, u, 1.0 - u), AMPLITUDE / period / DT * np.where(u < 0.5, 1.0, -1.0)
+
+
+def ramps(period, phase):
+    """Up and down again in three samples each, and at rest between."""
+    at = (np.arange(COUNT) + phase) % period
+    rising, falling = (at > 0.0) & (at < 3.0), (at > period / 2) & (at < period / 2 + 3.0)
+    place = np.clip(at / 3.0, 0.0, 1.0) - np.clip((at - period / 2) / 3.0, 0.0, 1.0)
+    return AMPLITUDE * place, AMPLITUDE / 3.0 / DT * (rising * 1.0 - falling * 1.0)
+
+
+def bumps(period, phase):
+    """The acceleration leaps."""
+    angle = 2.0 * np.pi * (np.arange(COUNT) + phase) / period
+    up, omega = np.maximum(np.sin(angle), 0.0), 2.0 * np.pi / period / DT
+    return AMPLITUDE * up**2, AMPLITUDE * omega * 2.0 * up * np.cos(angle)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.3, 0.5])
+@pytest.mark.parametrize("period", [1000.0, 333.3, 100.0])
+@pytest.mark.parametrize("motion", [triangle, ramps, bumps])
+def test_corners_ring_no_longer_than_those_of_the_quintic_spline(motion, period, phase):
+    x, v = motion(period, phase)
+    time = DT * np.arange(COUNT)
+    quintic = make_interp_spline(time, x, k=5)(time, 1)
+    assert drive_from_samples(DT, x).velocity == pytest.approx(quintic, abs=1e-9 * np.max(np.abs(v)))
+
+
+@pytest.mark.parametrize("period", [6.0, 5.0, 4.0, 3.0])
+def test_the_ends_of_a_fast_motion_are_no_worse_than_those_of_the_quintic_spline(period):
+    time, errors = DT * np.arange(COUNT), []
+    for phase in np.linspace(0.0, np.pi, 12, endpoint=False):
+        angle = 2.0 * np.pi * np.arange(COUNT) / period + phase
+        x, v = AMPLITUDE * np.sin(angle), AMPLITUDE * 2.0 * np.pi / period / DT * np.cos(angle)
+        found = drive_from_samples(DT, x).velocity, make_interp_spline(time, x, k=5)(time, 1)
+        errors.append([(velocity - v) ** 2 for velocity in found])
+    own, quintic = np.sqrt(np.mean(errors, axis=0))
+    # where errors of either sign happen to cancel, the quintic is better than it is inside
+    allowed = 1.05 * np.maximum(quintic, np.median(quintic))
+    assert np.all(own < allowed)

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.smoothing import half_width, sensor_noise, smooth_path
+from dashpot.data.interpolating import PIECE, QUINTIC, interpolated_rates
+from dashpot.data.smoothing import best_rates, sensor_noise, smooth_path
 from dashpot.text.problem import InputError, Place
 
 Array = NDArray[np.float64]
 
 FEWEST = 25  # samples that are smoothed, if that is asked for
 NOISE_OF_SPAN = 1e-6
-PIECE, MARGIN = 100_000, 100  # samples
 
 
 @dataclass(frozen=True)
@@ -77,33 +77,20 @@ def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleratio
 def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = None) -> Drive:
     """The drive of a measured displacement.
 
-    Rates come from the interpolating quintic spline where the samples are clean, or the motion too fast to be smoothed,
-    and from local polynomials, which also replace the displacement, where the sensor is noisy; ``smooth`` decides it by
-    hand. Raises InputError for fewer than two samples.
+    Rates come from an interpolating spline where the samples are clean, or the motion too fast to be smoothed, and from
+    local polynomials, which also replace the displacement, where the sensor is noisy; ``smooth`` decides it by hand.
+    Raises InputError for fewer than two samples.
     """
     x = np.ascontiguousarray(displacement, dtype=float)
     _refuse_single(x)
-    if smooth is not False and x.size > FEWEST:
+    degree = QUINTIC
+    if x.size > FEWEST:
         noise = sensor_noise(x)
-        half, better = half_width(x, noise)
-        if smooth or (better and noise > NOISE_OF_SPAN * np.ptp(x)):
-            return drive_from_path(dt, *smooth_path(dt, x, half))
-    return drive_from_path(dt, x, *_rates(dt, x))
-
-
-def _rates(dt: float, x: Array) -> tuple[Array, Array]:
-    # velocity and acceleration of the quintic spline through all samples; what lies further away than the margin of a
-    # piece has faded to less than the last digit, by 0.43 each sample
-    from scipy.interpolate import make_interp_spline
-
-    velocity, acceleration = np.empty((2, x.size))
-    for first in range(0, x.size, PIECE):
-        begin, end = max(first - MARGIN, 0), min(first + PIECE + MARGIN, x.size)
-        time = dt * np.arange(end - begin)
-        spline = make_interp_spline(time, x[begin:end], k=5 if end - begin > 5 else 1)
-        own = slice(first, first + PIECE)
-        velocity[own], acceleration[own] = (spline(time[first - begin :][:PIECE], order) for order in (1, 2))
-    return velocity, acceleration
+        best = best_rates(x, noise)
+        degree = best.degree
+        if smooth or (smooth is None and best.smooth and noise > NOISE_OF_SPAN * np.ptp(x)):
+            return drive_from_path(dt, *smooth_path(dt, x, best.half))
+    return drive_from_path(dt, x, *interpolated_rates(dt, x, degree))
 
 
 def _refuse_single(displacement: Array) -> None:

@@ -1,17 +1,19 @@
-"""A noisy path made smooth: local polynomials, as long as gives the best velocity.
+"""How a measured path gets its rates: the interpolating spline or the local polynomials with the best velocity.
 
-Longer ones take more of the noise and lose more of the motion. Where even the shortest ones would lose more than they
-take, the path is left as it is.
+Longer polynomials take more of the noise and lose more of the motion. Where even the shortest ones would lose more than
+they take, the path is left as it is.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
+from dashpot.data.interpolating import FREQUENCIES, HIGH, QUINTIC, response_of_spline
 from dashpot.data.white_noise import white_noise
 
 Array = NDArray[np.float64]
@@ -27,8 +29,17 @@ LINES = 9  # of a spectrum that are averaged
 WIDENED = 7  # lines by which a line is widened, by the window of a piece and by the average
 NEGLIGIBLE = 1e-6  # of the mean square of the velocity
 DARK = ("chebwin", 160.0)  # dB: what this window spreads is no noise
-FREQUENCIES = np.linspace(0.0, 0.5, 4097)  # periods a sample, at which the responses of windows are known
 NOISE_ALONE = 0.2  # periods a sample: beyond half of all lines are taken for noise
+NEAR_NYQUIST = 0.45  # periods a sample: the power from here on tells how much there is beyond the Nyquist frequency
+
+
+@dataclass(frozen=True)
+class Choice:
+    """How a path gets its rates: polynomials of 2 ``half`` + 1 samples if ``smooth``, else a spline of ``degree``."""
+
+    half: int
+    smooth: bool
+    degree: int
 
 
 def smooth_path(dt: float, x: Array, half: int) -> tuple[Array, Array, Array]:
@@ -42,15 +53,16 @@ def smooth_path(dt: float, x: Array, half: int) -> tuple[Array, Array, Array]:
     return place, speed, bend
 
 
-def half_width(x: Array, noise: float) -> tuple[int, bool]:
-    """The half width in samples that gives the best velocity of a path (n,) with this white noise in m.
+def best_rates(x: Array, noise: float) -> Choice:
+    """What gives the best velocity of a path (n,) with this white noise in m.
 
-    And whether it is better than that of the interpolating quintic spline. What is expected of a window is the motion
-    that it loses, by the spectrum of the path, and the noise that it lets pass.
+    What is expected is the motion that is lost, by the spectrum of the path, and the noise that passes; of splines
+    also what they make of motions above the Nyquist frequency, which the samples show as slower ones.
     """
     if x.size < FEWEST:
-        return OF_A_SHORT_PATH, False
+        return Choice(OF_A_SHORT_PATH, False, QUINTIC)
     frequency, power = _spectrum(x)
+    omega = 2.0 * np.pi * frequency
     stands_out = power > STANDS_OUT * 2.0 * noise**2
     # what the window of a piece spreads beyond the fastest part is no motion
     moving = stands_out & (frequency <= _fastest_part(frequency, power * stands_out) + frequency[1])
@@ -58,11 +70,20 @@ def half_width(x: Array, noise: float) -> tuple[int, bool]:
     def expected(response: Array) -> float:
         """The mean square, but for a factor, of the velocity that is lost and of the noise that passes."""
         at = np.interp(frequency, FREQUENCIES, response)
-        lost = np.sum(power[moving] * (at - 2.0 * np.pi * frequency)[moving] ** 2)
+        lost = np.sum(power[moving] * (at - omega)[moving] ** 2)
         return float(lost + 2.0 * noise**2 * np.sum(at**2))
 
-    error, best = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
-    return best, error < expected(_response_of_spline())
+    beyond = _near_nyquist(x, noise)
+
+    def mistaken(response: Array) -> float:
+        """The same for motions above the Nyquist frequency, which are taken to be as strong as those just below it."""
+        at = np.interp(frequency, FREQUENCIES, response)
+        return beyond * float(np.sum((at + 2.0 * np.pi - omega) ** 2))
+
+    quintic, high = response_of_spline(QUINTIC), response_of_spline(HIGH)
+    degree = HIGH if expected(high) + mistaken(high) < expected(quintic) + mistaken(quintic) else QUINTIC
+    error, half = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
+    return Choice(half, error < expected(response_of_spline(degree)), degree)
 
 
 def sensor_noise(x: Array) -> float:
@@ -78,6 +99,12 @@ def _fastest_part(frequency: Array, power: Array) -> float:
     above = np.cumsum((power * frequency**2)[::-1])[::-1]
     last = np.count_nonzero(above > NEGLIGIBLE * above[0]) - 1
     return float(frequency[max(int(last) - WIDENED, 0)])
+
+
+def _near_nyquist(x: Array, noise: float) -> float:
+    """The density of power (m^2 a line) just below the Nyquist frequency, but for that of the noise."""
+    frequency, power = _spectrum(x, DARK)
+    return max(float(np.mean(power[frequency > NEAR_NYQUIST])) - 2.0 * noise**2, 0.0)
 
 
 def _spectrum(x: Array, window: str | tuple[str, float] = "blackmanharris") -> tuple[Array, Array]:
@@ -100,13 +127,6 @@ def _response(half: int) -> Array:
     weights = _rate(at, fit, 1)[half] / half
     found: Array = np.sin(2.0 * np.pi * np.outer(FREQUENCIES, np.arange(-half, half + 1))) @ weights
     return found
-
-
-@cache
-def _response_of_spline() -> Array:
-    angle = 2.0 * np.pi * FREQUENCIES
-    found: Array = 50.0 * np.sin(angle) + 5.0 * np.sin(2.0 * angle)
-    return found / (33.0 + 26.0 * np.cos(angle) + np.cos(2.0 * angle))
 
 
 def _rate(at: Array, fit: NDArray[np.floating], order: int) -> Array:

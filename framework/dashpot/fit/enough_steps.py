@@ -1,6 +1,7 @@
 """How many time steps the runs of a fit need, so that its numerical error is within the tolerance of a simulation.
 
-It is measured wherever a fit is linearised, by the lane it is linearised at; all lanes of a block take the same steps,
+It is known wherever a fit is linearised, of the lane it is linearised at: by how far its own long and short steps agree
+or, where they do not, by a solution with twice as many. All lanes of a block take the same steps,
 so that their differences are derivatives. Steps that were needed once stay. A search begins with what the numbers of
 the file need for a tenfold tolerance: it compares lanes that differ by more.
 """
@@ -14,8 +15,8 @@ from numpy.typing import NDArray
 
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork
-from dashpot.kernel.system import CompiledSystem
-from dashpot.kernel.within import TOLERANCE, steps_within
+from dashpot.kernel.system import CompiledSystem, Solution
+from dashpot.kernel.within import TOLERANCE, steps_within, told_within
 
 Array = NDArray[np.float64]
 
@@ -38,6 +39,16 @@ class EnoughSteps:
         if team not in self._refine:
             self.suffice(team, self.network.start, SEARCHED)
         return self._refine[team]
+
+    def tell(self, team: Team, solution: Solution, values: Array) -> bool:
+        """Whether the steps by which a team was solved, the first lane at ``values`` (slots,), are enough for that.
+
+        If the solution does not tell, it is measured; then the steps may be more from now on.
+        """
+        before = self.of(team)
+        if not told_within(solution):
+            self.suffice(team, values)
+        return self.of(team) == before
 
     def suffice(self, team: Team, values: Array, tolerance: float = TOLERANCE) -> None:
         """See to it that the steps are enough for a lane (slots,)."""

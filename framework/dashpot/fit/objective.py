@@ -19,7 +19,7 @@ from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
 from dashpot.kernel.pieces import SystemRows
 from dashpot.kernel.scratch import Scratch
-from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.system import CompiledSystem, Solution
 from dashpot.kernel.workers import spread, streamed, threads
 from dashpot.model.network import NetworkSpec
 
@@ -122,8 +122,11 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
-        self.steps.suffice(team, values)
-        for number, force in self._forces(team, np.concatenate([values[None], values + moves])):
+        lanes = np.concatenate([values[None], values + moves])
+        solution = self._solution(team, lanes)
+        if not self.steps.tell(team, solution, values):
+            solution = self._solution(team, lanes)
+        for number, force in self._shown(team, lanes, solution):
             run = self.runs[number]
             found = np.array(force[:, run.first :])
             found[1:] -= found[0]
@@ -228,10 +231,20 @@ class Objective:
                 found = see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
                 yield number, self.runs[number].seen(found)
             return
-        assert isinstance(rows, SystemRows)
-        found = self.network.forces(rows, values)
+        yield from self._shown(team, values, self._solution(team, values))
+
+    def _solution(self, team: Team, values: Array) -> Solution:
+        rows = self._rows(team)
+        assert isinstance(self.network, CompiledSystem) and isinstance(rows, SystemRows)
+        return self.network.solve(rows, values)
+
+    def _shown(self, team: Team, values: Array, solution: Solution) -> Iterator[tuple[int, Array]]:
+        # what the load cells show of a solution
+        assert isinstance(self.network, CompiledSystem)
+        excitation, forces = self.runs[team[0]].excitation, solution.solved_force
+        see = self.network.observation(values, excitation.settings).see
         for number in team:
-            shown = see(found[:, self.network.number_of(self.runs[number].end)], rows.excitation.dt)
+            shown = see(forces[:, self.network.number_of(self.runs[number].end)], excitation.dt)
             yield number, self.runs[number].seen(shown)
 
 

@@ -31,6 +31,7 @@ from dashpot.model.topology import Topology, topology_of
 Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
+HALVED = 3.0  # times the error of the short steps is that by which the long ones differ, at an order of two
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
@@ -86,6 +87,12 @@ class Solution:
     motion: Array
     error: Array
     status: tuple[Status, ...]
+
+    @property
+    def solved_force(self) -> Array:
+        """The forces; NaN in lanes that failed."""
+        failed = np.array([status is not Status.GOOD for status in self.status])
+        return np.where(failed[:, None, None], np.nan, self.force) if failed.any() else self.force
 
 
 @dataclass(frozen=True)
@@ -165,15 +172,13 @@ class CompiledSystem(Compiled[SystemRows]):
             unknown,
             force,
             motion,
-            np.sqrt(found.miss / run.excitation.samples) / 3.0,
+            np.sqrt(found.miss / run.excitation.samples) / HALVED,
             tuple(status_of(code, own) for code, own in zip(found.status, force, strict=True)),
         )
 
     def forces(self, run: SystemRows, values: Array | None = None) -> Array:
         """The forces at the driven nodes (lanes, nodes, samples) in N; a lane that failed answers NaN."""
-        found = self.solve(run, values)
-        found.force[[status is not Status.GOOD for status in found.status]] = np.nan
-        return found.force
+        return self.solve(run, values).solved_force
 
     def simulate(self, run: SystemRows, values: Array | None = None, end: str | None = None) -> Array:
         """The force at a driven node (lanes, samples) in N, by default the first one; a lane that failed answers NaN.

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.system import CompiledSystem, Solution, Status
+from dashpot.kernel.system import HALVED, CompiledSystem, Solution, Status
 
 Array = NDArray[np.float64]
 
@@ -69,6 +69,15 @@ def steps_within(network: CompiledSystem, excitation: Excitation, values: Array,
     """
     found = solve_within(network, excitation, values, tolerance, 2 * finest)
     return found.refine // 2 if np.isfinite(found.error).all() else 1
+
+
+def told_within(solution: Solution, tolerance: float = TOLERANCE) -> bool:
+    """Whether the first lane is within the tolerance already by what its own long and short steps tell.
+
+    They are held against each other as two solutions are in ``solve_within``, which need not be called then.
+    """
+    moved = CHANCE * HALVED * solution.error[0]
+    return bool((moved <= tolerance * np.sqrt(np.mean(solution.force[0] ** 2, axis=1))).all())
 
 
 def _moved(finer: Solution, before: Solution) -> tuple[Array, Array]:

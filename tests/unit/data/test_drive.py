@@ -10,6 +10,7 @@ from scipy.interpolate import CubicHermiteSpline, make_interp_spline
 from seeds import seed_of
 
 from dashpot.data import drive as drive_module
+from dashpot.data import interpolating
 from dashpot.data.drive import drive_from_path, drive_from_samples, find_turns
 from dashpot.text.problem import InputError
 
@@ -110,7 +111,8 @@ def test_a_long_path_has_the_rates_of_the_spline_through_all_samples(monkeypatch
     time = 1e-3 * np.arange(2500)
     x = 1e-3 * np.sin(90.0 * time) + 1e-4 * np.random.default_rng(4).standard_normal(time.size)
     spline = make_interp_spline(time, x, k=5)
-    monkeypatch.setattr(drive_module, "PIECE", 400)
+    for module in (drive_module, interpolating):
+        monkeypatch.setattr(module, "PIECE", 400)
     found = drive_from_samples(1e-3, x, smooth=False)
     assert found.velocity == pytest.approx(spline(time, 1), abs=1e-9 * np.ptp(spline(time, 1)))
     assert found.acceleration == pytest.approx(spline(time, 2), abs=1e-9 * np.ptp(spline(time, 2)))

@@ -12,7 +12,7 @@ from dashpot.fit.enough_steps import FINEST, EnoughSteps
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.within import TOLERANCE
+from dashpot.kernel.within import TOLERANCE, told_within
 from dashpot.model.reading import parse_network
 
 ELEMENTS = load_registry().elements
@@ -71,6 +71,25 @@ def test_the_force_that_a_fit_is_linearised_at_is_within_the_tolerance(network, 
     assert away(rows[0] / objective.factor(0), truth) <= TOLERANCE < away(usual, truth)
     # steps that were needed once stay
     assert away(objective.forces(network.start)[0][0], truth) <= TOLERANCE
+
+
+def test_steps_are_not_measured_where_the_solution_itself_tells_that_they_are_enough(network, monkeypatch):
+    objective, asked = Objective(network, [scored("small", 1e-5, 2.0), scored("large", 3e-3)]), []
+    for team in objective.teams:
+        objective.steps.of(team)
+    monkeypatch.setattr(objective.steps, "suffice", lambda team, values: asked.append(team))
+    for _ in objective.linearise(network.start, np.eye(network.start.size)[:1], lambda number, rows: None):
+        pass
+    assert asked == [(1,)]
+
+
+def test_what_a_solution_tells_is_a_bound(network, truth):
+    drive = Excitation.of_drive(moved(3e-3))
+    for refine in (1, 4, 16, 64):
+        found = network.solve(network.prepare(drive, refine))
+        for tolerance in (1e-1, 1e-2, 1e-3, 1e-4):
+            assert not told_within(found, tolerance) or away(found.force[0, 0], truth) <= tolerance
+    assert told_within(found, 1e-2) and not told_within(found, 0.0)
 
 
 def test_changes_are_differences_of_lanes_with_the_same_steps(network):
