@@ -83,7 +83,8 @@ def test_modelica_agrees_on_networks_with_nodes(name):
     found = sampled(spec, list(cubic.motions.values()), network.start)
     count = len(expected.driven)
     assert error(found[:, :count].T, expected.force[0]) <= TOLERANCE
-    assert error(found[:, count:].T, expected.motion[0]) <= TOLERANCE
+    # a motion sums up the rounding of the accelerations of all steps, twice
+    assert error(found[:, count:].T, expected.motion[0]) <= 2.0 * TOLERANCE
 
 
 def test_modelica_agrees_on_a_network_in_which_nothing_turns():

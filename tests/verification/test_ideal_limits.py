@@ -59,7 +59,15 @@ def test_an_ideal_slider_does_not_creep_however_long_it_is_held():
     assert held[200] - held[-1] == pytest.approx(0.0, abs=1e-6)
 
 
-@pytest.mark.parametrize(("mass", "k", "limit"), [(1.0, 1.0, 20.0), (5.0, 1e3, 60.0), (0.1, 1e2, 2.0)])
+COMES_TO_REST = pytest.param(
+    1.0,
+    1.0,
+    5.0,
+    marks=pytest.mark.xfail(strict=True, reason="it sticks just as the base is fastest: one sample beyond the bound"),
+)
+
+
+@pytest.mark.parametrize(("mass", "k", "limit"), [(1.0, 1.0, 20.0), (5.0, 1e3, 60.0), (0.1, 1e2, 2.0), COMES_TO_REST])
 def test_a_mass_on_ideal_friction_sticks_and_slides(mass, k, limit, state):
     at, motion = times(1.0), drawn("masses on sliders")
     exact = force_on_a_slider(motion, at, mass, k, limit)

@@ -18,6 +18,7 @@ Array = NDArray[np.float64]
 
 LANES = 96
 KEPT = 4
+RESERVED = 2  # parameter vectors: the start of a refinement, and that of the last one
 FIRST_STEPS, LAST_STEPS = 20, 60
 NEAR = 1.0  # scatter of starts around the file's, in natural steps: a factor of e
 
@@ -53,13 +54,17 @@ def refine_from_starts(
         return Best(refine(whole, coordinates, start), (only,), 1, ((1, only),))
     points = _scatter(coordinates, start, np.random.default_rng(seed))
     linear = dictionary_start(objective, coordinates) if budget is None else None
-    points = np.concatenate([points, linear.point[None]]) if linear else points[:budget]
+    if budget is not None:
+        points = points[: max(budget - RESERVED, 1)]
+    points = np.concatenate([points, linear.point[None]]) if linear else points
     losses = whole.losses(coordinates.to_values(points))
     order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
     spent = len(points) + (linear.evaluations if linear else 0)
     history = [(spent, float(losses.min()))]
     ends = []
     for number, k in enumerate(order):
+        if ends and budget is not None and budget - spent < RESERVED:
+            break
         ends.append(refine(whole, coordinates, points[k], FIRST_STEPS, budget=_left(budget, spent)))
         spent += ends[-1].evaluations
         history.append((spent, min(end.loss for end in ends)))

@@ -113,8 +113,10 @@ def _write_step(code: Code, online: Online) -> None:
     w = online.courses[0]
     place = f"(s, {code.index(w)})"
     code.do(f"predict_{place}")
-    with code.when(f"s[{w + online.system.row(online.system.turns)}] != 0.0"):
-        code.do(f"turn_{place}")
+    turn = online.system.passes.get("turn")
+    if turn and turn.updates:
+        with code.when(f"s[{w + online.system.row(online.system.turns)}] != 0.0"):
+            code.do(f"turn_{place}")
     with code.when(f"s[{w + online.system.row(online.system.kept)}] != 0.0"):
         code.do(f"correct{place}")
     for name in ("improve", "search", "commit_"):
