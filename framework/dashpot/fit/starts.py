@@ -61,7 +61,7 @@ def refine_from_starts(
     order = [0, *(int(k) for k in np.argsort(losses)[:KEPT] if k != 0)]
     spent = len(points) + (linear.evaluations if linear else 0)
     history = [(spent, float(losses.min()))]
-    ends = []
+    ends: list[Refined] = []
     for number, k in enumerate(order):
         if ends and budget is not None and budget - spent < RESERVED:
             break
