@@ -57,7 +57,7 @@ class Pursuer:
         self.looked = self.looked or self.look(model)
         seen: set[frozenset[object]] = set()
         while True:
-            look, present, without, others = self.summit(seen)
+            look, present, without, others = self.local_optimum(seen)
             scores = Scores(look)
             rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
             del scores
@@ -70,7 +70,7 @@ class Pursuer:
                 return Pursuit(*found, self.looks, self.ended, tuple(self.refused))
             del look  # a look is large
 
-    def summit(self, seen: set[frozenset[object]]) -> tuple[Look, Scored, tuple[Without, ...], list[Scored]]:
+    def local_optimum(self, seen: set[frozenset[object]]) -> tuple[Look, Scored, tuple[Without, ...], list[Scored]]:
         """The look at the best structure, all terms of which are worth their place, and what was refitted beside it.
 
         Where terms go the search continues from the rest, unless that was ``seen``.
