@@ -43,10 +43,9 @@ class Diagnosis(Findings):
         return tuple(sorted(found, key=lambda one: (not one.accepted, -one.nats)))
 
     def _named(self, name: tuple[str, str]) -> NamedCause:
-        pursuit, model = self.pursuit, self.pursuit.best.model
+        pursuit, best, model = self.pursuit, self.pursuit.best, self.pursuit.best.model
         mine = [number for number, term in enumerate(model.terms) if term.name == name]
-        without = pursuit.without_cause(name)
-        cost = without.exact - pursuit.best.exact if without else np.zeros(pursuit.best.exact.size)
+        without = pursuit.without_cause(name) or best
         cause, probability = model.terms[mine[0]].cause, self.probability(name)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         gain, removal = self._worth(next((one.network for one in self.removals if one.name == name), None))
@@ -58,8 +57,8 @@ class Diagnosis(Findings):
             (),
             probability,
             self.presence(model.terms[mine[0]]),
-            float(cost.sum()),
-            (int(np.sum(cost > 0.0)), cost.size),
+            without.likelihood(forms_err=False) - best.likelihood(forms_err=False),
+            (int(np.sum(without.exact > best.exact)), best.exact.size),
             gain,
             removal,
             rivals,

@@ -20,7 +20,7 @@ from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.table_rows import moved, stated, weighed
+from dashpot.diagnose.table_rows import moved, records, stated, weighed
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
 from dashpot.diagnose.whitening import Noise, independent_share, learn_filter
@@ -191,14 +191,20 @@ def _smallest(run: ScoredRun) -> float:
 
 
 def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[ScoredRun]) -> Noise:
-    """How far a model with such residuals (kept,) in N is from each run, as white noise.
+    """How far a model with such residuals (kept,) in N is from the records, as white noise, the same in all of them.
 
-    It weighs runs and counts independent samples in the search: a wrong model repeats its error with every cycle,
-    and whitening that error would judge it by its fastest part.
+    A wrong model repeats its error with every cycle, so that only independent samples count, by the share that all
+    records together have of them; whitening the error would judge it by its fastest part. A noise or a share of each
+    run would let a fit follow some runs at the cost of the others.
     """
-    deviations = {run.name: max(float(np.sqrt(np.mean(residual[run.name] ** 2))), _smallest(run)) for run in runs}
-    shares = {run: independent_share(rest) for run, rest in residual.items()}
-    return replace(plain.with_white(deviations), independent=shares)
+    recorded = records(runs)
+    left = [residual[run.name] for run in recorded]
+    samples = max(sum(rest.size for rest in left), 1)
+    share = sum(rest.size * independent_share(rest) for rest in left) / samples
+    squares = sum(float(rest @ rest) for rest in left) / samples
+    deviation = max(float(np.sqrt(squares)), max(map(_smallest, recorded), default=1.0))
+    names = [run.name for run in runs]
+    return replace(plain.with_white(dict.fromkeys(names, deviation)), independent=dict.fromkeys(names, share))
 
 
 def recorded_noise(

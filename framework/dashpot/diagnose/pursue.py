@@ -231,7 +231,7 @@ class Pursuer:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
         if not (is_determined(seen, number) and has_evidence(self.refitter, seen, number)):
             return 0.0
-        weights = self.weights(present.nats.size)
+        weights = self.weights(present.samples.size)
         worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
         return float(np.mean(worse)) if self._matters(present, without) else 0.0
 
@@ -244,14 +244,14 @@ class Pursuer:
         least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
         if trial.unproven or not trial.score < present.score - least:
             return False
-        weights = self.weights(present.exact.size)
+        weights = self.weights(present.samples.size)
         better = float(np.mean(trial.drawn_exactly(weights) < present.drawn_exactly(weights)))
         return better > 0.5 if trial.price <= present.price else better >= NAMED
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""
-        total = float(np.sum(without.exact - present.exact))
-        return total > float(without.samples.sum()) * self.relevance
+        cost = without.likelihood(forms_err=False) - present.likelihood(forms_err=False)
+        return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[tuple[Term, Scored]]:
         """For each term the best structure with another cause in its place, refitted."""
@@ -274,9 +274,9 @@ def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:
 
 def scored_by(scores: Scores, odds: Odds) -> Scored:
     """What the model of a look predicts, as it is."""
-    nats, found, model = scores.nats(Structure()), scores.predicted(Structure()), scores.look.model
-    assert nats is not None and found is not None
-    return Scored(model, nats, found[1], scores.exact_nats(), scores.look.samples, odds.of_model(model))
+    found, model = scores.predicted(Structure()), scores.look.model
+    assert found is not None
+    return Scored(model, *found, scores.exact(), scores.look.samples, odds.of_model(model))
 
 
 def _key(scores: Scores, structure: Structure) -> frozenset[tuple[object, ...]]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
+from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
 Array = NDArray[np.float64]
@@ -24,13 +25,14 @@ NAMED = 0.9  # of the draws: probability from which on a cause is named
 class Scored:
     """A refitted structure and what it predicts.
 
-    ``nats`` (folds,) are minus the log likelihood of each fold left out with errors of forms allowed for, ``errors``
-    the nats that these errors cost, ``exact`` (folds,) the same as ``nats`` with the laws as they are, ``price`` the
-    prior of the terms. ``unproven`` are the faults of the measurement in it, and their forms, that lack evidence.
+    ``squares`` (folds,) are the mean squares of what it does not predict of each fold left out, with errors of forms
+    allowed for, ``errors`` the nats that these errors cost, ``exact`` (folds,) the mean squares with the laws as they
+    are, ``samples`` (folds,) how many there are, ``price`` the prior of the terms in nats. ``unproven`` are the faults
+    of the measurement in it, and their forms, that lack evidence.
     """
 
     model: Model
-    nats: Array
+    squares: Array
     errors: float
     exact: Array
     samples: Array
@@ -44,15 +46,17 @@ class Scored:
 
     def likelihood(self, forms_err: bool) -> float:
         """Minus its log, with errors of forms allowed for or with the laws as they are."""
-        return float(self.nats.sum()) + self.errors if forms_err else float(self.exact.sum())
+        if forms_err:
+            return float(nats(self.squares, self.samples)) + self.errors
+        return float(nats(self.exact, self.samples))
 
     def drawn(self, weights: Array) -> Array:
         """The score (draws,) under weights (draws, folds) of the folds."""
-        return weights @ self.nats + self.errors + self.price
+        return nats(self.squares, weights * self.samples) + self.errors + self.price
 
     def drawn_exactly(self, weights: Array) -> Array:
         """The score (draws,) with the laws as they are."""
-        return weights @ self.exact + self.price
+        return nats(self.exact, weights * self.samples) + self.price
 
     def ahead(self, other: Scored, weights: Array) -> NDArray[np.bool_]:
         """In which draws (draws,) it is more likely than another one, and better with the laws as they are."""

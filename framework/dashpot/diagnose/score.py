@@ -1,12 +1,13 @@
 """The score of a structure: what it predicts of runs that took no part in its fit, and its prior odds.
 
 For each group of runs (a run with its repeats) the structure is fitted to all others, to first order, and predicts it;
-minus the predictive log likelihood, each group with a variance of its own, is
+minus the predictive log likelihood, under one variance for all groups, is
 
-    sum over groups of n / 2 log(mean square of what is not predicted),
+    n / 2 log(mean square of what is not predicted),
 
-in nats. A term that only follows the noise, or the error of another term's form, does not predict. The prior odds of
-each term are stated in ``Odds``.
+in nats, with the n independent samples of all groups. A variance for each group would let a structure win that follows
+some runs to the noise and gives up the others. A term that only follows the noise, or the error of another term's form,
+does not predict. The prior odds of each term are stated in ``Odds``.
 """
 
 from __future__ import annotations
@@ -158,8 +159,11 @@ class Scores:
         rest *= self.scale[0] / self.scale
         return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
-    def exact_nats(self) -> Array:
-        """The nats (groups,) of the present structure with the laws as they are, no errors of forms allowed for."""
+    def exact(self) -> Array:
+        """What ``predicted`` tells (groups,) of the present structure, but with the laws as they are.
+
+        No errors of forms are allowed for.
+        """
         total = self.look.exact.sum(axis=0)
         scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
@@ -168,13 +172,7 @@ class Scores:
         target = np.eye(scale.size)[0]
         combined = _scaled(scale, alive, target)
         left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target, foreseen=False)
-        squares = np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
-        return 0.5 * self.look.samples * np.log(squares)
-
-    def nats(self, structure: Structure) -> Array | None:
-        """Minus the predictive log likelihood (groups,) of each group."""
-        found = self.predicted(structure)
-        return None if found is None else 0.5 * self.look.samples * np.log(found[0])
+        return np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
 
     def price(self, structure: Structure) -> float:
         """The prior of a structure in nats: what joins less what goes."""
@@ -190,8 +188,15 @@ class Scores:
 
     def score(self, structure: Structure) -> float:
         """Minus the log of likelihood and prior; the smaller, the better; infinite for one of the wrong sign."""
-        found, nats = self.predicted(structure), self.nats(structure)
-        return np.inf if found is None or nats is None else float(nats.sum()) + found[1] + self.price(structure)
+        found = self.predicted(structure)
+        return np.inf if found is None else float(nats(found[0], self.look.samples)) + found[1] + self.price(structure)
+
+
+def nats(squares: Array, samples: Array) -> Array:
+    """Minus the log likelihood (...) of mean squares (..., groups) of ``samples`` (..., groups), of one variance."""
+    whole = samples.sum(axis=-1)
+    found: Array = 0.5 * whole * np.log(np.sum(samples * squares, axis=-1) / whole)
+    return found
 
 
 def _scaled(scale: Array, at: NDArray[np.intp], target: Array) -> Array:

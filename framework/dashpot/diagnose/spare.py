@@ -10,7 +10,7 @@ import numpy as np
 
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import NUMBER_ODDS, Scores
+from dashpot.diagnose.score import NUMBER_ODDS, Scores, nats
 from dashpot.diagnose.term import Model
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.text.problem import InputError
@@ -22,16 +22,16 @@ def spare_branches(refitter: Refitter, look: Look, model: Model) -> list[str]:
     The last one first. One may go where the removal costs less of the predictive likelihood than the prior odds of its
     numbers.
     """
-    present, found = _nats(refitter, look, model), []
+    present, found = _unpredicted(refitter, look, model), []
     for branch in reversed(_branches(model.base)):
         if len(model.fitted.root.members) == 1:
             break  # a network has a branch
         searched = sum(path.startswith(f"{branch}.") for path in model.coordinates.paths)
         with suppress(InputError):  # another branch asks for it
             less = refitter.refit_without(model, branch, look.noise)
-            nats = _nats(refitter, look, less)
-            if searched and nats - present < -searched * np.log(NUMBER_ODDS):
-                model, present = less, nats
+            cost = _unpredicted(refitter, look, less)
+            if searched and cost - present < -searched * np.log(NUMBER_ODDS):
+                model, present = less, cost
                 found.append(branch)
     return found[::-1]
 
@@ -42,6 +42,6 @@ def _branches(network: NetworkSpec) -> Sequence[str]:
     return members if len(network.root.members) > 1 and not network.joints else []
 
 
-def _nats(refitter: Refitter, look: Look, model: Model) -> float:
+def _unpredicted(refitter: Refitter, look: Look, model: Model) -> float:
     seen = look_at(refitter, replace(model, terms=(), owned=()), (), look.folds, look.noise)
-    return float(Scores(seen).exact_nats().sum())
+    return float(nats(Scores(seen).exact(), seen.samples))

@@ -10,7 +10,7 @@ from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.front import Front, beside, in_front, occam
 from dashpot.diagnose.look import look_at, look_settled
-from dashpot.diagnose.score import Scores
+from dashpot.diagnose.score import Scores, nats
 from dashpot.fit.coordinates import search_coordinates
 
 
@@ -38,7 +38,7 @@ def look(made):
 
 
 def weighed(look, run, signal):
-    """Averages over blocks in units of the residual of the run, value by value."""
+    """Averages over blocks in units of the residual of all runs, value by value."""
     step = look.noise.steps[run.name]
     kept = signal.size // step
     return look.noise.filters[run.name][0] * signal[: kept * step].reshape(kept, step).sum(axis=1) / np.sqrt(step)
@@ -100,7 +100,16 @@ def test_a_step_that_the_fit_has_not_made_does_not_count(made):
     moved = settled.model.moved(np.array([0.1, -0.2]))
     beside = replace(settled.model, fitted=moved, point=search_coordinates(moved).start)
     other = look_at(made.refitter, beside, [], folds, settled.noise)
-    assert Scores(other).exact_nats().sum() > Scores(settled).exact_nats().sum() + 1.0
+    assert nats(Scores(other).exact(), other.samples) > nats(Scores(settled).exact(), settled.samples) + 1.0
+
+
+def test_all_records_have_one_noise_and_one_share_of_independent_samples(made, look):
+    """A run that is followed to the noise weighs no more than one that is not."""
+    assert len({tuple(found) for found in look.noise.filters.values()}) == 1
+    assert len(set(look.noise.independent.values())) == 1
+    residual, _ = made.refitter.linearise(made.model, look.noise)
+    whole = np.concatenate(list(residual.values()))
+    assert np.mean(whole**2) == pytest.approx(1.0, rel=0.02)
 
 
 def test_held_out_runs_take_no_part(made, look):

@@ -11,9 +11,14 @@ FOLDS, SAMPLES = 8, 100.0
 WEIGHTS = np.random.default_rng(0).exponential(size=(2000, FOLDS))
 
 
+def squares_of(nats):
+    """The mean squares (folds,) of which so many nats are told in each fold, the same or those given."""
+    return np.exp(2.0 * np.broadcast_to(np.asarray(nats, dtype=float), FOLDS) / SAMPLES)
+
+
 def scored(nats, *names, price=0.0):
-    """A structure with the same nats in each fold, or those given."""
-    each = np.broadcast_to(np.asarray(nats, dtype=float), FOLDS).copy()
+    """A structure with so many nats in each fold."""
+    each = squares_of(nats)
     terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
     model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
@@ -30,7 +35,7 @@ def test_a_cause_that_every_fold_needs_is_certain():
 
 
 def test_a_rival_that_predicts_alike_takes_half_of_the_draws():
-    """Nats of both signs by turns: each wins where its folds weigh more."""
+    """Better and worse by turns: each wins where its folds weigh more."""
     rival = scored(np.array([1.0, -1.0] * (FOLDS // 2)), "b")
     found = pursuit(scored(0.0, "a"), [scored(20.0)], rival)
     assert found.probability(("a", "")) == pytest.approx(0.5, abs=0.05)
@@ -57,7 +62,7 @@ ALONE = np.exp(2.0 * 4.0 / SAMPLES) - 1.0
 
 def beside_errors_of_forms(forms=4.0):
     """A structure that is worse by 10 nats in each fold, by fewer where the forms of the other laws may err."""
-    return Scored(**{**vars(scored(forms)), "exact": np.full(FOLDS, 10.0)})
+    return Scored(**{**vars(scored(forms)), "exact": squares_of(10.0)})
 
 
 def test_what_another_form_could_explain_as_well_is_not_its_own():
@@ -74,7 +79,7 @@ def test_a_cause_that_errors_of_forms_explain_whole_is_not_there():
 
 def test_a_rival_has_to_predict_better_with_the_laws_as_they_are():
     """One that is likelier only where the errors of its form are allowed for is taken in no draw."""
-    rival = Scored(**{**vars(scored(-5.0, "b")), "exact": np.full(FOLDS, 5.0)})
+    rival = Scored(**{**vars(scored(-5.0, "b")), "exact": squares_of(5.0)})
     found = pursuit(scored(0.0, "a"), [scored(20.0)], rival)
     assert found.probability(("a", "")) == 1.0 and found.replacements(("a", "")) == ()
 

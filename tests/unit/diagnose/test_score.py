@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.stats import norm
 from unit.diagnose.synthetic import GROUPS, candidates_of, look_of, random_rows
 
-from dashpot.diagnose.score import FALSE_ALARMS, RIG_ODDS, Added, Odds, Scores, Structure
+from dashpot.diagnose.score import FALSE_ALARMS, RIG_ODDS, Added, Odds, Scores, Structure, nats
 
 WORDS = ("one", "two", "three")
 
@@ -49,10 +50,22 @@ def test_the_score_is_the_log_likelihood_and_the_prior():
     scores, _ = scores_of({0: 0.5})
     structure = joined((0,))
     squares = scores.predicted(structure)[0]
-    assert scores.nats(structure) == pytest.approx(0.5 * 200 * np.log(squares))
+    likelihood = 0.5 * GROUPS * 200 * np.log(np.mean(squares))
     # its form has a strength and one number more
     prior = np.log(6 / FALSE_ALARMS) + np.log(10.0)
-    assert scores.score(structure) == pytest.approx(scores.nats(structure).sum() + prior)
+    assert scores.score(structure) == pytest.approx(likelihood + prior)
+
+
+def test_groups_count_by_their_samples_under_one_variance():
+    """The likelihood of normal residuals at its maximum, by the residuals themselves."""
+    rng = np.random.default_rng(0)
+    left = [rng.normal(scale=scale, size=size) for scale, size in ((1.0, 10), (3.0, 200), (0.2, 50))]
+    squares, samples = np.array([np.mean(each**2) for each in left]), np.array([each.size for each in left])
+    whole = np.concatenate(left)
+    density = norm.logpdf(whole, scale=np.sqrt(np.mean(whole**2))).sum()
+    assert nats(squares, samples) == pytest.approx(-density - 0.5 * whole.size * (1.0 + np.log(2.0 * np.pi)))
+    both = nats(squares, np.array([samples, 2.0 * samples]))
+    assert both == pytest.approx([nats(squares, samples), 2.0 * nats(squares, samples)])
 
 
 def test_a_strength_of_the_wrong_sign_is_not_admitted():
