@@ -193,18 +193,16 @@ def _smallest(run: ScoredRun) -> float:
 def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[ScoredRun]) -> Noise:
     """How far a model with such residuals (kept,) in N is from the records, as white noise, the same in all of them.
 
-    A wrong model repeats its error with every cycle, so that only independent samples count, by the share that all
-    records together have of them; whitening the error would judge it by its fastest part. A noise or a share of each
-    run would let a fit follow some runs at the cost of the others.
+    A wrong model repeats its error with every cycle, so that only independent samples count; whitening the error would
+    judge it by its fastest part. A noise of each run would let a fit follow some runs at the cost of the others.
     """
+    shares = {run: independent_share(rest) for run, rest in residual.items()}
     recorded = records(runs)
-    left = [residual[run.name] for run in recorded]
-    samples = max(sum(rest.size for rest in left), 1)
-    share = sum(rest.size * independent_share(rest) for rest in left) / samples
-    squares = sum(float(rest @ rest) for rest in left) / samples
-    deviation = max(float(np.sqrt(squares)), max(map(_smallest, recorded), default=1.0))
-    names = [run.name for run in runs]
-    return replace(plain.with_white(dict.fromkeys(names, deviation)), independent=dict.fromkeys(names, share))
+    squares = [float(np.mean(residual[run.name] ** 2)) for run in recorded]
+    samples = [shares[run.name] * residual[run.name].size for run in recorded]
+    whole = np.sqrt(np.average(squares, weights=samples)) if recorded else 1.0
+    deviation = max(float(whole), *map(_smallest, recorded), 0.0)
+    return replace(plain.with_white(dict.fromkeys(shares, deviation)), independent=shares)
 
 
 def recorded_noise(
