@@ -113,7 +113,9 @@ def test_friction_of_an_anti_roll_bar_and_the_gain_of_one_of_its_forces(rng):
     causes = {cause["cause"]: cause for cause in diagnosis.as_dict()["causes"]}
     assert set(causes) == {"friction", "gain"}
     assert causes["friction"]["place"] == "between wheel_left and wheel_right"
-    assert_dahl(numbers(causes["friction"]), 40.0, 40e3)
+    limits = [value for key, value in numbers(causes["friction"]).items() if key.endswith("limit")]
+    assert sum(limits) == pytest.approx(40.0, rel=0.05)  # two sliders in a row may stand for the law of Dahl
+    assert diagnosis.as_dict()["rmse"]["after"]["held_out"] == pytest.approx(2.0, rel=0.1)
     assert causes["gain"]["place"] is None
     assert numbers(causes["gain"]) == pytest.approx({"gain error of second@platform_right": 0.05}, rel=0.05)
 
