@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.steady import STEADY
 from dashpot.fit.enough_steps import EnoughSteps, Team
+from dashpot.fit.last_moved import LastMoved
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.shelf import Shelf
 from dashpot.kernel.columns import Rows
@@ -63,6 +64,7 @@ class Objective:
         self.steps = EnoughSteps(network, self.runs)
         # no methods of its own: what is large goes with the last reference, not when garbage is collected
         self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
+        self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -122,6 +124,9 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+        return self.moved(team, values, moves, partial(self._solved_moved, values, moves, team))
+
+    def _solved_moved(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
         lanes = np.concatenate([values[None], values + moves])
         solution = self._solution(team, lanes)
         if not self.steps.tell(team, solution, values):

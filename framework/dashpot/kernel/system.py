@@ -34,6 +34,7 @@ WIDTH = LANES  # of a group
 HALVED = 3.0  # times the error of the short steps is that by which the long ones differ, at an order of two
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
+PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
 
 
@@ -135,7 +136,9 @@ class CompiledSystem(Compiled[SystemRows]):
                 )
                 return Piece(first, end, coarse, fine)
 
-            return Pieces(excitation.samples, max(PIECE // pairs, 1), pairs * excitation.samples <= KEPT, make)
+            size = max(PIECE // pairs, 1)
+            begin = min(PROBE, size) if quick else size
+            return Pieces(excitation.samples, begin, size, pairs * excitation.samples <= KEPT, make)
 
         quick = pieces(pairs, True) if self.quick and self.system.pace else None
         return SystemRows(excitation, pairs, still, pieces(PAIR * pairs, False), quick)
@@ -230,13 +233,21 @@ class CompiledSystem(Compiled[SystemRows]):
         if run.quick is None or self.system.pace is None:
             return self._march(run, lanes, scoring, False)
         found = self._march(run, lanes, scoring, True)
-        pace = np.concatenate([block.workspace[1, self.system.row(self.system.pace)] for block in found.blocks])
-        sound = (found.status == 0.0) & (pace[: lanes.shape[0]] <= 1.0)
+        sound = (found.status == 0.0) & self._slow_enough(found.blocks)
         sound &= np.isfinite(found.out if scoring else found.miss).all(axis=1)
         return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, False))
 
+    def _slow_enough(self, blocks: Sequence[Block]) -> NDArray[np.bool_]:
+        """Which lanes (lanes,) have been slow enough for steps of high order so far."""
+        assert self.system.pace is not None
+        row = self.system.row(self.system.pace)
+        return np.concatenate([block.workspace[1, row, : block.count] <= 1.0 for block in blocks])
+
     def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, quick: bool) -> _Marched:
-        """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores."""
+        """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores.
+
+        With ``quick`` steps the march ends as soon as every lane has been too fast for them.
+        """
         blocks, driven = tuple(self._blocks(run, lanes, quick)), len(self.outputs)
         totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
         states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
@@ -265,6 +276,8 @@ class CompiledSystem(Compiled[SystemRows]):
                 )
                 if scoring is None:
                     out[block.place, :, own] = answer[:, :, : block.count].transpose(2, 1, 0)
+            if quick and not self._slow_enough(blocks).any():
+                break
         count = lanes.shape[0]
         scores = _of_lanes(totals, count).T
         return _Marched(

@@ -41,8 +41,9 @@ from dashpot.fit.study.references import require_references
 from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.fit.without_tire import MassWithoutTire, masses_without_tire
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import finished, result_of
+from dashpot.kernel.workers import finished, result_of, threads
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
@@ -58,6 +59,7 @@ class ModelResult:
 
     ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them. ``owed`` says
     for each part, and ``owed_to_known`` for each number known from elsewhere, how far its error moves the parameters.
+    ``without_tire`` are the masses of wheels as their own measured motion tells them.
     """
 
     setting: Setting
@@ -68,6 +70,7 @@ class ModelResult:
     profiles: tuple[Profile, ...]
     owed: tuple[Owed, ...] = ()
     owed_to_known: tuple[OwedToKnown, ...] = ()
+    without_tire: tuple[MassWithoutTire, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,6 +268,7 @@ class _Conduct:
             self._profiles(plan, objective, coordinates),
             owed,
             to_known,
+            tuple(masses_without_tire(fit.fitted, self.setting.train_runs, threads(self.jobs))),
         )
 
     def _resampled(

@@ -16,12 +16,13 @@ from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_beside_priors
-from dashpot.fit.refine import OWN_METHOD, Loss, Outcome, Refined
+from dashpot.fit.refine import OWN_METHOD, Outcome, Refined, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
-from dashpot.fit.starts import refine_from_starts
+from dashpot.fit.starts import LAST_STEPS, RESERVED, refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
+from dashpot.fit.thinned import thinned
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.workers import pieces, threads
 from dashpot.model.network import NetworkSpec
@@ -79,14 +80,12 @@ def search(
         return spec, _nothing(stage, objective, coordinates)
     if stage.optimizer == OWN_METHOD and stage.starts == 1:
         whole = refinement(spec, objective, stage.frees)
-        known = _recorded(record(0), lambda keep: _refine(whole, objective, stage, task.noise))
+        known = _recorded(record(0), lambda keep: _refine(spec, objective, stage, task))
         return whole.at(np.array(known["point"])), _summed(stage, whole.coordinates, [known])
-    loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
     if stage.optimizer == OWN_METHOD:
-        found = [
-            _recorded(record(0), lambda keep: _refine_starts(objective, loss, coordinates, stage, task.seed, watch))
-        ]
+        found = [_recorded(record(0), lambda keep: _refine_starts(spec, objective, coordinates, stage, task, watch))]
     else:
+        loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
         here = isinstance(task.jobs, int)
         shared = (stage, replace(task, jobs=1), loss, coordinates, watch if here else _unwatched)
         found = pieces(_start, shared, [(number, record(number)) for number in range(stage.starts)], task.jobs)
@@ -142,20 +141,47 @@ def _start(
     return _recorded(kept, work)
 
 
-def _refine(whole: Refinement, objective: Objective, stage: SearchStage, noise: float | None) -> dict[str, Any]:
-    """The framework's own method from one start."""
-    refined, _ = refine_beside_priors(whole, objective, stage.budget, noise, budget=stage.budget)
-    return _own_result(refined, refined.evaluations, ((refined.evaluations, refined.loss),), (refined.loss,))
+def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: Task) -> dict[str, Any]:
+    """The framework's own method from one start: on thinned runs as far as they lead, then on all samples."""
+    spent, sparse = 0, _thinned(objective)
+    if sparse:
+        part = refinement(spec, sparse, stage.frees)
+        begun, _ = refine_beside_priors(part, sparse, stage.budget, task.noise, budget=stage.budget - RESERVED)
+        spent, spec = begun.evaluations, part.at(begun.point)
+    whole = refinement(spec, objective, stage.frees)
+    refined, _ = refine_beside_priors(whole, objective, stage.budget, task.noise, budget=stage.budget - spent)
+    spent += refined.evaluations
+    return _own_result(refined, spent, ((spent, refined.loss),), (refined.loss,))
 
 
 def _refine_starts(
-    objective: Objective, whole: Loss, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
+    spec: NetworkSpec, objective: Objective, coordinates: Coordinates, stage: SearchStage, task: Task, watch: Watch
 ) -> dict[str, Any]:
-    """The framework's own method from several starts."""
+    """The framework's own method from several starts, on thinned runs; the best of them on all samples."""
+    sparse, error = _thinned(objective), first_error(task.noise, task.swing)
+    searched = sparse or objective
     best = refine_from_starts(
-        objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget, whole
+        searched,
+        coordinates,
+        task.seed,
+        lambda done, loss: watch(int(done * stage.budget), loss),
+        stage.budget - (RESERVED if sparse else 0),
+        beside_priors(searched, spec, error),
     )
-    return _own_result(best.refined, best.evaluations, best.history, best.spread)
+    if not sparse:
+        return _own_result(best.refined, best.evaluations, best.history, best.spread)
+    whole, left = beside_priors(objective, spec, error), stage.budget - best.evaluations
+    refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=left)
+    spent = best.evaluations + refined.evaluations
+    return _own_result(refined, spent, (*best.history, (spent, refined.loss)), (refined.loss, *best.spread[1:]))
+
+
+def _thinned(objective: Objective) -> Objective | None:
+    """The same on thinned runs; None where no run has more samples than it needs."""
+    runs = thinned(objective.runs)
+    if all(one is other for one, other in zip(runs, objective.runs, strict=True)):
+        return None
+    return Objective(objective.network, runs, objective.jobs, weights=objective.shares.tolist())
 
 
 def _own_result(
