@@ -128,9 +128,9 @@ class Objective:
 
     def _solved_moved(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
         lanes = np.concatenate([values[None], values + moves])
-        solution = self._solution(team, lanes)
+        solution = self._solved_around(team, lanes)
         if not self.steps.tell(team, solution, values):
-            solution = self._solution(team, lanes)
+            solution = self._solved_around(team, lanes)
         for number, force in self._shown(team, lanes, solution):
             run = self.runs[number]
             found = np.array(force[:, run.first :])
@@ -239,9 +239,17 @@ class Objective:
         yield from self._shown(team, values, self._solution(team, values))
 
     def _solution(self, team: Team, values: Array) -> Solution:
+        network, rows = self._system(team)
+        return network.solve(rows, values)
+
+    def _solved_around(self, team: Team, lanes: Array) -> Solution:
+        network, rows = self._system(team)
+        return network.solve_around(rows, lanes)
+
+    def _system(self, team: Team) -> tuple[CompiledSystem, SystemRows]:
         rows = self._rows(team)
         assert isinstance(self.network, CompiledSystem) and isinstance(rows, SystemRows)
-        return self.network.solve(rows, values)
+        return self.network, rows
 
     def _shown(self, team: Team, values: Array, solution: Solution) -> Iterator[tuple[int, Array]]:
         # what the load cells show of a solution

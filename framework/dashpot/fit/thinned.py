@@ -16,6 +16,7 @@ from dashpot.data.drive import Drive, drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.data.resample import decimate
 from dashpot.data.steady import STEADY
+from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
@@ -38,6 +39,14 @@ def thinned(runs: Sequence[ScoredRun]) -> list[ScoredRun]:
     """The runs at ``SAMPLES`` a period of the highest frequency driven, those that have fewer as they are."""
     highest = highest_frequency(runs)
     return [_every(run, int(1.0 / (SAMPLES * highest * run.drive.dt))) for run in runs]
+
+
+def thinned_objective(objective: Objective) -> Objective | None:
+    """The same on thinned runs, on which a descent may begin; None where no run has more samples than that."""
+    runs = thinned(objective.runs)
+    if all(one is other for one, other in zip(runs, objective.runs, strict=True)):
+        return None
+    return Objective(objective.network, runs, objective.jobs, weights=objective.shares.tolist())
 
 
 def _every(run: ScoredRun, step: int) -> ScoredRun:

@@ -18,6 +18,7 @@ from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import system_of
 from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
+from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course
 from dashpot.kernel.ir.layout import LANES
 from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
 from dashpot.kernel.pieces import Piece, Pieces, SystemRows
@@ -35,6 +36,7 @@ HALVED = 3.0  # times the error of the short steps is that by which the long one
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
 PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
+LONG_ENOUGH = 5e-3  # of the swing of a force: what long steps may be off by where they tell derivatives, to 2 % or so
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
 
 
@@ -165,8 +167,36 @@ class CompiledSystem(Compiled[SystemRows]):
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
+        return self._solution(run, self._answered(run, self._lanes(run, values), None))
+
+    def solve_around(self, run: SystemRows, values: Array) -> Solution:
+        """The same for lanes (lanes, slots) that hardly differ from the first one, for what they change.
+
+        All take the same steps, so that differences from the first lane are derivatives. Where these steps are not of
+        high order and the long ones do nearly as well as the short ones, only the first lane is solved as by itself:
+        the others differ from it by what the long steps alone tell.
+        """
+        lanes = self._lanes(run, values)
+        if self._has_quick(run):
+            found = self._march(run, lanes, None, QUICK)
+            if self._sound(found).all():
+                return self._solution(run, found)
+        first = self._march(run, lanes[:1], None, EXTRAPOLATED)
+        if self._long_steps_do(run, first):
+            found = self._march(run, lanes, None, LONG_ALONE)
+            if not found.status.any() and np.isfinite(found.out).all():
+                found.out[:] += first.out - found.out[:1]
+                found.miss[:] = first.miss
+                return self._solution(run, found)
+        return self._solution(run, self._march(run, lanes, None, EXTRAPOLATED))
+
+    def _long_steps_do(self, run: SystemRows, found: _Marched) -> bool:
+        """Whether the forces of a lane differ little between long and short steps, as a share of how they vary."""
+        swing = np.std(found.out[0, : len(self.outputs)], axis=1)
+        return bool((np.sqrt(found.miss[0] / run.excitation.samples) <= LONG_ENOUGH * swing).all())
+
+    def _solution(self, run: SystemRows, found: _Marched) -> Solution:
         driven, unknown = self.outputs, self.topology.unknown
-        found = self._answered(run, self._lanes(run, values), None)
         force, motion = found.out[:, : len(driven)], found.out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
             motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
@@ -198,7 +228,7 @@ class CompiledSystem(Compiled[SystemRows]):
         """
         lanes = self._lanes(run, values)
         zeros = np.zeros((run.excitation.samples, len(self.outputs)))
-        found = self._march(run, lanes, (zeros, zeros), False)
+        found = self._march(run, lanes, (zeros, zeros), EXTRAPOLATED)
         rows = np.concatenate([block.workspace[..., : block.count] for block in found.blocks], axis=2)
         return {name: rows[:, self.system.row(name)] for name in self.program.states}, found.status
 
@@ -230,12 +260,19 @@ class CompiledSystem(Compiled[SystemRows]):
 
     def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> _Marched:
         """The answers of all lanes: by quick steps where these are sound, by the others where not."""
-        if run.quick is None or self.system.pace is None:
-            return self._march(run, lanes, scoring, False)
-        found = self._march(run, lanes, scoring, True)
-        sound = (found.status == 0.0) & self._slow_enough(found.blocks)
-        sound &= np.isfinite(found.out if scoring else found.miss).all(axis=1)
-        return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, False))
+        if not self._has_quick(run):
+            return self._march(run, lanes, scoring, EXTRAPOLATED)
+        found = self._march(run, lanes, scoring, QUICK_ALONE if scoring else QUICK)
+        sound = self._sound(found)
+        return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, EXTRAPOLATED))
+
+    def _has_quick(self, run: SystemRows) -> bool:
+        return run.quick is not None and self.system.pace is not None
+
+    def _sound(self, found: _Marched) -> NDArray[np.bool_]:
+        """Which lanes (lanes,) went well by steps of high order."""
+        finite = np.isfinite(found.out if found.out.ndim == 2 else found.miss).all(axis=1)
+        return (found.status == 0.0) & self._slow_enough(found.blocks) & finite
 
     def _slow_enough(self, blocks: Sequence[Block]) -> NDArray[np.bool_]:
         """Which lanes (lanes,) have been slow enough for steps of high order so far."""
@@ -243,24 +280,23 @@ class CompiledSystem(Compiled[SystemRows]):
         row = self.system.row(self.system.pace)
         return np.concatenate([block.workspace[1, row, : block.count] <= 1.0 for block in blocks])
 
-    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, quick: bool) -> _Marched:
+    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, course: Course) -> _Marched:
         """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores.
 
-        With ``quick`` steps the march ends as soon as every lane has been too fast for them.
+        By steps of high order the march ends as soon as every lane has been too fast for them.
         """
-        blocks, driven = tuple(self._blocks(run, lanes, quick)), len(self.outputs)
+        blocks, driven = tuple(self._blocks(run, lanes, course)), len(self.outputs)
         totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
         states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
         out = np.empty((lanes.shape[0], rows, 0 if scoring else run.excitation.samples))
-        for piece in (run.quick if quick else None) or run.pieces:
+        for piece in course.pieces(run):
             own = slice(piece.first, piece.end)
             answer = np.empty((0 if scoring else piece.end - piece.first, rows, WIDTH))
             for block, total, miss, state in zip(blocks, totals, misses, states, strict=True):
                 self.native(lanes.shape[0] == 1)(
                     run.still,
-                    piece.coarse,
-                    piece.fine,
-                    run.steps(quick),
+                    *course.columns(piece),
+                    course.steps(run),
                     piece.end - piece.first,
                     block.workspace,
                     state,
@@ -271,12 +307,12 @@ class CompiledSystem(Compiled[SystemRows]):
                     miss,
                     int(scoring is not None),
                     int(piece.first == 0),
-                    int(quick),
+                    course.code,
                     block.count,
                 )
                 if scoring is None:
                     out[block.place, :, own] = answer[:, :, : block.count].transpose(2, 1, 0)
-            if quick and not self._slow_enough(blocks).any():
+            if course.quick and not self._slow_enough(blocks).any():
                 break
         count = lanes.shape[0]
         scores = _of_lanes(totals, count).T
@@ -284,8 +320,8 @@ class CompiledSystem(Compiled[SystemRows]):
             out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks
         )
 
-    def _blocks(self, run: SystemRows, lanes: Array, quick: bool) -> Iterator[Block]:
-        step = run.excitation.dt / run.steps(quick)
+    def _blocks(self, run: SystemRows, lanes: Array, course: Course) -> Iterator[Block]:
+        step = run.excitation.dt / course.steps(run)
         workspace = np.stack([self._fill(self.system.rows, dt, lanes) for dt in (step, 0.5 * step)])
         return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 

@@ -22,9 +22,9 @@ from dashpot.fit.search import Ending, run_search
 from dashpot.fit.starts import LAST_STEPS, RESERVED, refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
-from dashpot.fit.thinned import thinned
+from dashpot.fit.thinned import thinned_objective
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import pieces, threads
+from dashpot.kernel.workers import pieces
 from dashpot.model.network import NetworkSpec
 
 if TYPE_CHECKING:
@@ -55,6 +55,7 @@ class StageResult:
 class Task:
     """What a search works on: the runs with their weights, the seed, the workers, the optimizers.
 
+    ``jobs`` do the starts of a plugged-in optimizer, ``threads`` of this process all else.
     ``noise`` (N) is known or not, and ``swing`` (N) that of the forces; both weigh priors.
     """
 
@@ -62,6 +63,7 @@ class Task:
     weights: Sequence[float]
     seed: int
     jobs: Jobs
+    threads: int
     known: Mapping[str, type[Optimizer]]
     noise: float | None
     swing: float
@@ -75,7 +77,7 @@ def search(
     KeyboardInterrupt leaves the records as far as they came.
     """
     coordinates = search_coordinates(spec, stage.frees)
-    objective = Objective(compile_network(spec), task.runs, threads(task.jobs), weights=task.weights)
+    objective = Objective(compile_network(spec), task.runs, task.threads, weights=task.weights)
     if not coordinates.paths:
         return spec, _nothing(stage, objective, coordinates)
     if stage.optimizer == OWN_METHOD and stage.starts == 1:
@@ -87,7 +89,7 @@ def search(
     else:
         loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
         here = isinstance(task.jobs, int)
-        shared = (stage, replace(task, jobs=1), loss, coordinates, watch if here else _unwatched)
+        shared = (stage, replace(task, jobs=1, threads=1), loss, coordinates, watch if here else _unwatched)
         found = pieces(_start, shared, [(number, record(number)) for number in range(stage.starts)], task.jobs)
     found = sorted(found, key=lambda each: each["loss"])
     fitted = with_point(spec, coordinates, np.array(found[0]["point"]))
@@ -143,7 +145,7 @@ def _start(
 
 def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: Task) -> dict[str, Any]:
     """The framework's own method from one start: on thinned runs as far as they lead, then on all samples."""
-    spent, sparse = 0, _thinned(objective)
+    spent, sparse = 0, thinned_objective(objective)
     if sparse:
         part = refinement(spec, sparse, stage.frees)
         begun, _ = refine_beside_priors(part, sparse, stage.budget, task.noise, budget=stage.budget - RESERVED)
@@ -158,7 +160,7 @@ def _refine_starts(
     spec: NetworkSpec, objective: Objective, coordinates: Coordinates, stage: SearchStage, task: Task, watch: Watch
 ) -> dict[str, Any]:
     """The framework's own method from several starts, on thinned runs; the best of them on all samples."""
-    sparse, error = _thinned(objective), first_error(task.noise, task.swing)
+    sparse, error = thinned_objective(objective), first_error(task.noise, task.swing)
     searched = sparse or objective
     best = refine_from_starts(
         searched,
@@ -174,14 +176,6 @@ def _refine_starts(
     refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=left)
     spent = best.evaluations + refined.evaluations
     return _own_result(refined, spent, (*best.history, (spent, refined.loss)), (refined.loss, *best.spread[1:]))
-
-
-def _thinned(objective: Objective) -> Objective | None:
-    """The same on thinned runs; None where no run has more samples than it needs."""
-    runs = thinned(objective.runs)
-    if all(one is other for one, other in zip(runs, objective.runs, strict=True)):
-        return None
-    return Objective(objective.network, runs, objective.jobs, weights=objective.shares.tolist())
 
 
 def _own_result(
