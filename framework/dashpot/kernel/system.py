@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cached_property, partial
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +37,7 @@ HALVED = 3.0  # times the error of the short steps is that by which the long one
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
 PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
-LONG_ENOUGH = 5e-3  # of the swing of a force: what long steps may be off by where they tell derivatives, to 2 % or so
+LONG_ENOUGH = 1e-2  # of the swing of a force: what long steps may be off by where they tell derivatives, to 3 % or so
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
 
 
@@ -265,6 +266,13 @@ class CompiledSystem(Compiled[SystemRows]):
         found = self._march(run, lanes, scoring, QUICK_ALONE if scoring else QUICK)
         sound = self._sound(found)
         return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, EXTRAPOLATED))
+
+    def takes_high_order(self, run: SystemRows, values: Array | None = None) -> bool:
+        """Whether a lane (slots,) takes steps of high order, as the begin of a record tells."""
+        if not self._has_quick(run):
+            return False
+        begin = replace(run, quick=list(islice(run.quick or (), 1)))
+        return bool(self._slow_enough(self._march(begin, self._lanes(run, values), None, QUICK).blocks).all())
 
     def _has_quick(self, run: SystemRows) -> bool:
         return run.quick is not None and self.system.pace is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.begin_at_wheels import begin_at_wheels
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
@@ -19,7 +21,7 @@ from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_bes
 from dashpot.fit.refine import OWN_METHOD, Outcome, Refined, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
-from dashpot.fit.starts import LAST_STEPS, RESERVED, refine_from_starts
+from dashpot.fit.starts import LAST_STEPS, refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
 from dashpot.fit.thinned import thinned_objective
@@ -144,12 +146,16 @@ def _start(
 
 
 def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: Task) -> dict[str, Any]:
-    """The framework's own method from one start: on thinned runs as far as they lead, then on all samples."""
-    spent, sparse = 0, thinned_objective(objective)
+    """The framework's own method from one start: at the wheels, on thinned runs as far as they lead, on all samples.
+
+    Parameter vectors on thinned runs count by the share of the samples that these have.
+    """
+    sparse = thinned_objective(objective)
+    spec, spent = begin_at_wheels(spec, sparse or objective, stage.frees)
     if sparse:
         part = refinement(spec, sparse, stage.frees)
-        begun, _ = refine_beside_priors(part, sparse, stage.budget, task.noise, budget=stage.budget - RESERVED)
-        spent, spec = begun.evaluations, part.at(begun.point)
+        begun, _ = refine_beside_priors(part, sparse, stage.budget, task.noise, budget=stage.budget)
+        spent, spec = _counted(spent + begun.evaluations, sparse, objective), part.at(begun.point)
     whole = refinement(spec, objective, stage.frees)
     refined, _ = refine_beside_priors(whole, objective, stage.budget, task.noise, budget=stage.budget - spent)
     spent += refined.evaluations
@@ -167,15 +173,22 @@ def _refine_starts(
         coordinates,
         task.seed,
         lambda done, loss: watch(int(done * stage.budget), loss),
-        stage.budget - (RESERVED if sparse else 0),
+        stage.budget,
         beside_priors(searched, spec, error),
     )
     if not sparse:
         return _own_result(best.refined, best.evaluations, best.history, best.spread)
-    whole, left = beside_priors(objective, spec, error), stage.budget - best.evaluations
-    refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=left)
-    spent = best.evaluations + refined.evaluations
-    return _own_result(refined, spent, (*best.history, (spent, refined.loss)), (refined.loss, *best.spread[1:]))
+    whole, spent = beside_priors(objective, spec, error), _counted(best.evaluations, sparse, objective)
+    refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=stage.budget - spent)
+    history = [(_counted(count, sparse, objective), loss) for count, loss in best.history]
+    spread = whole.losses(coordinates.to_values(best.ends)).tolist()
+    spent += refined.evaluations
+    return _own_result(refined, spent, (*history, (spent, refined.loss)), spread)
+
+
+def _counted(vectors: int, sparse: Objective, objective: Objective) -> int:
+    """As how many parameter vectors on all samples those on thinned runs count."""
+    return ceil(vectors * sparse.total / objective.total)
 
 
 def _own_result(
