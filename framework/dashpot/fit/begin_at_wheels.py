@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 
@@ -28,7 +29,7 @@ STEPS = 12
 def begin_at_wheels(
     spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool]
 ) -> tuple[NetworkSpec, int]:
-    """The network with the ``chosen`` parameters as the wheels tell them, and how many parameter vectors that took.
+    """The network with the ``chosen`` parameters as the wheels tell them, and as how many parameter vectors that counts.
 
     The network as it is where that has no lower loss, where it has no wheels, and where a run does not have the motion
     of every wheel.
@@ -43,12 +44,13 @@ def begin_at_wheels(
     if not coordinates.paths:
         return spec, 0
     behind = Objective(compile_network(cut), scored, objective.jobs, weights=objective.shares.tolist())
-    found = refine(thinned_objective(behind) or behind, coordinates, coordinates.start, STEPS)
+    sparse = thinned_objective(behind) or behind
+    found = refine(sparse, coordinates, coordinates.start, STEPS)
     told = {slot.path: slot.value for slot in with_point(cut, coordinates, found.point).slots()}
     begun = spec.with_values({path: told[path] for path in coordinates.paths})
     lanes = np.array([[slot.value.number for slot in each.slots()] for each in (spec, begun)])
     before, after = objective.losses(lanes)
-    return (begun if after < before else spec), found.evaluations
+    return (begun if after < before else spec), ceil(found.evaluations * sparse.total / behind.total)
 
 
 def _at_wheel(run: ScoredRun, wheels: dict[str, str]) -> ScoredRun | None:

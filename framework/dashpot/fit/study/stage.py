@@ -17,7 +17,7 @@ from dashpot.fit.begin_at_wheels import begin_at_wheels
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
-from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_beside_priors
+from dashpot.fit.prior import WithPriors, beside_priors, first_error, priors_of, refine_beside_priors
 from dashpot.fit.refine import OWN_METHOD, Outcome, Refined, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Watch = Callable[[int, float], None]
+
+LED = 1e-3  # of the loss in a step: a smaller fall on thinned runs leads no further than one on all samples
 
 
 @dataclass(frozen=True)
@@ -146,16 +148,17 @@ def _start(
 
 
 def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: Task) -> dict[str, Any]:
-    """The framework's own method from one start: at the wheels, on thinned runs as far as they lead, on all samples.
+    """The framework's own method from one start, after a few steps on thinned runs, or at wheels that were measured.
 
     Parameter vectors on thinned runs count by the share of the samples that these have.
     """
-    sparse = thinned_objective(objective)
-    spec, spent = begin_at_wheels(spec, sparse or objective, stage.frees)
+    begun, spent = begin_at_wheels(spec, objective, stage.frees)
+    sparse = thinned_objective(objective) if begun is spec and priors_of(spec) is None else None
+    spec = begun
     if sparse:
         part = refinement(spec, sparse, stage.frees)
-        begun, _ = refine_beside_priors(part, sparse, stage.budget, task.noise, budget=stage.budget)
-        spent, spec = _counted(spent + begun.evaluations, sparse, objective), part.at(begun.point)
+        led = refine(part.loss, part.coordinates, part.coordinates.start, stage.budget, LED, budget=stage.budget)
+        spent, spec = spent + _counted(led.evaluations, sparse, objective), part.at(led.point)
     whole = refinement(spec, objective, stage.frees)
     refined, _ = refine_beside_priors(whole, objective, stage.budget, task.noise, budget=stage.budget - spent)
     spent += refined.evaluations
