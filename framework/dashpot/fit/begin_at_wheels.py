@@ -26,10 +26,8 @@ from dashpot.model.network import NetworkSpec, Slot
 STEPS = 12
 
 
-def begin_at_wheels(
-    spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool]
-) -> tuple[NetworkSpec, int]:
-    """The network with the ``chosen`` parameters as the wheels tell them, and as how many parameter vectors that counts.
+def begin_at_wheels(spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool]) -> tuple[NetworkSpec, int]:
+    """The network with the ``chosen`` parameters as the wheels tell them, and how many vectors that counts as.
 
     The network as it is where that has no lower loss, where it has no wheels, and where a run does not have the motion
     of every wheel.

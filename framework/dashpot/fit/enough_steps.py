@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork
-from dashpot.kernel.system import CompiledSystem, Solution
+from dashpot.kernel.solution import Solution
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.within import TOLERANCE, steps_within, told_error
 
 Array = NDArray[np.float64]

@@ -28,9 +28,7 @@ class LastMoved(Generic[Key]):
         self._room = ROOM / max(keys, 1)
         self._kept: dict[Key, tuple[Array, Array, list[Rows]]] = {}
 
-    def __call__(
-        self, key: Key, values: Array, moves: Array, make: Callable[[], Iterable[Rows]]
-    ) -> Iterator[Rows]:
+    def __call__(self, key: Key, values: Array, moves: Array, make: Callable[[], Iterable[Rows]]) -> Iterator[Rows]:
         """The rows of a key; they may be altered. Kept ones answer for the first of their moves, too."""
         known = self._kept.get(key)
         if known is None or not _begins_with(known, values, moves):

@@ -20,7 +20,8 @@ from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
 from dashpot.kernel.pieces import SystemRows
 from dashpot.kernel.scratch import Scratch
-from dashpot.kernel.system import CompiledSystem, Solution
+from dashpot.kernel.solution import Solution
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.workers import spread, streamed, threads
 from dashpot.model.network import NetworkSpec
 

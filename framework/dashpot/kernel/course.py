@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.kernel.block import Block
 from dashpot.kernel.pieces import Piece, SystemRows
 
 Array = NDArray[np.float64]
@@ -35,6 +36,25 @@ class Course:
     def steps(self, run: SystemRows) -> int:
         """How many long steps lie in a sample, half as many as short ones."""
         return run.steps(self.quick) // (2 if self.fewer else 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Marched:
+    """What came of a block of lanes: answers (lanes, ...), squared ``miss`` (lanes, driven nodes), codes (lanes,).
+
+    ``blocks`` are as they were after the last sample.
+    """
+
+    out: Array
+    miss: Array
+    status: Array
+    blocks: tuple[Block, ...]
+
+    def replaced(self, lanes: NDArray[np.bool_], other: Marched) -> Marched:
+        """The same with those of another march for some ``lanes``."""
+        for own, new in ((self.out, other.out), (self.miss, other.miss), (self.status, other.status)):
+            own[lanes] = new
+        return self
 
 
 EXTRAPOLATED = Course(quick=False, code=0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from enum import Enum
 from functools import cached_property, partial
 from itertools import islice
 
@@ -19,12 +18,13 @@ from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import system_of
 from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
-from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course
+from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course, Marched
 from dashpot.kernel.ir.layout import LANES
-from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, SystemProgram
 from dashpot.kernel.pieces import Piece, Pieces, SystemRows
 from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
 from dashpot.kernel.settings import used_settings, with_settings
+from dashpot.kernel.solution import HALVED, Solution, status_of
 from dashpot.kernel.targets.choice import Code, target
 from dashpot.kernel.workers import spread
 from dashpot.model.network import Characteristic, NetworkSpec
@@ -33,70 +33,11 @@ from dashpot.model.topology import Topology, topology_of
 Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
-HALVED = 3.0  # times the error of the short steps is that by which the long ones differ, at an order of two
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
 PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
 LONG_ENOUGH = 1e-2  # of the swing of a force: what long steps may be off by where they tell derivatives, to 3 % or so
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
-
-
-class Status(Enum):
-    """How a lane ended; the value is the message."""
-
-    GOOD = "solved"
-    UNSOLVED = "the forces at the inner nodes could not be balanced in some step"
-    UNBALANCED = "no static equilibrium was found at the begin of the record"
-    NOT_FINITE = "a force is not a finite number"
-
-
-_CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANCED}
-
-
-def status_of(code: float, answer: Array) -> Status:
-    """How a lane ended, from the code of the kernel and what it answered."""
-    return _CODES[int(code)] if np.isfinite(answer).all() else Status.NOT_FINITE
-
-
-@dataclass(frozen=True, eq=False)
-class _Marched:
-    """What came of a block of lanes: answers (lanes, ...), squared ``miss`` (lanes, driven nodes), codes (lanes,).
-
-    ``blocks`` are as they were after the last sample.
-    """
-
-    out: Array
-    miss: Array
-    status: Array
-    blocks: tuple[Block, ...]
-
-    def replaced(self, lanes: Array, other: _Marched) -> _Marched:
-        """The same with those of another march for some ``lanes``."""
-        for own, new in ((self.out, other.out), (self.miss, other.miss), (self.status, other.status)):
-            own[lanes] = new
-        return self
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Forces (lanes, driven nodes, samples) in N and motions (lanes, unknown nodes, samples) in m, of the nodes named.
-
-    ``error`` (lanes, driven nodes) in N is the estimated root mean square error of the forces, from halving the steps;
-    it is that of the short steps, also where their leading error is taken away. ``status`` is one for each lane.
-    """
-
-    driven: tuple[str, ...]
-    unknown: tuple[str, ...]
-    force: Array
-    motion: Array
-    error: Array
-    status: tuple[Status, ...]
-
-    @property
-    def solved_force(self) -> Array:
-        """The forces; NaN in lanes that failed."""
-        failed = np.array([status is not Status.GOOD for status in self.status])
-        return np.where(failed[:, None, None], np.nan, self.force) if failed.any() else self.force
 
 
 @dataclass(frozen=True)
@@ -191,12 +132,12 @@ class CompiledSystem(Compiled[SystemRows]):
                 return self._solution(run, found)
         return self._solution(run, self._march(run, lanes, None, EXTRAPOLATED))
 
-    def _long_steps_do(self, run: SystemRows, found: _Marched) -> bool:
+    def _long_steps_do(self, run: SystemRows, found: Marched) -> bool:
         """Whether the forces of a lane differ little between long and short steps, as a share of how they vary."""
         swing = np.std(found.out[0, : len(self.outputs)], axis=1)
         return bool((np.sqrt(found.miss[0] / run.excitation.samples) <= LONG_ENOUGH * swing).all())
 
-    def _solution(self, run: SystemRows, found: _Marched) -> Solution:
+    def _solution(self, run: SystemRows, found: Marched) -> Solution:
         driven, unknown = self.outputs, self.topology.unknown
         force, motion = found.out[:, : len(driven)], found.out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
@@ -259,7 +200,7 @@ class CompiledSystem(Compiled[SystemRows]):
         found = self._answered(run, self._lanes(run, values), (measured, weight))
         return np.where(found.status, np.nan, found.out.T)
 
-    def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> _Marched:
+    def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> Marched:
         """The answers of all lanes: by quick steps where these are sound, by the others where not."""
         if not self._has_quick(run):
             return self._march(run, lanes, scoring, EXTRAPOLATED)
@@ -277,7 +218,7 @@ class CompiledSystem(Compiled[SystemRows]):
     def _has_quick(self, run: SystemRows) -> bool:
         return run.quick is not None and self.system.pace is not None
 
-    def _sound(self, found: _Marched) -> NDArray[np.bool_]:
+    def _sound(self, found: Marched) -> NDArray[np.bool_]:
         """Which lanes (lanes,) went well by steps of high order."""
         finite = np.isfinite(found.out if found.out.ndim == 2 else found.miss).all(axis=1)
         return (found.status == 0.0) & self._slow_enough(found.blocks) & finite
@@ -288,7 +229,7 @@ class CompiledSystem(Compiled[SystemRows]):
         row = self.system.row(self.system.pace)
         return np.concatenate([block.workspace[1, row, : block.count] <= 1.0 for block in blocks])
 
-    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, course: Course) -> _Marched:
+    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, course: Course) -> Marched:
         """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores.
 
         By steps of high order the march ends as soon as every lane has been too fast for them.
@@ -324,9 +265,7 @@ class CompiledSystem(Compiled[SystemRows]):
                 break
         count = lanes.shape[0]
         scores = _of_lanes(totals, count).T
-        return _Marched(
-            out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks
-        )
+        return Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
 
     def _blocks(self, run: SystemRows, lanes: Array, course: Course) -> Iterator[Block]:
         step = run.excitation.dt / course.steps(run)

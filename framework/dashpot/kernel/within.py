@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.system import HALVED, CompiledSystem, Solution, Status
+from dashpot.kernel.solution import HALVED, Solution, Status
+from dashpot.kernel.system import CompiledSystem
 
 Array = NDArray[np.float64]
 

@@ -120,7 +120,9 @@ def test_lanes_that_are_all_too_fast_are_not_led_to_the_end_by_steps_of_high_ord
 
     run = stiff.prepare(driven())
     whole = stiff.solve(run, around(stiff)).force
-    monkeypatch.setattr(CompiledSystem, "_slow_enough", lambda self, blocks: np.zeros(sum(b.count for b in blocks), bool))
+    monkeypatch.setattr(
+        CompiledSystem, "_slow_enough", lambda self, blocks: np.zeros(sum(b.count for b in blocks), bool)
+    )
     assert np.array_equal(stiff.solve(run, around(stiff)).force, whole)
     monkeypatch.setattr(CompiledSystem, "_march", watched)
     assert np.array_equal(stiff.solve(run, around(stiff)).force, whole)

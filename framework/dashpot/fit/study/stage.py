@@ -15,7 +15,7 @@ from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.begin_at_wheels import begin_at_wheels
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
-from dashpot.fit.kept_curves import Refinement, refinement
+from dashpot.fit.kept_curves import refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.prior import WithPriors, beside_priors, first_error, priors_of, refine_beside_priors
 from dashpot.fit.refine import OWN_METHOD, Outcome, Refined, refine
