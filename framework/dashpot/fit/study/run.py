@@ -187,7 +187,9 @@ class _Conduct:
             else:
                 spec = take_numbers(spec, stage.take, train)
         parts = {branch: done[model] for branch, model in plan.parts.items()}
-        return self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results), parts)
+        found = self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results), parts)
+        masses = masses_without_tire(found.fit.fitted, self.setting.train_runs, self.here)
+        return replace(found, without_tire=tuple(masses))
 
     def _search(
         self, plan: ModelPlan, number: int, stage: SearchStage, spec: NetworkSpec
@@ -270,7 +272,6 @@ class _Conduct:
             self._profiles(plan, objective, coordinates),
             owed,
             to_known,
-            tuple(masses_without_tire(fit.fitted, self.setting.train_runs, self.here)),
         )
 
     def _resampled(
