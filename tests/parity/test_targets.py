@@ -20,7 +20,7 @@ from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
 from dashpot.kernel.jit import jit_network
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 from dashpot.model.network import NetworkSpec
 from dashpot.testing import random_drive
 

@@ -123,6 +123,14 @@ def kept(seed: int, cars: list[dict[str, Any]]) -> dict[str, Any]:
     return {"seed": seed, "cars": sorted(rows, key=lambda row: row["number"])}
 
 
+def earlier(file: Path | None, seed: int, numbers: range) -> list[dict[str, Any]]:
+    """The cars of these numbers that an earlier call has written into a file."""
+    if file is None or not file.exists():
+        return []
+    found = [json.loads(line) for line in file.read_text().splitlines()]
+    return list({car["number"]: car for car in found if car["seed"] == seed and car["number"] in numbers}.values())
+
+
 def holds(car: dict[str, Any]) -> bool:
     """Whether the interval holds the true mass."""
     low, high = answer(car)["interval"]
@@ -136,14 +144,16 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="number of the first car")
     parser.add_argument("--seed", type=int, default=None, help="drawn where it is not given, and printed")
     parser.add_argument("--jobs", type=int, default=1, help="cars at the same time")
-    parser.add_argument("--output", type=Path, help="a file for every car's result, as lines of JSON")
+    parser.add_argument("--output", type=Path, help="a file for every car's result, as lines; cars in it are done")
     parser.add_argument("--keep", type=Path, help="a JSON file for the true and the identified masses")
     asked = parser.parse_args()
     seed = secrets.randbelow(2**31) if asked.seed is None else asked.seed
     print(f"seed {seed}", flush=True)
-    cars = []
+    numbers = range(asked.first, asked.first + asked.cars)
+    cars = earlier(asked.output, seed, numbers)
+    left = sorted(set(numbers) - {car["number"] for car in cars})
     with ProcessPoolExecutor(asked.jobs, mp_context=get_context("spawn")) as pool:
-        waiting = [pool.submit(identify_car, seed, asked.first + number) for number in range(asked.cars)]
+        waiting = [pool.submit(identify_car, seed, number) for number in left]
         for each in as_completed(waiting):
             if each.exception():
                 print(*traceback.format_exception(each.exception()), flush=True)

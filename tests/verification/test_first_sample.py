@@ -7,7 +7,7 @@ import pytest
 from seeds import seed_of
 from verification.systems import excitation, lanes, system, times
 
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 
 # 2 mm sin(2 pi 5 Hz t): the acceleration is zero at first, the velocity is not
 OMEGA = 2.0 * np.pi * 5.0

@@ -11,7 +11,7 @@ from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.energy import energy_balance
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 from dashpot.model.reading import parse_network
 
 DT, HERTZ, LENGTH = 1e-3, 6.0, 2e-3

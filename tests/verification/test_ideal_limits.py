@@ -12,7 +12,7 @@ from verification.truth.motion import smooth_motion
 
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 from dashpot.kernel.within import TOLERANCE, solve_within
 
 PARTS = 500  # of a sample, in the closed form of a slider

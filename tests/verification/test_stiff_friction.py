@@ -12,7 +12,7 @@ from verification.systems import DT, excitation, lanes, rms, system, times
 from verification.truth.motion import Cosines, smooth_motion
 from verification.truth.slipping import slipping_force
 
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 from dashpot.model.element import Motion
 from dashpot_elements.stribeck import Stribeck
 

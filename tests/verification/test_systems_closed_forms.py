@@ -11,7 +11,7 @@ from verification.systems import drive_of, excitation, lanes, rms, system, times
 from verification.truth.linear import StateSpace
 from verification.truth.motion import smooth_motion
 
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 
 GRAVITY = 9.81
 LANES, MOTIONS, LANDINGS, IMPACTS = 24, 5, 24, 15

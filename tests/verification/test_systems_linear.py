@@ -9,7 +9,7 @@ from verification.linear_systems import LINEAR, QUARTER_CAR
 from verification.systems import excitation, lanes, rms, system, times
 from verification.truth.motion import Cosines, smooth_motion
 
-from dashpot.kernel.system import Status
+from dashpot.kernel.solution import Status
 
 SEED = seed_of("test_systems_linear")
 LANES, PAIRS = 48, (1, 2, 4)

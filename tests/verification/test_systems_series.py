@@ -9,7 +9,8 @@ from verification.systems import excitation, rms, system, times
 from verification.truth.motion import smooth_motion
 
 from dashpot import load_registry
-from dashpot.kernel.system import TOLERANCE, Status
+from dashpot.kernel.solution import Status
+from dashpot.kernel.system import TOLERANCE
 
 LANES = 24
 ELEMENTS = {

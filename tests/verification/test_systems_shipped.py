@@ -12,7 +12,8 @@ from verification.truth.motion import Cosines, smooth_motion
 from verification.truth.vehicle import axle_of, quarter_car_of
 
 from dashpot import load_registry
-from dashpot.kernel.system import CompiledSystem, Solution, Status
+from dashpot.kernel.solution import Solution, Status
+from dashpot.kernel.system import CompiledSystem
 from dashpot.model.reading import read_network
 from dashpot.model.shipped import shipped_networks
 from dashpot.model.topology import topology_of

@@ -121,12 +121,13 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
     records = folder.path / RECORDS
     if session.switches.force:
         Checkpoint(records).discard()
-    with session.workers() as jobs, session.watch("compiling") as progress:
+    with session.workers(parts=planned.together) as jobs, session.watch("compiling") as progress:
         result = run_study(
             planned,
             measured,
             registry=session.registry,
             jobs=jobs,
+            here=session.switches.jobs if session.switches.scheduler is None else 1,
             checkpoint=records,
             progress=progress,
         )

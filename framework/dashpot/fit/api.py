@@ -306,7 +306,7 @@ def _search(
     point = coordinates.from_cube(found.best)
     history = tuple((standing.evaluations, standing.loss) for standing in found.history)
     refined = refine(loss, coordinates, point, steps=0)
-    best = Best(refined, (found.loss,), found.evaluations, history)
+    best = Best(refined, (found.loss,), found.evaluations, history, point[None])
     return with_point(spec, coordinates, point), best
 
 

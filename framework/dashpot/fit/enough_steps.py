@@ -2,7 +2,8 @@
 
 It is known wherever a fit is linearised, of the lane it is linearised at: by how far its own long and short steps agree
 or, where they do not, by a solution with twice as many. All lanes of a block take the same steps,
-so that their differences are derivatives. Steps that were needed once stay. A search begins with what the numbers of
+so that their differences are derivatives. Steps that were needed once stay; what was measured to be enough is taken for
+enough where long and short steps agree as well. A search begins with what the numbers of
 the file need for a tenfold tolerance: it compares lanes that differ by more.
 """
 
@@ -15,8 +16,9 @@ from numpy.typing import NDArray
 
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork
-from dashpot.kernel.system import CompiledSystem, Solution
-from dashpot.kernel.within import TOLERANCE, steps_within, told_within
+from dashpot.kernel.solution import Solution
+from dashpot.kernel.system import CompiledSystem
+from dashpot.kernel.within import TOLERANCE, steps_within, told_error
 
 Array = NDArray[np.float64]
 
@@ -33,6 +35,7 @@ class EnoughSteps:
     def __init__(self, network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun]) -> None:
         self.network, self.runs = network, runs
         self._refine: dict[Team, int] = {}
+        self._enough: dict[Team, float] = {}
 
     def of(self, team: Team) -> int:
         """How many times as many steps as usual, for now."""
@@ -45,9 +48,10 @@ class EnoughSteps:
 
         If the solution does not tell, it is measured; then the steps may be more from now on.
         """
-        before = self.of(team)
-        if not told_within(solution):
+        before, told = self.of(team), told_error(solution)
+        if told > max(TOLERANCE, self._enough.get(team, 0.0)):
             self.suffice(team, values)
+            self._enough[team] = told if self.of(team) == before and np.isfinite(told) else 0.0
         return self.of(team) == before
 
     def suffice(self, team: Team, values: Array, tolerance: float = TOLERANCE) -> None:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.steady import STEADY
 from dashpot.fit.enough_steps import EnoughSteps, Team
+from dashpot.fit.last_moved import LastMoved
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.shelf import Shelf
 from dashpot.kernel.columns import Rows
@@ -19,7 +20,8 @@ from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
 from dashpot.kernel.pieces import SystemRows
 from dashpot.kernel.scratch import Scratch
-from dashpot.kernel.system import CompiledSystem, Solution
+from dashpot.kernel.solution import Solution
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.workers import spread, streamed, threads
 from dashpot.model.network import NetworkSpec
 
@@ -63,6 +65,7 @@ class Objective:
         self.steps = EnoughSteps(network, self.runs)
         # no methods of its own: what is large goes with the last reference, not when garbage is collected
         self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
+        self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -122,10 +125,13 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+        return self.moved(team, values, moves, partial(self._solved_moved, values, moves, team))
+
+    def _solved_moved(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
         lanes = np.concatenate([values[None], values + moves])
-        solution = self._solution(team, lanes)
+        solution = self._solved_around(team, lanes)
         if not self.steps.tell(team, solution, values):
-            solution = self._solution(team, lanes)
+            solution = self._solved_around(team, lanes)
         for number, force in self._shown(team, lanes, solution):
             run = self.runs[number]
             found = np.array(force[:, run.first :])
@@ -234,9 +240,17 @@ class Objective:
         yield from self._shown(team, values, self._solution(team, values))
 
     def _solution(self, team: Team, values: Array) -> Solution:
+        network, rows = self._system(team)
+        return network.solve(rows, values)
+
+    def _solved_around(self, team: Team, lanes: Array) -> Solution:
+        network, rows = self._system(team)
+        return network.solve_around(rows, lanes)
+
+    def _system(self, team: Team) -> tuple[CompiledSystem, SystemRows]:
         rows = self._rows(team)
         assert isinstance(self.network, CompiledSystem) and isinstance(rows, SystemRows)
-        return self.network.solve(rows, values)
+        return self.network, rows
 
     def _shown(self, team: Team, values: Array, solution: Solution) -> Iterator[tuple[int, Array]]:
         # what the load cells show of a solution

@@ -71,16 +71,19 @@ def refine(
     point = coordinates.allowed(start)[0]
     loss = float(objective.losses(coordinates.to_values(point))[0])
     spent, slack, hoped, trail = 1, 1.0, True, [point]
+    linear: Linear | None = None
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
         if budget is not None and spent + 1 + point.size + TRIED > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
-        linear = linearise(objective, coordinates, point)
+        if linear is None:
+            linear = linearise(objective, coordinates, point)
+            spent += 1 + point.size
         tries = candidates(linear, coordinates, point, slack, BOXES if thorough else ())
         tries = np.vstack([tries, *(leaps(coordinates, trail) if thorough else [])])
         losses = objective.losses(coordinates.to_values(tries))
-        spent += 1 + point.size + len(tries)
+        spent += len(tries)
         best = int(np.argmin(losses))
         watch(min(loss, float(losses[best])))
         if not losses[best] < loss:
@@ -89,7 +92,7 @@ def refine(
             slack *= 100.0
             continue
         strides = _strides(tries[best] - point, coordinates)
-        before, loss, point = loss, float(losses[best]), tries[best]
+        before, loss, point, linear = loss, float(losses[best]), tries[best], None
         slack = max(DAMPINGS[best] / 10.0, 1e-3) if best < len(DAMPINGS) else slack
         trail = [*trail[-PATIENCE:], point] if 1.0 - loss / before < CREEP else [point]
         if 1.0 - loss / before < tolerance:

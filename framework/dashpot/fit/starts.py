@@ -25,12 +25,16 @@ NEAR = 1.0  # scatter of starts around the file's, in natural steps: a factor of
 
 @dataclass(frozen=True, eq=False)
 class Best:
-    """The best refinement, the losses of all starts (best first), parameter vectors spent, best loss on the way."""
+    """The best refinement, the losses of all starts (best first), parameter vectors spent, best loss on the way.
+
+    ``ends`` (starts, p) are where the starts have led in their first steps, in the order of their losses.
+    """
 
     refined: Refined
     spread: tuple[float, ...]
     evaluations: int
     history: tuple[tuple[int, float], ...]
+    ends: Array
 
 
 def refine_from_starts(
@@ -51,7 +55,7 @@ def refine_from_starts(
     start, whole = coordinates.start, objective if loss is None else loss
     if start.size == 0:
         only = float(whole.losses(coordinates.to_values(start))[0])
-        return Best(refine(whole, coordinates, start), (only,), 1, ((1, only),))
+        return Best(refine(whole, coordinates, start), (only,), 1, ((1, only),), start[None])
     points = _scatter(coordinates, start, np.random.default_rng(seed))
     linear = dictionary_start(objective, coordinates) if budget is None else None
     if budget is not None:
@@ -73,7 +77,8 @@ def refine_from_starts(
     best = refine(whole, coordinates, ends[0].point, LAST_STEPS, budget=_left(budget, spent))
     spent += best.evaluations
     history.append((spent, best.loss))
-    return Best(best, tuple(end.loss for end in ends), spent, tuple(history))
+    places = np.array([end.point for end in ends])
+    return Best(best, tuple(end.loss for end in ends), spent, tuple(history), places)
 
 
 def _left(budget: int | None, spent: int) -> int | None:

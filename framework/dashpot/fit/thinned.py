@@ -16,16 +16,21 @@ from dashpot.data.drive import Drive, drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.data.resample import decimate
 from dashpot.data.steady import STEADY
+from dashpot.fit.enough_steps import Team
+from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
+from dashpot.kernel.system import CompiledSystem
 
+SLOW = ("quasi_static", "hold")
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
 END = 15  # samples at either end, over which the low-pass has to guess what is beyond: they do not count
+WORTHWHILE = 0.5  # of the samples: what a descent that begins on thinned runs must save
 FEWEST = 10 * END  # samples of a run that is decimated
 
 
 def largest_stroke(runs: Collection[ScoredRun]) -> float:
     """The largest stroke of a single dynamic run in m, of any run if there is no dynamic one."""
-    dynamic = [run for run in runs if run.kind not in ("quasi_static", "hold")]
+    dynamic = [run for run in runs if run.kind not in SLOW]
     return float(max(np.ptp(run.drive.displacement) for run in dynamic or runs))
 
 
@@ -36,8 +41,36 @@ def highest_frequency(runs: Collection[ScoredRun]) -> float:
 
 def thinned(runs: Sequence[ScoredRun]) -> list[ScoredRun]:
     """The runs at ``SAMPLES`` a period of the highest frequency driven, those that have fewer as they are."""
-    highest = highest_frequency(runs)
+    highest = highest_frequency(runs) if runs else 0.0
     return [_every(run, int(1.0 / (SAMPLES * highest * run.drive.dt))) for run in runs]
+
+
+def thinned_objective(objective: Objective) -> Objective | None:
+    """The same on thinned runs, on which a descent may begin; None where these have more than half of the samples.
+
+    Slow runs have as many samples as their own motion asks for. A run whose samples lie closely enough for steps of
+    high order stays as it is: fewer of them would take other steps, and no less time.
+    """
+    whole, runs = objective.runs, list(objective.runs)
+    for slow in (True, False):
+        some = [number for number, run in enumerate(whole) if (run.kind in SLOW) is slow]
+        for number, run in zip(some, thinned([whole[number] for number in some]), strict=True):
+            runs[number] = run
+    changed = [team for team in objective.teams if any(runs[number] is not whole[number] for number in team)]
+    for team in changed:
+        if _of_high_order(objective, team):
+            for number in team:
+                runs[number] = whole[number]
+    if sum(run.samples for run in runs) > WORTHWHILE * sum(run.samples for run in whole):
+        return None
+    return Objective(objective.network, runs, objective.jobs, weights=objective.shares.tolist())
+
+
+def _of_high_order(objective: Objective, team: Team) -> bool:
+    network = objective.network
+    return isinstance(network, CompiledSystem) and network.takes_high_order(
+        network.prepare(objective.runs[team[0]].excitation)
+    )
 
 
 def _every(run: ScoredRun, step: int) -> ScoredRun:

@@ -21,6 +21,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.refine import refine
 from dashpot.fit.scored import score_run
+from dashpot.fit.thinned import thinned_objective
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.model.network import MASSES, NetworkSpec
@@ -58,7 +59,10 @@ def masses_without_tire(fitted: NetworkSpec, runs: Sequence[Run], jobs: int = 1)
     places = {path: number for number, path in enumerate(coordinates.paths) if _is_mass(spec, path)}
     if not places:
         return []
-    found = refine(objective, coordinates, coordinates.start, steps=STEPS)
+    start, sparse = coordinates.start, thinned_objective(objective)
+    if sparse:
+        start = refine(sparse, coordinates, start, steps=STEPS).point
+    found = refine(objective, coordinates, start, steps=STEPS)
     known = assess_uncertainty(objective, coordinates, found.point)
     return [
         MassWithoutTire(

@@ -15,7 +15,8 @@ from dashpot.data.excitation import Excitation, settings_of
 from dashpot.data.run import Run
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.settings import require_settings
-from dashpot.kernel.system import CompiledSystem, Solution, Status
+from dashpot.kernel.solution import Solution, Status
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.within import TOLERANCE, solve_at, solve_within
 from dashpot.model.network import END, NetworkSpec
 from dashpot.model.reading import read_network

@@ -12,7 +12,8 @@ from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.compiler.mechanics import row_of
 from dashpot.kernel.compiler.meter import BEGIN, STORED, WORK, EnergyMeter, edge_row
-from dashpot.kernel.system import CompiledSystem, Status, compile_system, status_of
+from dashpot.kernel.solution import Status, status_of
+from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.model.network import NetworkSpec
 from dashpot.model.topology import topology_of
 

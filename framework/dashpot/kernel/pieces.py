@@ -51,9 +51,13 @@ class SystemRows:
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """The pieces of a record, made when they are asked for; those of a short one are ``kept``."""
+    """The pieces of a record, made when they are asked for; those of a short one are ``kept``.
+
+    Each has ``size`` samples but the first one, which has ``begin``, and the last one.
+    """
 
     samples: int
+    begin: int
     size: int
     kept: bool
     make: Callable[[int, int], Piece]
@@ -71,5 +75,8 @@ class Pieces:
         return tuple(self._made())
 
     def _made(self) -> Iterator[Piece]:
-        for first in range(0, self.samples, self.size):
-            yield self.make(first, min(first + self.size, self.samples))
+        first, end = 0, self.begin
+        while first < self.samples:
+            end = min(end, self.samples)
+            yield self.make(first, end)
+            first, end = end, end + self.size

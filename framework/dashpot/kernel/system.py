@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from enum import Enum
 from functools import cached_property, partial
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +18,13 @@ from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import system_of
 from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
+from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course, Marched
 from dashpot.kernel.ir.layout import LANES
-from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, UNBALANCED, UNSOLVED, SystemProgram
+from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, SystemProgram
 from dashpot.kernel.pieces import Piece, Pieces, SystemRows
 from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
 from dashpot.kernel.settings import used_settings, with_settings
+from dashpot.kernel.solution import HALVED, Solution, status_of
 from dashpot.kernel.targets.choice import Code, target
 from dashpot.kernel.workers import spread
 from dashpot.model.network import Characteristic, NetworkSpec
@@ -31,68 +33,11 @@ from dashpot.model.topology import Topology, topology_of
 Array = NDArray[np.float64]
 
 WIDTH = LANES  # of a group
-HALVED = 3.0  # times the error of the short steps is that by which the long ones differ, at an order of two
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
+PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
+LONG_ENOUGH = 1e-2  # of the swing of a force: what long steps may be off by where they tell derivatives, to 3 % or so
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
-
-
-class Status(Enum):
-    """How a lane ended; the value is the message."""
-
-    GOOD = "solved"
-    UNSOLVED = "the forces at the inner nodes could not be balanced in some step"
-    UNBALANCED = "no static equilibrium was found at the begin of the record"
-    NOT_FINITE = "a force is not a finite number"
-
-
-_CODES = {0: Status.GOOD, UNSOLVED: Status.UNSOLVED, UNBALANCED: Status.UNBALANCED}
-
-
-def status_of(code: float, answer: Array) -> Status:
-    """How a lane ended, from the code of the kernel and what it answered."""
-    return _CODES[int(code)] if np.isfinite(answer).all() else Status.NOT_FINITE
-
-
-@dataclass(frozen=True, eq=False)
-class _Marched:
-    """What came of a block of lanes: answers (lanes, ...), squared ``miss`` (lanes, driven nodes), codes (lanes,).
-
-    ``blocks`` are as they were after the last sample.
-    """
-
-    out: Array
-    miss: Array
-    status: Array
-    blocks: tuple[Block, ...]
-
-    def replaced(self, lanes: Array, other: _Marched) -> _Marched:
-        """The same with those of another march for some ``lanes``."""
-        for own, new in ((self.out, other.out), (self.miss, other.miss), (self.status, other.status)):
-            own[lanes] = new
-        return self
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Forces (lanes, driven nodes, samples) in N and motions (lanes, unknown nodes, samples) in m, of the nodes named.
-
-    ``error`` (lanes, driven nodes) in N is the estimated root mean square error of the forces, from halving the steps;
-    it is that of the short steps, also where their leading error is taken away. ``status`` is one for each lane.
-    """
-
-    driven: tuple[str, ...]
-    unknown: tuple[str, ...]
-    force: Array
-    motion: Array
-    error: Array
-    status: tuple[Status, ...]
-
-    @property
-    def solved_force(self) -> Array:
-        """The forces; NaN in lanes that failed."""
-        failed = np.array([status is not Status.GOOD for status in self.status])
-        return np.where(failed[:, None, None], np.nan, self.force) if failed.any() else self.force
 
 
 @dataclass(frozen=True)
@@ -135,7 +80,9 @@ class CompiledSystem(Compiled[SystemRows]):
                 )
                 return Piece(first, end, coarse, fine)
 
-            return Pieces(excitation.samples, max(PIECE // pairs, 1), pairs * excitation.samples <= KEPT, make)
+            size = max(PIECE // pairs, 1)
+            begin = min(PROBE, size) if quick else size
+            return Pieces(excitation.samples, begin, size, pairs * excitation.samples <= KEPT, make)
 
         quick = pieces(pairs, True) if self.quick and self.system.pace else None
         return SystemRows(excitation, pairs, still, pieces(PAIR * pairs, False), quick)
@@ -162,8 +109,36 @@ class CompiledSystem(Compiled[SystemRows]):
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
+        return self._solution(run, self._answered(run, self._lanes(run, values), None))
+
+    def solve_around(self, run: SystemRows, values: Array) -> Solution:
+        """The same for lanes (lanes, slots) that hardly differ from the first one, for what they change.
+
+        All take the same steps, so that differences from the first lane are derivatives. Where these steps are not of
+        high order and the long ones do nearly as well as the short ones, only the first lane is solved as by itself:
+        the others differ from it by what the long steps alone tell.
+        """
+        lanes = self._lanes(run, values)
+        if self._has_quick(run):
+            found = self._march(run, lanes, None, QUICK)
+            if self._sound(found).all():
+                return self._solution(run, found)
+        first = self._march(run, lanes[:1], None, EXTRAPOLATED)
+        if self._long_steps_do(run, first):
+            found = self._march(run, lanes, None, LONG_ALONE)
+            if not found.status.any() and np.isfinite(found.out).all():
+                found.out[:] += first.out - found.out[:1]
+                found.miss[:] = first.miss
+                return self._solution(run, found)
+        return self._solution(run, self._march(run, lanes, None, EXTRAPOLATED))
+
+    def _long_steps_do(self, run: SystemRows, found: Marched) -> bool:
+        """Whether the forces of a lane differ little between long and short steps, as a share of how they vary."""
+        swing = np.std(found.out[0, : len(self.outputs)], axis=1)
+        return bool((np.sqrt(found.miss[0] / run.excitation.samples) <= LONG_ENOUGH * swing).all())
+
+    def _solution(self, run: SystemRows, found: Marched) -> Solution:
         driven, unknown = self.outputs, self.topology.unknown
-        found = self._answered(run, self._lanes(run, values), None)
         force, motion = found.out[:, : len(driven)], found.out[:, len(driven) :]
         for joint, inner in self.topology.mounts.items():
             motion[:, unknown.index(inner)] += run.excitation.motions[joint].displacement
@@ -195,7 +170,7 @@ class CompiledSystem(Compiled[SystemRows]):
         """
         lanes = self._lanes(run, values)
         zeros = np.zeros((run.excitation.samples, len(self.outputs)))
-        found = self._march(run, lanes, (zeros, zeros), False)
+        found = self._march(run, lanes, (zeros, zeros), EXTRAPOLATED)
         rows = np.concatenate([block.workspace[..., : block.count] for block in found.blocks], axis=2)
         return {name: rows[:, self.system.row(name)] for name in self.program.states}, found.status
 
@@ -225,31 +200,52 @@ class CompiledSystem(Compiled[SystemRows]):
         found = self._answered(run, self._lanes(run, values), (measured, weight))
         return np.where(found.status, np.nan, found.out.T)
 
-    def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> _Marched:
+    def _answered(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None) -> Marched:
         """The answers of all lanes: by quick steps where these are sound, by the others where not."""
-        if run.quick is None or self.system.pace is None:
-            return self._march(run, lanes, scoring, False)
-        found = self._march(run, lanes, scoring, True)
-        pace = np.concatenate([block.workspace[1, self.system.row(self.system.pace)] for block in found.blocks])
-        sound = (found.status == 0.0) & (pace[: lanes.shape[0]] <= 1.0)
-        sound &= np.isfinite(found.out if scoring else found.miss).all(axis=1)
-        return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, False))
+        if not self._has_quick(run):
+            return self._march(run, lanes, scoring, EXTRAPOLATED)
+        found = self._march(run, lanes, scoring, QUICK_ALONE if scoring else QUICK)
+        sound = self._sound(found)
+        return found if sound.all() else found.replaced(~sound, self._march(run, lanes[~sound], scoring, EXTRAPOLATED))
 
-    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, quick: bool) -> _Marched:
-        """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores."""
-        blocks, driven = tuple(self._blocks(run, lanes, quick)), len(self.outputs)
+    def takes_high_order(self, run: SystemRows, values: Array | None = None) -> bool:
+        """Whether a lane (slots,) takes steps of high order, as the begin of a record tells."""
+        if not self._has_quick(run):
+            return False
+        begin = replace(run, quick=list(islice(run.quick or (), 1)))
+        return bool(self._slow_enough(self._march(begin, self._lanes(run, values), None, QUICK).blocks).all())
+
+    def _has_quick(self, run: SystemRows) -> bool:
+        return run.quick is not None and self.system.pace is not None
+
+    def _sound(self, found: Marched) -> NDArray[np.bool_]:
+        """Which lanes (lanes,) went well by steps of high order."""
+        finite = np.isfinite(found.out if found.out.ndim == 2 else found.miss).all(axis=1)
+        return (found.status == 0.0) & self._slow_enough(found.blocks) & finite
+
+    def _slow_enough(self, blocks: Sequence[Block]) -> NDArray[np.bool_]:
+        """Which lanes (lanes,) have been slow enough for steps of high order so far."""
+        assert self.system.pace is not None
+        row = self.system.row(self.system.pace)
+        return np.concatenate([block.workspace[1, row, : block.count] <= 1.0 for block in blocks])
+
+    def _march(self, run: SystemRows, lanes: Array, scoring: tuple[Array, Array] | None, course: Course) -> Marched:
+        """All lanes through the whole record; with ``scoring``, the measured forces and weights, they answer scores.
+
+        By steps of high order the march ends as soon as every lane has been too fast for them.
+        """
+        blocks, driven = tuple(self._blocks(run, lanes, course)), len(self.outputs)
         totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
         states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
         out = np.empty((lanes.shape[0], rows, 0 if scoring else run.excitation.samples))
-        for piece in (run.quick if quick else None) or run.pieces:
+        for piece in course.pieces(run):
             own = slice(piece.first, piece.end)
             answer = np.empty((0 if scoring else piece.end - piece.first, rows, WIDTH))
             for block, total, miss, state in zip(blocks, totals, misses, states, strict=True):
                 self.native(lanes.shape[0] == 1)(
                     run.still,
-                    piece.coarse,
-                    piece.fine,
-                    run.steps(quick),
+                    *course.columns(piece),
+                    course.steps(run),
                     piece.end - piece.first,
                     block.workspace,
                     state,
@@ -260,19 +256,19 @@ class CompiledSystem(Compiled[SystemRows]):
                     miss,
                     int(scoring is not None),
                     int(piece.first == 0),
-                    int(quick),
+                    course.code,
                     block.count,
                 )
                 if scoring is None:
                     out[block.place, :, own] = answer[:, :, : block.count].transpose(2, 1, 0)
+            if course.quick and not self._slow_enough(blocks).any():
+                break
         count = lanes.shape[0]
         scores = _of_lanes(totals, count).T
-        return _Marched(
-            out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks
-        )
+        return Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
 
-    def _blocks(self, run: SystemRows, lanes: Array, quick: bool) -> Iterator[Block]:
-        step = run.excitation.dt / run.steps(quick)
+    def _blocks(self, run: SystemRows, lanes: Array, course: Course) -> Iterator[Block]:
+        step = run.excitation.dt / course.steps(run)
         workspace = np.stack([self._fill(self.system.rows, dt, lanes) for dt in (step, 0.5 * step)])
         return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import Excitation
-from dashpot.kernel.system import HALVED, CompiledSystem, Solution, Status
+from dashpot.kernel.solution import HALVED, Solution, Status
+from dashpot.kernel.system import CompiledSystem
 
 Array = NDArray[np.float64]
 
@@ -67,6 +68,9 @@ def steps_within(network: CompiledSystem, excitation: Excitation, values: Array,
     """How many times as many steps as usual, ``finest`` at most, keep the error of a lane (slots,) within the
     tolerance; 1 for a lane that cannot be solved, which no number of steps helps.
     """
+    first = network.solve(network.prepare(excitation), values)
+    if first.status[0] is Status.GOOD and told_within(first, tolerance):
+        return 1
     found = solve_within(network, excitation, values, tolerance, 2 * finest)
     return found.refine // 2 if np.isfinite(found.error).all() else 1
 
@@ -76,8 +80,17 @@ def told_within(solution: Solution, tolerance: float = TOLERANCE) -> bool:
 
     They are held against each other as two solutions are in ``solve_within``, which need not be called then.
     """
-    moved = CHANCE * HALVED * solution.error[0]
-    return bool((moved <= tolerance * np.sqrt(np.mean(solution.force[0] ** 2, axis=1))).all())
+    return told_error(solution) <= tolerance
+
+
+def told_error(solution: Solution) -> float:
+    """By what share of their root mean square the forces of the first lane may be off, as its own steps tell.
+
+    It is infinite for forces that are zero and not solved without any error, and for those that are not finite.
+    """
+    moved, size = CHANCE * HALVED * solution.error[0], np.sqrt(np.mean(solution.force[0] ** 2, axis=1))
+    shares = np.divide(moved, size, out=np.where(moved == 0.0, 0.0, np.inf), where=size > 0.0)
+    return float(np.max(np.where(np.isfinite(shares), shares, np.inf), initial=0.0))
 
 
 def _moved(finer: Solution, before: Solution) -> tuple[Array, Array]:

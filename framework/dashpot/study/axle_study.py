@@ -8,7 +8,6 @@ from typing import Any
 from dashpot.data.axle_curves import AxleCurves, SlowCurve
 from dashpot.fit.excited import velocity_curves
 from dashpot.fit.study.run import ModelResult
-from dashpot.fit.without_tire import masses_without_tire
 from dashpot.study.axle import Axle, axle_of, contact_responses, measured_curves, simulated_curves, wheel_masses
 
 MEASURED = "measured"
@@ -16,8 +15,6 @@ MEASURED = "measured"
 
 def model_content(model: ModelResult) -> dict[str, Any]:
     """For one model: its tables over velocity with what was excited, its masses found without the tire."""
-    train = set(model.setting.split.train)
-    runs = [run for run in model.setting.dataset.runs if run.name in train]
     return {
         "velocity_curves": [
             {
@@ -33,7 +30,7 @@ def model_content(model: ModelResult) -> dict[str, Any]:
         ],
         "masses_without_tire": [
             {"node": mass.node, "value": mass.mass, "interval": list(mass.interval), "rmse": mass.rmse}
-            for mass in masses_without_tire(model.fit.fitted, runs)
+            for mass in model.without_tire
         ],
     }
 

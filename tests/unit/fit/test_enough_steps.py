@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from dashpot import load_registry
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
+from dashpot.fit import enough_steps
 from dashpot.fit.enough_steps import FINEST, EnoughSteps
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
@@ -107,3 +110,19 @@ def test_a_lane_that_cannot_be_solved_and_a_network_without_nodes_take_the_usual
     steps.suffice((0,), broken)
     assert EnoughSteps(compiled(ALONE), [scored("any", 3e-3)]).of((0,)) == 1
     assert steps._refine[(0,)] == 1
+
+
+def test_what_was_measured_to_be_enough_is_not_measured_again_where_the_steps_agree_as_well(network, monkeypatch):
+    steps, run = EnoughSteps(network, [scored("large", 3e-3)]), network.prepare(Excitation.of_drive(moved(3e-3)))
+    steps._refine[(0,)] = 1
+    measured = []
+    monkeypatch.setattr(enough_steps, "steps_within", lambda *given: measured.append(given) or 1)
+    solution = network.solve(run)
+    assert not told_within(solution)
+    assert all(steps.tell((0,), solution, network.start) for _ in range(3)) and len(measured) == 1
+    worse = replace(solution, error=1.01 * solution.error)
+    assert steps.tell((0,), worse, network.start) and len(measured) == 2
+    # when they are more, nothing is known of these
+    monkeypatch.setattr(enough_steps, "steps_within", lambda *given: measured.append(given) or 2)
+    assert not steps.tell((0,), replace(solution, error=2.0 * solution.error), network.start)
+    assert steps.tell((0,), solution, network.start) and len(measured) == 4

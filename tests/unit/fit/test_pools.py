@@ -76,6 +76,7 @@ def test_a_study(pool, folder, data, tmp_path):
             data,
             registry=load_registry(),
             jobs=pool,
+            here=2,
             checkpoint=tmp_path / "records",
             progress=lambda stage, *_: told.append(stage),
         )

@@ -312,3 +312,30 @@ def test_a_direction_without_influence_is_not_walked():
     rows = np.array([[1.0, 1.0]])
     step = least_within(rows.T @ rows, np.array([1.0, 1.0]), np.full(2, -np.inf), np.full(2, np.inf))
     assert step == pytest.approx([0.5, 0.5], rel=1e-9)
+
+
+def test_what_was_linearised_is_not_linearised_again_where_no_step_helped():
+    class Counted(BentValley):
+        asked: list[bytes] = []
+
+        def linearise(self, values, moves, reduce):
+            self.asked.append(values.tobytes())
+            yield from super().linearise(values, moves, reduce)
+
+        def losses(self, values):
+            # what is lower than at the start is out of reach
+            found = super().losses(values)
+            return np.where(found < self.floor, 2.0 * self.floor - found, found)
+
+    _, _, coordinates = ready(
+        """
+        a: {element: spring, stiffness: {start: 999.8, bounds: [1, 1e6]}}
+        b: {element: damper, damping: {start: 20, bounds: [1, 1e6]}}
+        """,
+        runs(),
+    )
+    valley = Counted()
+    valley.floor = BentValley().losses(coordinates.to_values(coordinates.start))[0]
+    found = refine(valley, coordinates, coordinates.start)
+    assert found.outcome is Outcome.CONVERGED and np.array_equal(found.point, coordinates.start)
+    assert len(valley.asked) == 1

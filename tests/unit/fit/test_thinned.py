@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from dashpot import load_registry
 from dashpot.data.drive import drive_from_path
+from dashpot.data.excitation import Excitation
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.thinned import SAMPLES, thinned
+from dashpot.fit.thinned import SAMPLES, thinned, thinned_objective
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
 
@@ -90,3 +92,41 @@ def _elements():
     from dashpot.contract.registry import load_registry
 
     return load_registry().elements
+
+
+def test_slow_runs_are_thinned_by_their_own_motion_and_weigh_as_before():
+    omega = 2.0 * np.pi * 3.0
+    x, v = 3e-3 * np.sin(omega * TIME), 3e-3 * omega * np.cos(omega * TIME)
+    slow = drive_from_path(STEP, x, v, -(omega**2) * x)
+    runs = [run_of(np.zeros(TIME.size)), replace(run_of(np.ones(TIME.size)), kind="quasi_static", drive=slow)]
+    network = compile_network(parse_network(SLIDER, load_registry().elements))
+    sparse = thinned_objective(Objective(network, runs, weights=[1.0, 3.0]))
+    assert [run.force.size for run in sparse.runs] == [thinned([run])[0].force.size for run in runs]
+    assert sparse.runs[1].force.size < sparse.runs[0].force.size / 3
+    assert sparse.shares.tolist() == [0.5, 1.5]
+
+
+def test_runs_that_would_hardly_be_thinned_are_left():
+    (run,) = thinned([run_of(np.zeros(TIME.size))])
+    network = compile_network(parse_network(SLIDER, load_registry().elements))
+    assert thinned_objective(Objective(network, [run])) is None
+    assert thinned_objective(Objective(network, [run_of(np.zeros(TIME.size))])) is not None
+
+
+LIGHT = """\
+format: dashpot-network/1
+name: wheel
+nodes: {{platform: driven, wheel: {{mass: {mass} kg}}, body: ground}}
+branches:
+  tire: {{element: spring, stiffness: 200 N/mm, between: [platform, wheel]}}
+  absorber: {{element: damper, damping: 3 kN*s/m, between: [wheel, body]}}
+"""
+
+
+@pytest.mark.parametrize("mass, kept", [(40.0, True), (0.05, False)])
+def test_runs_that_take_steps_of_high_order_stay_as_they_are(mass, kept):
+    network = compile_network(parse_network(LIGHT.format(mass=mass), load_registry().elements))
+    run = run_of(np.zeros(TIME.size))
+    run = replace(run, end="platform", whole=Excitation.of_drive(run.drive))
+    sparse = thinned_objective(Objective(network, [run]))
+    assert (sparse is None) == kept

@@ -9,10 +9,13 @@ import pytest
 
 from dashpot import load_registry
 from dashpot.data.run import Run
+from dashpot.fit.begin_at_wheels import begin_at_wheels
 from dashpot.fit.excited import velocity_curves
+from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.fit.scored import ScoredRun, score_run
 from dashpot.fit.without_tire import masses_without_tire, wheels_behind
+from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network
 from dashpot_specimens.car_laws import STEP, Car, CarTire, drive_car
@@ -136,3 +139,40 @@ def test_a_damper_between_two_ends_sees_the_drive():
     [curve] = velocity_curves(spec, [one])
     assert curve.reached == pytest.approx((-0.157, 0.157), rel=0.01)
     assert curve.excited == (False, True, False)
+
+
+def begun_of(spec, runs):
+    scored = [score_run(run) for run in runs]
+    objective = Objective(compile_network(spec), scored)
+    found, vectors = begin_at_wheels(spec, objective, lambda slot: slot.value.searched)
+    return found, vectors, [float(objective.losses(compile_network(each).start)[0]) for each in (spec, found)]
+
+
+def test_a_search_begins_near_the_truth_although_the_tire_is_wrong(quarter, runs):
+    far = quarter.with_values(
+        {slot.path: replace(slot.value, number=30.0) for slot in quarter.slots() if slot.path == "wheel.mass"}
+    )
+    found, vectors, losses = begun_of(far, runs)
+    numbers = {slot.path: slot.value.number for slot in found.slots()}
+    assert numbers["wheel.mass"] == pytest.approx(MASS, rel=1e-2)
+    assert numbers["tire.stiffness"] == 190e3
+    assert vectors > 0 and losses[1] < 0.5 * losses[0]
+
+
+def test_a_search_begins_where_it_is_if_that_is_better_or_nothing_is_known_of_the_wheel(quarter, runs):
+    true = {"tire.stiffness": 210e3, "wheel.mass": MASS}
+    good = quarter.with_values(
+        {slot.path: replace(slot.value, number=true[slot.path]) for slot in quarter.slots() if slot.path in true}
+    )
+    # a motion of the wheel that is not its own
+    wrong = [
+        replace(run, channels={**run.channels, "displacement@wheel": 0.5 * run.channels["displacement@wheel"]})
+        for run in runs
+    ]
+    found, vectors, losses = begun_of(good, wrong)
+    assert found is good and vectors > 0 and losses[0] == losses[1]
+    bare = [
+        replace(run, channels={name: values for name, values in run.channels.items() if "wheel" not in name})
+        for run in runs
+    ]
+    assert begun_of(good, bare)[:2] == (good, 0)

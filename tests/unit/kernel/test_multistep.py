@@ -13,7 +13,8 @@ from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.scheme import FILLED, PLACE, PLACE_AHEAD, SPEED, multistep
-from dashpot.kernel.system import CompiledSystem, Status
+from dashpot.kernel.solution import Status
+from dashpot.kernel.system import CompiledSystem
 from dashpot.model.reading import parse_network
 
 DT, SAMPLES = 1e-3, 400

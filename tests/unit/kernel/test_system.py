@@ -17,7 +17,8 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel import system as module
 from dashpot.kernel.api import solve
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.system import CompiledSystem, Status
+from dashpot.kernel.solution import Status
+from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.within import FINEST
 from dashpot.model.reading import parse_network, read_network
 from dashpot.text.problem import InputError

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -102,6 +102,20 @@ class StudySpec:
     bootstrap: int = 0
     profiles: tuple[str, ...] = ()
     text: str = field(default="", repr=False)
+
+    def ready(self, done: Collection[str]) -> list[ModelPlan]:
+        """The models that are not ``done`` and wait for none that is not."""
+        return [plan for plan in self.models if plan.name not in done and plan.needs <= set(done)]
+
+    @property
+    def together(self) -> int:
+        """How many models at most can be identified at the same time."""
+        done: set[str] = set()
+        most = 0
+        while ready := self.ready(done):
+            most = max(most, len(ready))
+            done |= {plan.name for plan in ready}
+        return most
 
     @property
     def budget(self) -> int:

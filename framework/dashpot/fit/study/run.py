@@ -41,8 +41,9 @@ from dashpot.fit.study.references import require_references
 from dashpot.fit.study.setting import restricted, run_weights, study_setting
 from dashpot.fit.study.stage import StageResult, Task, search
 from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.fit.without_tire import MassWithoutTire, masses_without_tire
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import finished, result_of
+from dashpot.kernel.workers import finished, result_of, threads
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError, Place
 
@@ -58,6 +59,7 @@ class ModelResult:
 
     ``setting`` holds its runs; ``bootstrap`` the intervals in SI by path where the study asks for them. ``owed`` says
     for each part, and ``owed_to_known`` for each number known from elsewhere, how far its error moves the parameters.
+    ``without_tire`` are the masses of wheels as their own measured motion tells them.
     """
 
     setting: Setting
@@ -68,6 +70,7 @@ class ModelResult:
     profiles: tuple[Profile, ...]
     owed: tuple[Owed, ...] = ()
     owed_to_known: tuple[OwedToKnown, ...] = ()
+    without_tire: tuple[MassWithoutTire, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +90,7 @@ def run_study(
     *,
     registry: Registry,
     jobs: Jobs = 1,
+    here: int = 1,
     checkpoint: Path | None = None,
     progress: Progress | None = None,
 ) -> StudyResult:
@@ -96,7 +100,8 @@ def run_study(
     number of interruptions. Raises InputError for patterns that name nothing, for networks that do not compile, and for
     references of another kind than the parameters of their paths.
     On a pool or a cluster models that do not build on each other are pieces of work, which reach the ``checkpoint``
-    under the same path; of a model alone its starts, bootstrap and profiles are.
+    under the same path; of a model alone its starts, bootstrap and profiles are, and ``here`` threads of this process
+    do the rest.
 
     Examples:
         >>> found = dp.run_study(study, dp.load_dataset("mount"), registry=dp.load_registry())
@@ -107,7 +112,7 @@ def run_study(
     require_references(study, dataset.references)
     records = Checkpoint(checkpoint and checkpoint.absolute())
     records.open(fingerprint(study, dataset))
-    conduct = _Conduct(study, setting, registry, jobs, records, progress or silent)
+    conduct = _Conduct(study, setting, registry, jobs, max(here, threads(jobs)), records, progress or silent)
     return StudyResult(study, setting, tuple(conduct.models()), tuple(registry.metrics.values()))
 
 
@@ -129,6 +134,7 @@ class _Conduct:
     setting: Setting
     registry: Registry
     jobs: Jobs
+    here: int
     records: Checkpoint
     progress: Progress
     spent: int = 0
@@ -137,8 +143,7 @@ class _Conduct:
         """Every model; those identified before may be starting points."""
         _refuse_priors(self.study)
         done: dict[str, ModelResult] = {}
-        while left := [plan for plan in self.study.models if plan.name not in done]:
-            ready = [plan for plan in left if plan.needs <= done.keys()]
+        while ready := self.study.ready(done):
             if isinstance(self.jobs, int) or len(ready) == 1:
                 done[ready[0].name] = self.model_of(ready[0], done)
             else:
@@ -158,7 +163,7 @@ class _Conduct:
         """Several models, each as a piece of work on one thread."""
         each = [(plan, {name: done[name] for name in plan.needs}) for plan in ready]
         found = {}
-        for number, future in finished(_model_apart, replace(self, jobs=1, progress=silent), each, self.jobs):
+        for number, future in finished(_model_apart, replace(self, jobs=1, here=1, progress=silent), each, self.jobs):
             plan, result = ready[number], result_of(future)
             if isinstance(result, InputError):
                 raise result
@@ -182,7 +187,9 @@ class _Conduct:
             else:
                 spec = take_numbers(spec, stage.take, train)
         parts = {branch: done[model] for branch, model in plan.parts.items()}
-        return self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results), parts)
+        found = self._judge(plan, with_ranges(spec, natural_sizes(train)), tuple(results), parts)
+        masses = masses_without_tire(found.fit.fitted, self.setting.train_runs, self.here)
+        return replace(found, without_tire=tuple(masses))
 
     def _search(
         self, plan: ModelPlan, number: int, stage: SearchStage, spec: NetworkSpec
@@ -195,7 +202,7 @@ class _Conduct:
         seed = zlib.crc32(label.encode()) ^ self.study.seed
         weights, optimizers = run_weights(self.study, runs), self.registry.optimizers
         noise, swing = self.setting.floor.value, self.setting.swing
-        task = Task(runs, weights, seed, self.jobs, optimizers, noise, swing)
+        task = Task(runs, weights, seed, self.jobs, self.here, optimizers, noise, swing)
 
         def watch(evaluations: int, loss: float) -> None:
             done = (self.spent + min(evaluations, stage.budget)) / max(self.study.budget, 1)
@@ -211,8 +218,8 @@ class _Conduct:
     ) -> ModelResult:
         spec = ordered(plan.network, spec)
         train, network, coordinates = self.setting.train, compile_network(spec), search_coordinates(spec)
-        objective = Objective(network, train, self.jobs, weights=run_weights(self.study, train))
-        errors = measure_errors(spec, self.setting, self.jobs)
+        objective = Objective(network, train, self.here, weights=run_weights(self.study, train))
+        errors = measure_errors(spec, self.setting, self.here)
         shares = {
             branch: force_error((part.fit.errors, part.setting), (errors, self.setting))
             for branch, part in parts.items()

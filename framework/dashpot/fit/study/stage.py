@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,18 +13,20 @@ from numpy.typing import NDArray
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.fit.algebra import single_threaded_algebra
+from dashpot.fit.begin_at_wheels import begin_at_wheels
 from dashpot.fit.coordinates import Coordinates, search_coordinates, with_point
-from dashpot.fit.kept_curves import Refinement, refinement
+from dashpot.fit.kept_curves import refinement
 from dashpot.fit.objective import Objective
-from dashpot.fit.prior import WithPriors, beside_priors, first_error, refine_beside_priors
-from dashpot.fit.refine import OWN_METHOD, Loss, Outcome, Refined
+from dashpot.fit.prior import WithPriors, beside_priors, first_error, priors_of, refine_beside_priors
+from dashpot.fit.refine import OWN_METHOD, Outcome, Refined, refine
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.search import Ending, run_search
-from dashpot.fit.starts import refine_from_starts
+from dashpot.fit.starts import LAST_STEPS, refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
+from dashpot.fit.thinned import thinned_objective
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import pieces, threads
+from dashpot.kernel.workers import pieces
 from dashpot.model.network import NetworkSpec
 
 if TYPE_CHECKING:
@@ -31,6 +34,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Watch = Callable[[int, float], None]
+
+LED = 1e-3  # of the loss in a step: a smaller fall on thinned runs leads no further than one on all samples
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,7 @@ class StageResult:
 class Task:
     """What a search works on: the runs with their weights, the seed, the workers, the optimizers.
 
+    ``jobs`` do the starts of a plugged-in optimizer, ``threads`` of this process all else.
     ``noise`` (N) is known or not, and ``swing`` (N) that of the forces; both weigh priors.
     """
 
@@ -61,6 +67,7 @@ class Task:
     weights: Sequence[float]
     seed: int
     jobs: Jobs
+    threads: int
     known: Mapping[str, type[Optimizer]]
     noise: float | None
     swing: float
@@ -74,21 +81,19 @@ def search(
     KeyboardInterrupt leaves the records as far as they came.
     """
     coordinates = search_coordinates(spec, stage.frees)
-    objective = Objective(compile_network(spec), task.runs, threads(task.jobs), weights=task.weights)
+    objective = Objective(compile_network(spec), task.runs, task.threads, weights=task.weights)
     if not coordinates.paths:
         return spec, _nothing(stage, objective, coordinates)
     if stage.optimizer == OWN_METHOD and stage.starts == 1:
         whole = refinement(spec, objective, stage.frees)
-        known = _recorded(record(0), lambda keep: _refine(whole, objective, stage, task.noise))
+        known = _recorded(record(0), lambda keep: _refine(spec, objective, stage, task))
         return whole.at(np.array(known["point"])), _summed(stage, whole.coordinates, [known])
-    loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
     if stage.optimizer == OWN_METHOD:
-        found = [
-            _recorded(record(0), lambda keep: _refine_starts(objective, loss, coordinates, stage, task.seed, watch))
-        ]
+        found = [_recorded(record(0), lambda keep: _refine_starts(spec, objective, coordinates, stage, task, watch))]
     else:
+        loss = beside_priors(objective, spec, first_error(task.noise, task.swing))
         here = isinstance(task.jobs, int)
-        shared = (stage, replace(task, jobs=1), loss, coordinates, watch if here else _unwatched)
+        shared = (stage, replace(task, jobs=1, threads=1), loss, coordinates, watch if here else _unwatched)
         found = pieces(_start, shared, [(number, record(number)) for number in range(stage.starts)], task.jobs)
     found = sorted(found, key=lambda each: each["loss"])
     fitted = with_point(spec, coordinates, np.array(found[0]["point"]))
@@ -142,20 +147,51 @@ def _start(
     return _recorded(kept, work)
 
 
-def _refine(whole: Refinement, objective: Objective, stage: SearchStage, noise: float | None) -> dict[str, Any]:
-    """The framework's own method from one start."""
-    refined, _ = refine_beside_priors(whole, objective, stage.budget, noise, budget=stage.budget)
-    return _own_result(refined, refined.evaluations, ((refined.evaluations, refined.loss),), (refined.loss,))
+def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: Task) -> dict[str, Any]:
+    """The framework's own method from one start, after a few steps on thinned runs, or at wheels that were measured.
+
+    Parameter vectors on thinned runs count by the share of the samples that these have.
+    """
+    begun, spent = begin_at_wheels(spec, objective, stage.frees)
+    sparse = thinned_objective(objective) if begun is spec and priors_of(spec) is None else None
+    spec = begun
+    if sparse:
+        part = refinement(spec, sparse, stage.frees)
+        led = refine(part.loss, part.coordinates, part.coordinates.start, stage.budget, LED, budget=stage.budget)
+        spent, spec = spent + _counted(led.evaluations, sparse, objective), part.at(led.point)
+    whole = refinement(spec, objective, stage.frees)
+    refined, _ = refine_beside_priors(whole, objective, stage.budget, task.noise, budget=stage.budget - spent)
+    spent += refined.evaluations
+    return _own_result(refined, spent, ((spent, refined.loss),), (refined.loss,))
 
 
 def _refine_starts(
-    objective: Objective, whole: Loss, coordinates: Coordinates, stage: SearchStage, seed: int, watch: Watch
+    spec: NetworkSpec, objective: Objective, coordinates: Coordinates, stage: SearchStage, task: Task, watch: Watch
 ) -> dict[str, Any]:
-    """The framework's own method from several starts."""
+    """The framework's own method from several starts, on thinned runs; the best of them on all samples."""
+    sparse, error = thinned_objective(objective), first_error(task.noise, task.swing)
+    searched = sparse or objective
     best = refine_from_starts(
-        objective, coordinates, seed, lambda done, loss: watch(int(done * stage.budget), loss), stage.budget, whole
+        searched,
+        coordinates,
+        task.seed,
+        lambda done, loss: watch(int(done * stage.budget), loss),
+        stage.budget,
+        beside_priors(searched, spec, error),
     )
-    return _own_result(best.refined, best.evaluations, best.history, best.spread)
+    if not sparse:
+        return _own_result(best.refined, best.evaluations, best.history, best.spread)
+    whole, spent = beside_priors(objective, spec, error), _counted(best.evaluations, sparse, objective)
+    refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=stage.budget - spent)
+    history = [(_counted(count, sparse, objective), loss) for count, loss in best.history]
+    spread = whole.losses(coordinates.to_values(best.ends)).tolist()
+    spent += refined.evaluations
+    return _own_result(refined, spent, (*history, (spent, refined.loss)), spread)
+
+
+def _counted(vectors: int, sparse: Objective, objective: Objective) -> int:
+    """As how many parameter vectors on all samples those on thinned runs count."""
+    return ceil(vectors * sparse.total / objective.total)
 
 
 def _own_result(

@@ -99,3 +99,13 @@ def test_the_study_of_the_reference_can_be_read():
     page = ROOT / "docs" / "reference" / "study-file.md"
     [text] = re.findall(r"```yaml\n(format: dashpot-study/1\n.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
     assert parse_study(Document.parse(text), ROOT, load_registry()).name == "my_ladder"
+
+
+def test_models_that_wait_for_none_are_ready_together():
+    made = study(
+        "data: d\nstages: [{name: a}]\nmodels: [spring, kelvin_voigt, {network: gehmann, start_from: kelvin_voigt}]\n"
+    )
+    assert [plan.name for plan in made.ready(())] == ["spring", "kelvin_voigt"]
+    assert [plan.name for plan in made.ready({"spring", "kelvin_voigt"})] == ["gehmann"]
+    assert made.ready({"spring"}) == [made.models[1]] and made.ready({plan.name for plan in made.models}) == []
+    assert made.together == 2

@@ -38,7 +38,7 @@ ARGUMENTS = (
     "ptr %miss",
     "i64 %scoring",
     "i64 %begins",
-    "i64 %quick",
+    "i64 %course",
     "i64 %asked",
 )
 PASSED = ("ptr %columns", "ptr %w", "ptr %tables", "ptr %knots")
@@ -55,8 +55,9 @@ def print_system(system: SystemProgram, vectors: int, alone: bool = False) -> st
     piece of it (0) goes on from the workspace as the piece before has left it. Without ``scoring`` it fills ``out``
     (samples, driven nodes then unknown nodes, lanes); with it, it adds weight * (force - measured)^2 to the first of
     ``out``, the other two being (samples, driven nodes).
-    ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses. Where the steps are
-    ``quick`` (1), the answer is that of the short ones, and with ``scoring`` there are no long ones.
+    ``miss`` (driven nodes, lanes) gathers the squared differences of the forces of the two courses. The ``course``
+    is that of ``Course``: 0 where the answer is extrapolated from both, 1 where it is that of the short steps, 2 where
+    there are no long ones.
     """
     passes = (_pass(layout, name, vectors, alone) for name, layout in system.passes.items())
     return whole("run", ARGUMENTS, _run(system, vectors)) + "".join(passes)
@@ -67,8 +68,7 @@ def _run(system: SystemProgram, vectors: int) -> Assembly:
     a.do("%left = alloca i64")
     halves = ["%space", a.address("%space", system.rows * width)]
     finer = a.new("mul i64 %per, 2")
-    skipped = a.new("and i64 %quick, %scoring")
-    long = a.new(f"select i1 {a.new(f'icmp ne i64 {skipped}, 0')}, i64 0, i64 %per")
+    long = a.new(f"select i1 {a.new('icmp eq i64 %course, 2')}, i64 0, i64 %per")
     with a.when(a.new("icmp ne i64 %begins, 0")):
         for space in halves:
             _call(a, "start", "%still", space)
@@ -108,8 +108,8 @@ class _Writer:
 
     def __init__(self, a: Assembly, halves: Sequence[str], vectors: int, k: str) -> None:
         self.a, self.halves, self.vectors, self.width, self.k = a, halves, vectors, LANES * vectors, k
-        quick = a.new("icmp ne i64 %quick, 0")
-        self.ahead = a.spread(a.new(f"select i1 {quick}, double 0.0, double {number(THIRD)}"), vectors)
+        short = a.new("icmp ne i64 %course, 0")
+        self.ahead = a.spread(a.new(f"select i1 {short}, double 0.0, double {number(THIRD)}"), vectors)
 
     def store(self, rows: Sequence[int], driven: int) -> None:
         """Fill the next row of ``out``."""

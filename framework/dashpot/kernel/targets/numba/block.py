@@ -53,7 +53,7 @@ SYSTEM: Arguments = [
     *(("array", name) for name in ("space", "status", "all_tables", "knots", "measured", "weight", "out", "miss")),
     ("count", "scoring"),
     ("count", "begins"),
-    ("count", "quick"),
+    ("count", "course"),
     ("count", "asked"),
     ("count", "n"),
 ]
@@ -225,7 +225,7 @@ def _write_system_lane(code: PythonCode, system: SystemProgram) -> None:
             code.do(f"set_off_(still, {place})")
     with code.loop("k", 0, "samples"):
         with code.when("k >= begins"):
-            long = "per * (1 - quick * scoring)"
+            long = "per * (course < 2)"
             for o, columns, count in ((0, "coarse", long), (system.rows, "fine", "2 * per")):
                 with code.loop("j", f"(k - begins) * {count}", f"(k - begins + 1) * {count}"):
                     place = f"{columns}, w, tables, knots, j * {across}, {code.index(o)}"
@@ -251,7 +251,7 @@ def _each(
         row = system.row(name)
         code.let("short", f"w[{system.rows + row}]")
         code.let("gap", f"short - w[{row}]")
-        code.let("best", f"short + (1 - quick) * {THIRD!r} * gap")
+        code.let("best", f"short + (course < 1) * {THIRD!r} * gap")
         write(code, number, len(names))
         if number < len(system.forces):
             code.set(f"miss[{number} * n + l]", f"miss[{number} * n + l] + gap * gap")
