@@ -69,8 +69,9 @@ class SmallView:
         return simulate_eagerly(self.network, drive_from_samples(STEP, self.displacement(run) + change))
 
     def respond(self, run, element, values):
-        law = REGISTRY.elements[element]
-        return np.array([simulate_eagerly(alone(law, entry), self.drives[run]) for entry in values])
+        laws = [alone(REGISTRY.elements[element], entry) for entry in values]
+        lanes = np.array([[slot.value.number for slot in law.slots()] for law in laws])
+        return simulate_eagerly(laws[0], self.drives[run], lanes)
 
 
 def alone(law, entry):
