@@ -201,7 +201,7 @@ def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[S
     squares = [float(np.mean(residual[run.name] ** 2)) for run in recorded]
     samples = [shares[run.name] * residual[run.name].size for run in recorded]
     whole = np.sqrt(np.average(squares, weights=samples)) if recorded else 1.0
-    deviation = max(float(whole), *map(_smallest, recorded), 0.0)
+    deviation = max([float(whole), *map(_smallest, recorded)])
     return replace(plain.with_white(dict.fromkeys(shares, deviation)), independent=shares)
 
 

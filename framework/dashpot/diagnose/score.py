@@ -160,9 +160,9 @@ class Scores:
         return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
     def exact(self) -> Array:
-        """What ``predicted`` tells (groups,) of the present structure, but with the laws as they are.
+        """Mean square (groups,) of each group, predicted from all others by the present structure.
 
-        No errors of forms are allowed for.
+        The laws are as they are: no errors of their forms are allowed for.
         """
         total = self.look.exact.sum(axis=0)
         scale = np.sqrt(np.maximum(np.diag(total), 1e-300))

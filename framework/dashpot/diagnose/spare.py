@@ -22,14 +22,14 @@ def spare_branches(refitter: Refitter, look: Look, model: Model) -> list[str]:
     The last one first. One may go where the removal costs less of the predictive likelihood than the prior odds of its
     numbers.
     """
-    present, found = _unpredicted(refitter, look, model), []
+    present, found = _minus_log_likelihood(refitter, look, model), []
     for branch in reversed(_branches(model.base)):
         if len(model.fitted.root.members) == 1:
             break  # a network has a branch
         searched = sum(path.startswith(f"{branch}.") for path in model.coordinates.paths)
         with suppress(InputError):  # another branch asks for it
             less = refitter.refit_without(model, branch, look.noise)
-            cost = _unpredicted(refitter, look, less)
+            cost = _minus_log_likelihood(refitter, look, less)
             if searched and cost - present < -searched * np.log(NUMBER_ODDS):
                 model, present = less, cost
                 found.append(branch)
@@ -42,6 +42,6 @@ def _branches(network: NetworkSpec) -> Sequence[str]:
     return members if len(network.root.members) > 1 and not network.joints else []
 
 
-def _unpredicted(refitter: Refitter, look: Look, model: Model) -> float:
+def _minus_log_likelihood(refitter: Refitter, look: Look, model: Model) -> float:
     seen = look_at(refitter, replace(model, terms=(), owned=()), (), look.folds, look.noise)
     return float(nats(Scores(seen).exact(), seen.samples))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 
@@ -64,6 +65,11 @@ def thinned_objective(objective: Objective) -> Objective | None:
     if sum(run.samples for run in runs) > WORTHWHILE * sum(run.samples for run in whole):
         return None
     return Objective(objective.network, runs, objective.jobs, weights=objective.shares.tolist())
+
+
+def counted(vectors: int, sparse: Objective, objective: Objective) -> int:
+    """As how many parameter vectors on all samples those on thinned runs count."""
+    return ceil(vectors * sparse.total / objective.total)
 
 
 def _of_high_order(objective: Objective, team: Team) -> bool:

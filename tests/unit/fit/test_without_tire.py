@@ -141,10 +141,10 @@ def test_a_damper_between_two_ends_sees_the_drive():
     assert curve.excited == (False, True, False)
 
 
-def begun_of(spec, runs):
+def begun_of(spec, runs, budget=500):
     scored = [score_run(run) for run in runs]
     objective = Objective(compile_network(spec), scored)
-    found, vectors = begin_at_wheels(spec, objective, lambda slot: slot.value.searched)
+    found, vectors = begin_at_wheels(spec, objective, lambda slot: slot.value.searched, budget)
     return found, vectors, [float(objective.losses(compile_network(each).start)[0]) for each in (spec, found)]
 
 
@@ -157,6 +157,8 @@ def test_a_search_begins_near_the_truth_although_the_tire_is_wrong(quarter, runs
     assert numbers["wheel.mass"] == pytest.approx(MASS, rel=1e-2)
     assert numbers["tire.stiffness"] == 190e3
     assert vectors > 0 and losses[1] < 0.5 * losses[0]
+    for budget in (1, 3, 30):
+        assert begun_of(far, runs, budget)[1] <= budget
 
 
 def test_a_search_begins_where_it_is_if_that_is_better_or_nothing_is_known_of_the_wheel(quarter, runs):

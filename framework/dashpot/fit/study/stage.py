@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +23,7 @@ from dashpot.fit.search import Ending, run_search
 from dashpot.fit.starts import LAST_STEPS, refine_from_starts
 from dashpot.fit.study.checkpoint import Record
 from dashpot.fit.study.declaration import SearchStage
-from dashpot.fit.thinned import thinned_objective
+from dashpot.fit.thinned import counted, thinned_objective
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.workers import pieces
 from dashpot.model.network import NetworkSpec
@@ -152,13 +151,13 @@ def _refine(spec: NetworkSpec, objective: Objective, stage: SearchStage, task: T
 
     Parameter vectors on thinned runs count by the share of the samples that these have.
     """
-    begun, spent = begin_at_wheels(spec, objective, stage.frees)
+    begun, spent = begin_at_wheels(spec, objective, stage.frees, stage.budget - 1)
     sparse = thinned_objective(objective) if begun is spec and priors_of(spec) is None else None
     spec = begun
     if sparse:
         part = refinement(spec, sparse, stage.frees)
         led = refine(part.loss, part.coordinates, part.coordinates.start, stage.budget, LED, budget=stage.budget)
-        spent, spec = spent + _counted(led.evaluations, sparse, objective), part.at(led.point)
+        spent, spec = spent + counted(led.evaluations, sparse, objective), part.at(led.point)
     whole = refinement(spec, objective, stage.frees)
     refined, _ = refine_beside_priors(whole, objective, stage.budget, task.noise, budget=stage.budget - spent)
     spent += refined.evaluations
@@ -181,17 +180,12 @@ def _refine_starts(
     )
     if not sparse:
         return _own_result(best.refined, best.evaluations, best.history, best.spread)
-    whole, spent = beside_priors(objective, spec, error), _counted(best.evaluations, sparse, objective)
+    whole, spent = beside_priors(objective, spec, error), counted(best.evaluations, sparse, objective)
     refined = refine(whole, coordinates, best.refined.point, LAST_STEPS, budget=stage.budget - spent)
-    history = [(_counted(count, sparse, objective), loss) for count, loss in best.history]
+    history = [(counted(count, sparse, objective), loss) for count, loss in best.history]
     spread = whole.losses(coordinates.to_values(best.ends)).tolist()
     spent += refined.evaluations
     return _own_result(refined, spent, (*history, (spent, refined.loss)), spread)
-
-
-def _counted(vectors: int, sparse: Objective, objective: Objective) -> int:
-    """As how many parameter vectors on all samples those on thinned runs count."""
-    return ceil(vectors * sparse.total / objective.total)
 
 
 def _own_result(
