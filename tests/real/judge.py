@@ -10,7 +10,6 @@ from real.trial import Outcome
 
 ALIKE = 1e-6  # of the RMSE
 NEAR = 1.1  # times the explainable error
-SURE = 0.9  # probability from which on a cause is told without a doubt
 ADMITS = ("unexplained", "partly_explained")
 # what the shipped bases do of themselves, as the causes are called
 OWN = {
@@ -29,15 +28,15 @@ def unlike(outcome: Outcome) -> dict[str, tuple[float, float | None]]:
 
 
 def accused(outcome: Outcome, known: Iterable[str] = ()) -> list[str]:
-    """The faults of the measurement that were named and that the owners of the data do not know of."""
+    """The faults of the measurement that were named, or called probable, and that their owners do not know of."""
     named = [cause["cause"] for cause in outcome.causes if cause["class"] == "measurement"]
     return [word for word in [*named, *(fault["kind"] for fault in outcome.faults)] if word not in known]
 
 
-def names(outcome: Outcome, least: float = 0.0) -> frozenset[str]:
-    """What the specimen was said to do, with a probability of ``least`` or more."""
+def names(outcome: Outcome) -> frozenset[str]:
+    """What the specimen was said to do: the accepted causes."""
     told = [cause for cause in outcome.causes if cause["class"] == "specimen"]
-    return frozenset(cause["cause"] for cause in told if cause["probability"] >= least)
+    return frozenset(cause["cause"] for cause in told if cause["standing"] == "accepted")
 
 
 def near_or_admitted(outcome: Outcome) -> bool:
@@ -47,15 +46,15 @@ def near_or_admitted(outcome: Outcome) -> bool:
     return near or outcome.verdict in ADMITS
 
 
-def same_names(outcomes: Iterable[Outcome], least: float = 0.0) -> dict[tuple[str, str], tuple[int, int]]:
+def same_names(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], tuple[int, int]]:
     """By set and base, how many of the repetitions name what most of them name, and how many there are.
 
-    Causes of a lower probability than ``least`` do not count. A single diagnosis repeats nothing and is left out.
+    A single diagnosis repeats nothing and is left out.
     """
     key = lambda one: (one.set, one.base)  # noqa: E731
     found = {}
     for place, group in groupby(sorted(outcomes, key=key), key):
-        said = [None if one.verdict == "failed" else names(one, least) for one in group]
+        said = [None if one.verdict == "failed" else names(one) for one in group]
         counts = Counter(one for one in said if one is not None)
         if len(said) > 1:
             found[place] = (max(counts.values(), default=0), len(said))

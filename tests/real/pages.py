@@ -147,7 +147,7 @@ def _said(cause: dict[str, object]) -> str:
     link = f"[{str(cause['cause']).replace('_', ' ')}](../generated/causes.md#{str(cause['cause']).replace('_', '-')})"
     rivals = cause["indistinguishable_from"]
     beside = f" or {' or '.join(str(rival).replace('_', ' ') for rival in rivals)}" if rivals else ""
-    return f"{link}{beside} ({float(cause['probability']):.2g})"
+    return f"{'probably ' * (cause['standing'] == 'probable')}{link}{beside} ({float(cause['probability']):.2g})"
 
 
 def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:

@@ -77,7 +77,9 @@ def row(one: Outcome) -> dict[str, object]:
     """A line of the table, errors in N."""
     said = {kind: [cause for cause in one.causes if cause["class"] == kind] for kind in ("specimen", "measurement")}
     listed = {
-        kind: ", ".join(f"{cause['cause']} {cause['probability']:.2f}" for cause in causes)
+        kind: ", ".join(
+            f"{cause['cause']} {cause['probability']:.2f}{'?' * (cause['standing'] == 'probable')}" for cause in causes
+        )
         for kind, causes in said.items()
     }
     triage = [f"{fault['kind']} of {fault['run']}" for fault in one.faults]
@@ -116,11 +118,9 @@ def summary(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield f"a fault of the rig that its owners do not know is named: {guilty} of {count}"
     yield f"near the explainable error, or admitted: {sum(map(judge.near_or_admitted, outcomes))} of {count}"
     if again := judge.same_names(outcomes):
-        yield f"same names within set and base: {judge.share(again):.0%}"
-        sure = judge.share(judge.same_names(outcomes, judge.SURE))
-        yield f"the same of the names told with a probability of {judge.SURE} or more: {sure:.0%}"
+        yield f"same accepted causes within set and base: {judge.share(again):.0%}"
     beyond = judge.share(judge.same_beyond_bases(outcomes))
-    yield f"same names from both bases, but for what they do of themselves: {beyond:.0%}"
+    yield f"the same from both bases, but for what they do of themselves: {beyond:.0%}"
 
 
 def write_tables(outcomes: Sequence[Outcome], keep: Path) -> None:

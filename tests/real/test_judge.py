@@ -11,8 +11,8 @@ from real.trial import Outcome
 
 
 def made(verdict="explained", specimen=(), rig=(), base="kelvin_voigt", **changes):
-    causes = [{"cause": word, "class": "specimen", "probability": 1.0} for word in specimen]
-    causes += [{"cause": word, "class": "measurement", "probability": 1.0} for word in rig]
+    causes = [{"cause": word, "class": "specimen", "standing": "accepted"} for word in specimen]
+    causes += [{"cause": word, "class": "measurement", "standing": "accepted"} for word in rig]
     given = {"told": {}, "files": {}, "faults": [], "explainable": 10.0, **changes}
     return Outcome("one", base, 0, False, verdict, causes, floor=None, seconds=1.0, megabytes=1.0, failed=None, **given)
 
@@ -48,9 +48,15 @@ def test_repetitions_agree_with_what_most_of_them_name():
 
 def test_what_is_only_probable_may_change():
     one, two = made(specimen=["friction", "valve"]), made(specimen=["friction"])
-    one.causes[1]["probability"] = 0.6
     assert judge.same_names([one, two]) == {("one", "kelvin_voigt"): (1, 2)}
-    assert judge.same_names([one, two], judge.SURE) == {("one", "kelvin_voigt"): (2, 2)}
+    one.causes[1]["standing"] = "probable"
+    assert judge.same_names([one, two]) == {("one", "kelvin_voigt"): (2, 2)}
+
+
+def test_a_rig_is_not_to_be_called_probably_at_fault_either():
+    one = made(rig=["delay"])
+    one.causes[0]["standing"] = "probable"
+    assert judge.accused(one) == ["delay"]
 
 
 def test_bases_agree_but_for_what_they_do_of_themselves():

@@ -27,6 +27,19 @@ from dashpot.fit.scored import warm_up
 DASHPOT = (sys.executable, "-m", "dashpot")
 OUTCOME = "outcome.json"
 LONGEST = 3600.0  # s
+# of each cause that is accepted or probable
+KEPT = (
+    "cause",
+    "class",
+    "title",
+    "standing",
+    "presence",
+    "probability",
+    "evidence_of",
+    "gain",
+    "gain_interval",
+    "indistinguishable_from",
+)
 
 
 @dataclass(frozen=True)
@@ -131,8 +144,7 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
     common = (trial.set.name, trial.base, trial.seed, trial.fewer)
     if told is None:
         return Outcome(*common, "failed", [], [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
-    kept = ("cause", "class", "title", "probability", "evidence_of", "gain", "gain_interval", "indistinguishable_from")
-    causes = [{key: cause[key] for key in kept} for cause in told["causes"] if cause["accepted"]]
+    causes = [{key: cause[key] for key in KEPT} for cause in told["causes"] if cause["standing"] != "resembles"]
     errors = {
         f"{when}.{which}": value
         for when, pair in told["rmse"].items()

@@ -21,11 +21,10 @@ from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_settled
-from dashpot.diagnose.named import MORE_LIKELY
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
-from dashpot.diagnose.pursuit import Pursuit
+from dashpot.diagnose.pursuit import NAMED, Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
 from dashpot.diagnose.spare import spare_branches
@@ -152,7 +151,7 @@ def find_causes(
         again = _put_right(refitter, accused)
         refitted = replace(pursuit.look, model=again.fit(pursuit.look.model, pursuit.look.noise))
         left = look_for_leftover(again, refitted, pairs)
-        accused = [one for one in (each.judged(left.share) for each in accused) if one.probability > MORE_LIKELY]
+        accused = [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
     if accused:
         again = _put_right(refitter, accused)
         start = again.fit(pursuit.best.model, pursuit.look.noise)

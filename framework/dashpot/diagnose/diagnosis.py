@@ -17,7 +17,7 @@ from dashpot.diagnose.evidence import told
 from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
-from dashpot.diagnose.named import NamedCause, slots_of
+from dashpot.diagnose.named import STANDINGS, NamedCause, slots_of
 from dashpot.diagnose.next_run import measurement_between
 from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
@@ -32,15 +32,15 @@ class Diagnosis(Findings):
 
     @property
     def named(self) -> tuple[NamedCause, ...]:
-        """The accepted causes: those that are more likely than not."""
+        """The accepted causes."""
         return tuple(cause for cause in self.terms if cause.accepted)
 
     @cached_property
     def terms(self) -> tuple[NamedCause, ...]:
-        """All that was added to the files, one entry a word and place: what is accepted first, by what it predicts."""
+        """All that was added to the files, one entry a word and place: by its standing, then by what it predicts."""
         names = dict.fromkeys(term.name for term in self.pursuit.best.model.terms)
         found = [self._named(name) for name in names] + self._faults_of_runs()
-        return tuple(sorted(found, key=lambda one: (not one.accepted, -one.nats)))
+        return tuple(sorted(found, key=lambda one: (STANDINGS.index(one.standing), -one.nats)))
 
     def _named(self, name: tuple[str, str]) -> NamedCause:
         pursuit, best, model = self.pursuit, self.pursuit.best, self.pursuit.best.model
@@ -120,7 +120,9 @@ class Diagnosis(Findings):
             return "partly_explained" if self.named else "unexplained"
         if any(named.rivals for named in self.named):
             return "ambiguous"
-        return "explained" if self.named else "nothing_missing"
+        if self.named:
+            return "explained"
+        return "ambiguous" if any(term.standing == "probable" for term in self.terms) else "nothing_missing"
 
     @property
     def _far_above_attainable(self) -> bool:
@@ -175,10 +177,12 @@ class Diagnosis(Findings):
             "place": named.site.words if named.site else None,
             "rank": rank,
             "accepted": named.accepted,
+            "standing": named.standing,
             "branch": named.branch,
             "evidence": named.evidence,
             "evidence_of": named.evidence_of,
             "probability": named.probability,
+            "presence": named.presence,
             "expected_gain": None,
             "gain": named.gain.value if named.gain else None,
             "gain_interval": list(named.gain.interval) if named.gain else None,
@@ -270,7 +274,7 @@ class Diagnosis(Findings):
 
     def _next_measurements(self) -> list[str]:
         found = []
-        for named in self.named:
+        for named in (term for term in self.terms if term.standing != "resembles"):
             words = [
                 self.causes[word].about if word in self.causes else word.replace("_", " ") for word in named.rivals
             ]
@@ -309,10 +313,12 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "place": None,
         "rank": rank,
         "accepted": True,
+        "standing": "accepted",
         "branch": None,
         "evidence": "; ".join(f"run '{fault.run}': {fault.evidence}" for fault in faults),
         "evidence_of": "range" if faults[0].kind == "clipping" else "repeats",
         "probability": 1.0,
+        "presence": 1.0,
         "expected_gain": None,
         "gain": None,
         "gain_interval": None,

@@ -21,7 +21,7 @@ from dashpot.contract.cause import Cause
 from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.leftover import Leftover
-from dashpot.diagnose.named import MORE_LIKELY
+from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursuit import Pursuit
@@ -43,6 +43,7 @@ Array = NDArray[np.float64]
 
 ALONE = 2.0  # times the error of the worst training run
 NEAR_FLOOR = 2.0  # times the noise floor: beyond it the RMSE of a model is more than noise
+IN_FILES = {"accepted": "cause", "probable": "probable cause", "resembles": "resembles"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,9 +140,9 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        sure = {term.title: self.presence(term) > MORE_LIKELY for term in self.pursuit.best.model.terms}
+        sure = {term.title: standing_of(self.presence(term)) for term in self.pursuit.best.model.terms}
         what = "extended by a diagnosis" if sure else "fitted to corrected runs"
-        told = [f"{'cause' if likely else 'resembles'}: {title}" for title, likely in sure.items()]
+        told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])

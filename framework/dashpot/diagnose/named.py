@@ -1,4 +1,4 @@
-"""The accepted causes as they are told: one entry a cause and place, with everything it added to the files."""
+"""What was added to the files as it is told: one entry a cause and place, with how sure it is."""
 
 from __future__ import annotations
 
@@ -11,11 +11,24 @@ import numpy as np
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.gain import Gain
+from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.term import Term
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.sites import Site
 
-MORE_LIKELY = 0.5  # than not
+MORE_LIKELY = 0.5  # than not: probability from which on a cause is probable
+STANDINGS = ("accepted", "probable", "resembles")
+
+
+def standing_of(presence: float) -> str:
+    """What is said of a cause: ``accepted``, ``probable``, or that the force ``resembles`` it.
+
+    Accepted is what has a probability of NAMED and more: of ten names nine are to be right. What resembles a cause
+    describes a part of the force, and its cause is open.
+    """
+    if presence >= NAMED:
+        return "accepted"
+    return "probable" if presence > MORE_LIKELY else "resembles"
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +58,13 @@ class NamedCause:
 
     @property
     def accepted(self) -> bool:
-        """Whether something in its place is more likely than not; else it describes a part of the force, no more."""
-        return self.presence > MORE_LIKELY
+        """Whether it is named."""
+        return self.standing == "accepted"
+
+    @property
+    def standing(self) -> str:
+        """``accepted``, ``probable`` or ``resembles``."""
+        return standing_of(self.presence)
 
     @property
     def site(self) -> Site | None:

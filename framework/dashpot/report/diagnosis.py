@@ -8,7 +8,7 @@ from typing import Any
 from dashpot.report import figures, grids
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
-from dashpot.report.headline import Errors, accepted_causes, headline, read_errors, short_headline
+from dashpot.report.headline import Errors, headline, read_errors, short_headline
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
 from dashpot.report.patch import diff
 from dashpot.report.readable import percent
@@ -139,8 +139,7 @@ def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
 
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
-    accepted = accepted_causes(diagnosis)
-    done = f"was extended to {extended}" if extended and accepted else "was left as it is"
+    done = f"was extended to {extended}" if extended and diagnosis["causes"] else "was left as it is"
     return f"{headline(diagnosis)} {model} {done}. {grids.floor_origin(diagnosis)}".strip()
 
 

@@ -87,28 +87,31 @@ def cause_grid(diagnosis: Json) -> Grid:
 
 
 def named_grid(diagnosis: Json) -> Grid:
-    """The causes that a diagnosis names: those it accepted, and those that cannot be told apart."""
-    return _causes(diagnosis, "Causes", [cause for cause in diagnosis["causes"] if is_named(cause)])
+    """The causes that a diagnosis names: those it accepted, the probable ones, and those that cannot be told apart."""
+    return _causes(diagnosis, "Causes", [cause for cause in diagnosis["causes"] if is_told(cause)])
 
 
 def unnamed_grid(diagnosis: Json) -> Grid:
     """The causes that were suspected and explain less."""
-    causes = [cause for cause in diagnosis["causes"] if not is_named(cause)]
+    causes = [cause for cause in diagnosis["causes"] if not is_told(cause)]
     return replace(
         _causes(diagnosis, "Candidates with a probability below 50 %", causes), folded=True, csv_name="suspected.csv"
     )
 
 
-def is_named(cause: Json) -> bool:
+def is_told(cause: Json) -> bool:
     """Whether a cause is part of the answer."""
-    return bool(cause.get("accepted") or cause.get("indistinguishable_from"))
+    return is_likely(cause) or bool(cause.get("indistinguishable_from"))
+
+
+def is_likely(cause: Json) -> bool:
+    """Whether a cause is accepted, or more likely than not."""
+    return bool(cause.get("accepted")) or cause.get("standing") == "probable"
 
 
 def is_sure(cause: Json) -> bool:
-    """Whether a cause is told without a doubt: probable enough, and with no other one in its place."""
-    from dashpot.diagnose.pursuit import NAMED
-
-    return cause.get("probability", 1.0) >= NAMED and not cause.get("indistinguishable_from")
+    """Whether a cause is told without a doubt: accepted, and with no other one in its place."""
+    return bool(cause.get("accepted")) and not cause.get("indistinguishable_from")
 
 
 def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
@@ -317,9 +320,11 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
 
 
 def _found(cause: Json) -> str:
-    if cause.get("accepted"):
-        return "accepted" if is_sure(cause) else "probable"
-    return "possible, not alone" if cause.get("indistinguishable_from") else "resembles it, less likely than not"
+    if is_sure(cause):
+        return "accepted"
+    if cause.get("indistinguishable_from"):
+        return "it or a rival" if cause.get("accepted") else "possible, not alone"
+    return "probable" if is_likely(cause) else "resembles it, less likely than not"
 
 
 def _title_of(word: str, diagnosis: Json) -> str:

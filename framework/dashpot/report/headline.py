@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value, is_named, is_sure
+from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely, is_sure, is_told
 from dashpot.report.readable import join, percent
 from dashpot.text.digits import number, quantity, with_interval
 
@@ -57,7 +57,7 @@ def headline(diagnosis: Json) -> str:
 def short_headline(diagnosis: Json) -> str:
     """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
     errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
-    named = [_title_as_sure_as_it_is(cause) for cause in diagnosis["causes"] if is_named(cause)]
+    named = [_title_as_sure_as_it_is(cause) for cause in diagnosis["causes"] if is_told(cause)]
     if verdict == "nothing_missing" and errors.before is not None and errors.floor:
         error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
         return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
@@ -126,13 +126,13 @@ def error_phrase(errors: Errors) -> str:
     return f"RMSE {quantity(errors.before, 'N')}, {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
 
 
-def accepted_causes(diagnosis: Json) -> list[Json]:
-    """The causes that the data support, in their order."""
-    return [cause for cause in diagnosis["causes"] if cause.get("accepted")]
+def likely_causes(diagnosis: Json) -> list[Json]:
+    """The causes that the data support, in their order: the accepted ones, and those that are probable."""
+    return [cause for cause in diagnosis["causes"] if is_likely(cause)]
 
 
 def _explained(diagnosis: Json, errors: Errors) -> str:
-    causes = accepted_causes(diagnosis)
+    causes = likely_causes(diagnosis)
     if not causes:
         return f"{error_phrase(errors)}."
     return f"{error_phrase(errors)}; {percent(errors.gain)} of it is {_named(causes)}."
@@ -173,7 +173,7 @@ def _hidden(titles: Sequence[str]) -> str:
 
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:
-    causes = accepted_causes(diagnosis)
+    causes = likely_causes(diagnosis)
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
@@ -190,7 +190,7 @@ def _stands_in(causes: list[Json]) -> str:
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
-    alike = [cause_title(cause) for cause in diagnosis["causes"] if not cause.get("accepted")]
+    alike = [cause_title(cause) for cause in diagnosis["causes"]]
     resembled = f"; it resembles {join(alike)}" if alike else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
 
@@ -207,8 +207,10 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     """What is sure comes first; causes that fit alike explain the rest of it."""
     rivals = _rivals(diagnosis)
     if len(rivals) < 2:
-        return f"{error_phrase(errors)}: the cause is not identifiable from these data."
-    sure = [cause for cause in accepted_causes(diagnosis) if not cause.get("indistinguishable_from")]
+        likely = likely_causes(diagnosis)
+        named = f", {_named(likely)}" if likely else ""
+        return f"{error_phrase(errors)}: the cause is not identifiable from these data{named}."
+    sure = [cause for cause in likely_causes(diagnosis) if not cause.get("indistinguishable_from")]
     known = [cause_title(cause) for cause in sure]
     names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
     if not sure:
@@ -229,13 +231,13 @@ def _bad_data(diagnosis: Json, errors: Errors) -> str:
     faults = diagnosis.get("faults") or []
     first = f"{faults[0]['evidence']} (run '{faults[0]['run']}')" if faults else _measurement_faults(diagnosis)
     more = f", and {len(faults) - 1} more" if len(faults) > 1 else ""
-    causes = [cause for cause in accepted_causes(diagnosis) if cause.get("branch")]
+    causes = [cause for cause in likely_causes(diagnosis) if cause.get("branch")]
     rest = f"; the sound runs show {_named(causes)}" if causes else ""
     return f"The measurement is at fault first: {first}{more}. {error_phrase(errors)}{rest}."
 
 
 def _measurement_faults(diagnosis: Json) -> str:
-    faults = [cause for cause in accepted_causes(diagnosis) if cause.get("class") == "measurement"]
+    faults = [cause for cause in likely_causes(diagnosis) if cause.get("class") == "measurement"]
     return join([cause_phrase(cause) for cause in faults]) if faults else "see the findings below"
 
 

@@ -118,7 +118,7 @@ def test_a_comparison_names_the_closest_model():
 
 
 def test_a_cause_is_told_as_sure_as_it_is():
-    sure, probable = friction(probability=0.97), relaxation(probability=0.68, accepted=True)
+    sure, probable = friction(probability=0.97), relaxation(probability=0.68, standing="probable")
     said = headline(diagnosis(causes=[sure, probable]))
     assert "is dry friction of 41 N [38, 44] and probably relaxation of 160 ms [20, 900], missing" in said
     assert "dry friction and probably relaxation" in short_headline(diagnosis(causes=[sure, probable]))
