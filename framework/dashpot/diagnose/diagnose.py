@@ -12,9 +12,10 @@ import numpy as np
 from dashpot.contract.cause import Cause
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
-from dashpot.data.correction import Correction
+from dashpot.data.correction import Correction, corrected_run
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
@@ -32,6 +33,7 @@ from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, r
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import free_curves
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
@@ -88,6 +90,7 @@ def diagnose(
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     corrected = {one.name: _corrected(one, accused) for one in setting.train}
     runs = list(corrected.values())
+    setting = replace(setting, floor=_floor_of_corrected(setting, accused))
     model = pursuit.best.model
     together = groups_of(runs, groups)
     final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)
@@ -166,6 +169,16 @@ def _put_right(refitter: Refitter, accused: Sequence[Accused]) -> Refitter:
 def _corrected(run: ScoredRun, accused: Sequence[Accused]) -> ScoredRun:
     correction = correction_of(run.name, accused)
     return replace(run, force=correction.apply(run.force, run.drive.dt)) if correction else run
+
+
+def _floor_of_corrected(setting: Setting, accused: Sequence[Accused]) -> NoiseFloor:
+    """The noise floor of the training runs as the corrected dataset has them."""
+    dataset = setting.dataset.select(setting.split.train)
+    runs = [
+        corrected_run(run, correction) if (correction := correction_of(run.name, accused)) else run
+        for run in dataset.runs
+    ]
+    return noise_floor(replace(dataset, runs=tuple(runs)))
 
 
 def correction_of(run: str, accused: Sequence[Accused]) -> Correction | None:

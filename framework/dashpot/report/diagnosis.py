@@ -21,7 +21,10 @@ VERDICTS: dict[str, tuple[NoticeKind, str]] = {
     "nothing_missing": ("good", "The residual is at the noise floor: the data do not ask for a richer model."),
     "partly_explained": ("warning", "The accepted causes explain part of the error; something is still missing."),
     "unexplained": ("bad", "Something is missing in the model that none of the known causes fits."),
-    "ambiguous": ("warning", "More than one cause fits these data; a further measurement would distinguish them."),
+    "ambiguous": (
+        "warning",
+        "More than one cause fits these data, or one is no more than probable; a further measurement would tell.",
+    ),
     "bad_data": ("bad", "The measurement has to be put right before the model can be judged."),
 }
 

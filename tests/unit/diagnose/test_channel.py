@@ -123,6 +123,16 @@ def test_a_run_that_pulled_the_fit_to_itself_is_named():
     assert word == "gain" and probability > 0.9
 
 
+def test_the_noise_floor_is_that_of_the_corrected_runs():
+    """What a drift makes two repeats differ by is no noise once it is put right."""
+    data = dataset(repeats=AGAIN, fault={"again": FAULTS["drift"][0]})
+    made = bench(data)
+    assert made.setting.floor.value > 1.4 * NOISE
+    found = diagnose(made.model.declared, data, registry=load_registry()).as_dict()
+    assert [cause["cause"] for cause in found["causes"] if cause["accepted"]] == ["drift"]
+    assert found["noise_floor"]["value"] == pytest.approx(NOISE, rel=0.1)
+
+
 @pytest.mark.parametrize(
     "extreme",
     [Motion(3e-3, 8e-3, 25.0), Motion(6e-3, 8e-3), Motion(3e-3, 15e-3)],
