@@ -87,21 +87,16 @@ def cause_grid(diagnosis: Json) -> Grid:
 
 
 def named_grid(diagnosis: Json) -> Grid:
-    """The causes that a diagnosis names: those it accepted, the probable ones, and those that cannot be told apart."""
-    return _causes(diagnosis, "Causes", [cause for cause in diagnosis["causes"] if is_told(cause)])
+    """The causes that a diagnosis tells: the accepted and the probable ones."""
+    return _causes(diagnosis, "Causes", [cause for cause in diagnosis["causes"] if is_likely(cause)])
 
 
 def unnamed_grid(diagnosis: Json) -> Grid:
     """The causes that were suspected and explain less."""
-    causes = [cause for cause in diagnosis["causes"] if not is_told(cause)]
+    causes = [cause for cause in diagnosis["causes"] if not is_likely(cause)]
     return replace(
         _causes(diagnosis, "Candidates with a probability below 50 %", causes), folded=True, csv_name="suspected.csv"
     )
-
-
-def is_told(cause: Json) -> bool:
-    """Whether a cause is part of the answer."""
-    return is_likely(cause) or bool(cause.get("indistinguishable_from"))
 
 
 def is_likely(cause: Json) -> bool:
@@ -320,11 +315,10 @@ def _cause_row(cause: Json, diagnosis: Json) -> dict[str, Any]:
 
 
 def _found(cause: Json) -> str:
-    if is_sure(cause):
-        return "accepted"
-    if cause.get("indistinguishable_from"):
-        return "it or a rival" if cause.get("accepted") else "possible, not alone"
-    return "probable" if is_likely(cause) else "resembles it, less likely than not"
+    rivals = " (it or a rival)" * bool(cause.get("indistinguishable_from"))
+    if cause.get("accepted"):
+        return f"accepted{rivals}"
+    return f"probable{rivals}" if is_likely(cause) else "resembles it, less likely than not"
 
 
 def _title_of(word: str, diagnosis: Json) -> str:

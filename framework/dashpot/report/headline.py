@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely, is_sure, is_told
+from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely, is_sure
 from dashpot.report.readable import join, percent
 from dashpot.text.digits import number, quantity, with_interval
 
@@ -57,7 +57,7 @@ def headline(diagnosis: Json) -> str:
 def short_headline(diagnosis: Json) -> str:
     """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
     errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
-    named = [_title_as_sure_as_it_is(cause) for cause in diagnosis["causes"] if is_told(cause)]
+    named = _titles(diagnosis)
     if verdict == "nothing_missing" and errors.before is not None and errors.floor:
         error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
         return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
@@ -70,11 +70,20 @@ def short_headline(diagnosis: Json) -> str:
     return _without_names(verdict, errors, len(named))
 
 
+def _titles(diagnosis: Json) -> list[str]:
+    """The causes that are told, each as sure as it is; all that the error resembles where nothing explains it."""
+    if diagnosis["verdict"] == "unexplained":
+        return [cause_title(cause) for cause in diagnosis["causes"]]
+    return [_title_as_sure_as_it_is(cause) for cause in likely_causes(diagnosis)]
+
+
 def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
     """What stands before and behind the names of causes."""
     error = _short_error(errors)
     if verdict == "bad_data":
         return "The measurement is at fault first; named are ", ""
+    if verdict == "unexplained":
+        return f"{error}: no known cause fits; it resembles ", ""
     if verdict == "ambiguous":
         return f"{error}: not distinguishable by these data: ", ""
     share = f"; {percent(errors.gain)} of it is " if errors.gain is not None else ": "
@@ -262,14 +271,14 @@ def _title_as_sure_as_it_is(cause: Json) -> str:
 
 
 def _rivals(diagnosis: Json) -> list[Json]:
-    causes = diagnosis["causes"]
+    causes = likely_causes(diagnosis)
     places = [other for cause in causes for other in cause.get("alternatives") or ()]
     if places:
         named = [cause for cause in causes if cause.get("indistinguishable_from")]
         return list({cause_title(cause): cause for cause in [*places, *named]}.values())[::-1]
     words = {cause["cause"] for cause in causes if cause.get("indistinguishable_from")}
     words |= {other for cause in causes for other in cause.get("indistinguishable_from") or []}
-    known = {cause["cause"]: cause for cause in causes}
+    known = {cause["cause"]: cause for cause in diagnosis["causes"]}
     return [known.get(word, {"cause": word}) for word in [*known, *sorted(words - set(known))] if word in words]
 
 

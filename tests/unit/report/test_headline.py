@@ -74,13 +74,13 @@ def test_unexplained_tells_what_it_resembles_and_does_not_guess():
 
 
 def test_ambiguous_names_all_rivals():
-    causes = [friction(accepted=False, indistinguishable_from=["relaxation"]), relaxation()]
+    causes = [friction(indistinguishable_from=["relaxation"]), relaxation()]
     said = headline(diagnosis(verdict="ambiguous", causes=causes))
     assert "dry friction of 41 N [38, 44] and relaxation of 160 ms [20, 900] explain it equally well" in said
 
 
 def test_a_rival_that_is_only_mentioned_is_named_too():
-    causes = [friction(accepted=False, indistinguishable_from=["end_stop"])]
+    causes = [friction(indistinguishable_from=["end_stop"])]
     assert "and end stop explain it equally well" in headline(diagnosis(verdict="ambiguous", causes=causes))
 
 

@@ -265,7 +265,8 @@ def test_importing_the_report_loads_no_heavy_library():
 def test_a_rival_cause_is_not_called_unsupported():
     from dashpot.report.grids import cause_grid
 
-    causes = [friction(accepted=False, indistinguishable_from=["end_stop"]), friction(accepted=False)]
+    rivals = {"accepted": False, "indistinguishable_from": ["end_stop"]}
+    causes = [friction(**rivals, standing="probable"), friction(accepted=False)]
     grid = cause_grid(diagnosis(verdict="ambiguous", causes=causes))
-    assert [row["found"] for row in grid.rows] == ["possible, not alone", "resembles it, less likely than not"]
+    assert [row["found"] for row in grid.rows] == ["probable (it or a rival)", "resembles it, less likely than not"]
     assert [row["confused"] for row in grid.rows] == ["end stop", None]
