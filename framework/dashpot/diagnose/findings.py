@@ -243,8 +243,11 @@ class Findings:
 
     @cached_property
     def explainable(self) -> Explainable:
-        """What a general model of the past motion leaves; trees are grown only where the model is far from noise."""
-        return explainable_error(self.setting, self.seed, not self._near_floor)
+        """What a general model of the past motion leaves, taught by the runs as the corrected dataset has them.
+
+        Trees are grown only where the model is far from noise.
+        """
+        return explainable_error(self.after_setting, self.seed, not self._near_floor)
 
     @property
     def remarks(self) -> list[str]:

@@ -24,13 +24,15 @@ SIGNIFICANT = 6.0
 SMALLEST_SIZE = 0.1
 LAGS = (0.003, 0.02, 0.15, 1.0)
 KEPT = 1e-8  # of the largest eigenvalue
+AGAIN = "comes again in repeated runs"
 
 
 @dataclass(frozen=True)
 class Leftover:
     """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
 
-    ``what`` says how it shows, ``share`` how much of the square of the residual it is.
+    ``what`` says how it shows, ``share`` how much of the square of the residual it is; of the residual in newtons where
+    it comes again in repeated runs, else of the whitened one.
     """
 
     score: float
@@ -54,9 +56,12 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
         _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in records(refitter.runs)}),
     ]
     found = max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
-    square = np.concatenate(list(residual.values())) @ np.concatenate(list(residual.values()))
-    whole = float(square) / sum(values.size for values in residual.values())
-    return replace(found, share=min(found.size**2 / whole, 1.0)) if found.score > SIGNIFICANT else found
+    if found.score <= SIGNIFICANT:
+        return found
+    if found.what == AGAIN:
+        return replace(found, share=_repeated(refitter.linearise(look.model, look.noise)[0], pairs))
+    whole = np.concatenate(list(residual.values()))
+    return replace(found, share=min(found.size**2 / float(np.mean(whole**2)), 1.0))
 
 
 def _correlation(
@@ -108,7 +113,14 @@ def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> 
     if not products:
         return Leftover(0.0, 0.0, "is not known to come again")
     total, samples = sum(float(product.sum()) for product in products), sum(product.size for product in products)
-    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), "comes again in repeated runs")
+    return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), AGAIN)
+
+
+def _repeated(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> float:
+    """The share of the square of the residual (kept,) of repeated runs that is the same in both: its covariance."""
+    both = [(residual[one], residual[other]) for one, other in pairs]
+    squares = sum(0.5 * float(one @ one + other @ other) for one, other in both)
+    return float(np.clip(sum(float(one @ other) for one, other in both) / squares, 0.0, 1.0))
 
 
 def _line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Leftover:
