@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,13 +59,16 @@ def refined_path(drive: Drive, parts: int, first: int, end: int) -> tuple[Array,
 
 def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
     # the polynomials of every step, or their derivatives, at equal parts of it
-    u = np.arange(parts) / parts
-    powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(len(ascending))]
-    terms = [
-        np.outer(part, np.polynomial.polynomial.polyval(u, power))
-        for part, power in zip(ascending, powers, strict=True)
-    ]
+    terms = (np.multiply.outer(part, power) for part, power in zip(ascending, _powers(order, parts), strict=True))
     return sum(terms, np.zeros(())).ravel()
+
+
+@lru_cache
+def _powers(order: int, parts: int) -> tuple[Array, ...]:
+    """The powers 0 to 5 at equal parts (parts,) of one, or their derivatives."""
+    u = np.arange(parts) / parts
+    powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(6)]
+    return tuple(np.polynomial.polynomial.polyval(u, power) for power in powers)
 
 
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 _interned: dict[tuple[Any, ...], Node] = {}
+_applied: dict[tuple[str | int, ...], Node] = {}
 _serial = itertools.count()
 _symbols: dict[int, frozenset[str]] = {}
 
@@ -150,6 +151,14 @@ def as_node(value: Any) -> Node:
 
 def apply(operation: str, *arguments: Node) -> Node:
     """The node of an operation, folded where the arguments allow it."""
+    key = (operation, *[argument.serial for argument in arguments])
+    found = _applied.get(key)
+    if found is None:
+        found = _applied[key] = _apply(operation, arguments)
+    return found
+
+
+def _apply(operation: str, arguments: tuple[Node, ...]) -> Node:
     if all(argument.operation == "constant" for argument in arguments):
         return constant(_fold(operation, arguments))
     simple = _simplify(operation, arguments)
@@ -187,16 +196,14 @@ def walk(roots: Iterable[Node]) -> list[Node]:
     lists, whatever was traced before.
     """
     done: dict[int, Node] = {}
-    stack = [(root, False) for root in reversed(list(roots))]
+    stack = list(roots)[::-1]
     while stack:
-        node, ready = stack.pop()
-        if node.serial in done:
-            continue
-        if ready:
-            done[node.serial] = node
+        node = stack[-1]
+        waiting = [argument for argument in node.arguments if argument.serial not in done]
+        if waiting and node.serial not in done:
+            stack.extend(waiting[::-1])
         else:
-            stack.append((node, True))
-            stack.extend((argument, False) for argument in reversed(node.arguments))
+            done[node.serial] = stack.pop()
     return list(done.values())
 
 

@@ -61,8 +61,8 @@ class Compiled(ABC, Generic[Prepared]):
         """How the load cells see each lane in a run with these settings."""
         return read_observation(self.paths, with_settings(self.spec, np.atleast_2d(values), settings))
 
-    def _fill(self, rows: int, dt: float, lanes: Array) -> Array:
-        # a workspace (rows, lanes) with the constants of the lanes in its first rows
+    def _fill(self, rows: int, dt: float | Array, lanes: Array) -> Array:
+        # a workspace (rows, lanes) with the constants of the lanes in its first rows; dt may be of each lane
         space = np.zeros((rows, lanes.shape[0]))
         known = {"dt": dt, "gravity": self.spec.gravity, **dict(zip(self.paths, lanes.T, strict=True))}
         for row, number in zip(space, recipe_of(self.program)(known), strict=False):

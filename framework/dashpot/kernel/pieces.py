@@ -80,3 +80,14 @@ class Pieces:
             end = min(end, self.samples)
             yield self.make(first, end)
             first, end = end, end + self.size
+
+
+@dataclass(frozen=True, eq=False)
+class Changed:
+    """Pieces with a ``change``, which is made each time they are gone through."""
+
+    pieces: Iterable[Piece]
+    change: Callable[[Piece], Piece]
+
+    def __iter__(self) -> Iterator[Piece]:
+        return map(self.change, self.pieces)

@@ -21,7 +21,7 @@ from dashpot.kernel.compiler.trace import refuse_missing_numbers
 from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course, Marched
 from dashpot.kernel.ir.layout import LANES
 from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, SystemProgram
-from dashpot.kernel.pieces import Piece, Pieces, SystemRows
+from dashpot.kernel.pieces import Changed, Piece, Pieces, SystemRows
 from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
 from dashpot.kernel.settings import used_settings, with_settings
 from dashpot.kernel.solution import HALVED, Solution, status_of
@@ -75,8 +75,13 @@ class CompiledSystem(Compiled[SystemRows]):
 
         def pieces(long: int, quick: bool) -> Iterable[Piece]:
             def make(first: int, end: int) -> Piece:
+                before = max(first - 1, 0)
+                paths = [refined_path(excitation.motions[joint], 2 * long, before, end) for joint in self.outputs]
+                # the long steps end at every second place of the short ones
+                steps = (2, long), (1, 2 * long)
                 coarse, fine = (
-                    self._moved(excitation, loads, newton, parts, first, end, quick) for parts in (long, 2 * long)
+                    self._moved(excitation, _thinned(paths, skip), loads, newton, parts, (before, end), quick)
+                    for skip, parts in steps
                 )
                 return Piece(first, end, coarse, fine)
 
@@ -95,17 +100,20 @@ class CompiledSystem(Compiled[SystemRows]):
         for column, given in places.items():
             still[:, column] = given[0]
 
+        forces = np.array([*places.values()]).reshape(len(places), run.excitation.samples)
+        rows = list(places)
+
         def signalled(piece: Piece) -> Piece:
+            own = forces[:, max(piece.first - 1, 0) : piece.end]
             coarse, fine = piece.coarse.copy(), piece.fine.copy()
-            for column, given in places.items():
-                own = given[max(piece.first - 1, 0) : piece.end]
-                for rows in (coarse, fine):
-                    parts = len(rows) // max(own.size - 1, 1)
-                    rows[:, column] = (own[:-1, None] + np.outer(np.diff(own), np.arange(1, parts + 1) / parts)).ravel()
+            parts = np.arange(1, 1 + len(fine) // max(own.shape[1] - 1, 1))
+            straight = own[:, :-1, None] + np.diff(own)[:, :, None] * (parts / max(parts.size, 1))
+            fine[:, rows] = straight.reshape(len(rows), -1).T
+            coarse[:, rows] = fine[1::2, rows]
             return Piece(piece.first, piece.end, coarse, fine)
 
-        quick = None if run.quick is None else [signalled(piece) for piece in run.quick]
-        return replace(run, still=still, pieces=[signalled(piece) for piece in run.pieces], quick=quick)
+        quick = None if run.quick is None else Changed(run.quick, signalled)
+        return replace(run, still=still, pieces=Changed(run.pieces, signalled), quick=quick)
 
     def solve(self, run: SystemRows, values: Array | None = None) -> Solution:
         """Forces and motions with their estimated errors."""
@@ -268,8 +276,9 @@ class CompiledSystem(Compiled[SystemRows]):
         return Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
 
     def _blocks(self, run: SystemRows, lanes: Array, course: Course) -> Iterator[Block]:
-        step = run.excitation.dt / course.steps(run)
-        workspace = np.stack([self._fill(self.system.rows, dt, lanes) for dt in (step, 0.5 * step)])
+        step, count = run.excitation.dt / course.steps(run), lanes.shape[0]
+        both = self._fill(self.system.rows, np.repeat([step, 0.5 * step], count), np.concatenate([lanes, lanes]))
+        workspace = both.reshape(self.system.rows, 2, count).swapaxes(0, 1)
         return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
@@ -280,19 +289,17 @@ class CompiledSystem(Compiled[SystemRows]):
     def _moved(
         self,
         excitation: Excitation,
+        paths: Sequence[Sequence[Array]],
         loads: Mapping[str, Callable[[Array], Array]],
         newton: Mapping[str, float],
         parts: int,
-        first: int,
-        end: int,
+        span: tuple[int, int],
         quick: bool,
     ) -> Array:
-        # the steps to the samples from `first` up to `end`, from the sample before
+        # the steps from the first sample of the span to the last one before its end
         seen: dict[str, Array | float] = {"dt": excitation.dt / parts}
-        before = max(first - 1, 0)
-        count = (end - 1 - before) * parts
-        for joint in self.outputs:
-            x, v, a = refined_path(excitation.motions[joint], parts, before, end)
+        before, count = span[0], (span[1] - 1 - span[0]) * parts
+        for joint, (x, v, a) in zip(self.outputs, paths, strict=True):
             moved = dict(zip(MOVED, (x[:-1], x[1:], v[:-1], v[1:], a[1:]), strict=True))
             seen |= {driven_symbol(joint, key): column for key, column in moved.items()}
         for joint in self.topology.held("loaded"):
@@ -353,6 +360,10 @@ def _by_sample(rows: Array) -> Array:
 def _of_lanes(blocks: Array, count: int) -> Array:
     """From numbers (blocks, ..., WIDTH) to those of the lanes (..., lanes) that were asked for."""
     return np.concatenate(list(blocks), axis=-1)[..., :count]
+
+
+def _thinned(paths: Sequence[Sequence[Array]], skip: int) -> list[list[Array]]:
+    return [[each[::skip] for each in path] for path in paths]
 
 
 def _spline(samples: Array) -> Callable[[Array], Array]:

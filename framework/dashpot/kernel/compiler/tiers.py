@@ -116,7 +116,7 @@ class Regrouping:
 
     def settle(self, node: Node) -> Node:
         """Note the tiers of a node and everything below it."""
-        stack = [node]
+        stack = [] if node.serial in self.tiers else [node]
         while stack:
             new = [argument for argument in stack[-1].arguments if argument.serial not in self.tiers]
             if new:
