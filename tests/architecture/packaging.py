@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Mapping
 from functools import cache
 from importlib.metadata import packages_distributions
 from typing import Any
@@ -34,5 +35,11 @@ def requirements() -> set[str]:
 @cache
 def distributions_of(package: str) -> set[str]:
     """Names of the distributions that provide a package, in small letters: the installed ones, else by its own name."""
-    provided = packages_distributions().get(package, [PACKAGED_AS.get(package, package)])
+    provided = _installed().get(package, [PACKAGED_AS.get(package, package)])
     return {distribution.lower() for distribution in provided}
+
+
+@cache
+def _installed() -> Mapping[str, list[str]]:
+    # the names of all distributions are read once: it takes a second
+    return packages_distributions()

@@ -12,6 +12,7 @@ from architecture.source import ROOT
 
 import dashpot as dp
 from dashpot.cli import main
+from dashpot.fit.study.reading import shipped_studies
 
 DOCS = ROOT / "docs"
 PAGES = [*sorted((DOCS / "how-to").glob("*.md")), *sorted((DOCS / "verbs").glob("*.md"))]
@@ -71,6 +72,14 @@ def one_specimen(folder: Path) -> None:
     (folder / "specimens.csv").write_text("specimen,data,batch\nm01,mount,A\n", encoding="utf-8")
 
 
+def with_fewer_cars(folder: Path) -> Path:
+    """The shipped study of inspection tests with 5 in place of 200 cars at each place: one run is like another."""
+    text, fewer = shipped_studies()["inspection"].read_text(encoding="utf-8"), folder / "fewer_cars.yaml"
+    assert text.endswith("\ndraws: 200\n")
+    fewer.write_text(text.replace("\ndraws: 200\n", "\ndraws: 5\n"), encoding="utf-8")
+    return fewer
+
+
 BEFORE: dict[str, Callable[[Path], None]] = {
     "stiffness-tables": supplier,
     "use-elsewhere": named,
@@ -85,6 +94,8 @@ def test_the_commands_of_a_page_run(page, bench, tmp_path, monkeypatch, capfd):
     folder = shutil.copytree(bench, tmp_path / "bench")
     monkeypatch.chdir(folder)
     monkeypatch.setattr("dashpot.cli.demo.choose_specimen", lambda word, registry: Small)
+    studies = {**shipped_studies(), "inspection": with_fewer_cars(folder)}
+    monkeypatch.setattr("dashpot.fit.study.reading.shipped_studies", lambda: studies)
     BEFORE.get(page.stem, lambda _: None)(folder)
     for line in commands(page):
         # how many processes is the reader's affair: one is enough to see that it runs

@@ -11,8 +11,9 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from architecture.source import ROOT
+from architecture.source import ROOT, VERB_PAGES
 
+sys.path.insert(0, str(ROOT / "docs"))
 pytest.importorskip("sphinx", reason="the documentation needs the extra docs")
 
 LOADED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src", "object": "data"}
@@ -37,6 +38,7 @@ def test_the_pages(site):
     every_page_is_reached(site)
     nothing_outside_is_loaded(site)
     notebooks_show_what_they_found(site)
+    the_examples_of_all_verbs_ran()
     generated_pages_hold_what_is_installed(site)
     if chromium := shutil.which("chromium") or shutil.which("google-chrome"):
         plots_and_formulas_are_drawn(site, chromium)
@@ -72,6 +74,18 @@ def notebooks_show_what_they_found(site: Path) -> None:
     assert "identified:" in texts["identify_a_tire"]
     assert "+relaxation" in texts["find_a_hidden_effect"]
     assert "of the wheel" in texts["quarter_car_in_numba"]
+
+
+def the_examples_of_all_verbs_ran() -> None:
+    """A command that fails ends the building of the pages."""
+    from building.verbs import commands
+
+    pages = ROOT / "docs" / "generated" / "verbs"
+    wanted = {page.stem: commands(page.read_text(encoding="utf-8")) for page in VERB_PAGES}
+    assert sum(map(bool, wanted.values())) > 10
+    for name, lines in wanted.items():
+        text = (pages / f"{name}.md").read_text(encoding="utf-8")
+        assert all(f"$ {line}\n" in text for line in lines), name
 
 
 def generated_pages_hold_what_is_installed(site: Path) -> None:

@@ -1,11 +1,9 @@
-"""Every verb has its page, with all its options, and the commands of its example run."""
+"""Every verb has its page, with all its options; test_site runs the commands of its example."""
 
 from __future__ import annotations
 
 import re
-import shutil
 import sys
-from pathlib import Path
 
 import click
 import pytest
@@ -16,22 +14,11 @@ from dashpot.cli.shell import dashpot as command
 
 sys.path.insert(0, str(ROOT / "docs"))
 
-from building.verbs import commands, page, prepared, reference  # noqa: E402
+from building.verbs import reference  # noqa: E402
 
 SOURCES = ROOT / "docs" / "verbs"
 OVERVIEW = (ROOT / "docs" / "reference" / "command-line.md").read_text(encoding="utf-8")
 INDEX = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
-
-
-def source(name: str) -> str:
-    """The written part of the page of a verb."""
-    return (SOURCES / f"{name}.md").read_text(encoding="utf-8")
-
-
-@pytest.fixture(scope="session")
-def measured(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of the examples, with its measurements."""
-    return prepared(tmp_path_factory.mktemp("verbs") / "bench")
 
 
 def test_every_page_belongs_to_a_verb():
@@ -55,10 +42,3 @@ def test_a_page_has_every_option_and_argument(name):
     arguments = " ".join(shown).split()
     assert not [word for word in words if not re.search(rf"^\| `(?:-\w, )?{word}[` ,]", text, flags=re.MULTILINE)]
     assert not [word for word in arguments if "| `" + word.replace("|", r"\|") + "` |" not in text]
-
-
-@pytest.mark.parametrize("name", [name for name in VERBS if commands(source(name))])
-def test_the_example_of_a_page_runs(name, measured, tmp_path):
-    folder = shutil.copytree(measured, tmp_path / "bench")
-    text = "\n\n".join(page(name, source(name), folder))
-    assert all(f"$ {line}\n" in text for line in commands(source(name)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,16 +60,16 @@ def refined_path(drive: Drive, parts: int, first: int, end: int) -> tuple[Array,
 
 def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
     # the polynomials of every step, or their derivatives, at equal parts of it
-    terms = (np.multiply.outer(part, power) for part, power in zip(ascending, _powers(order, parts), strict=True))
+    terms = [part[:, None] * power for part, power in zip(ascending, _powers(order, parts), strict=True)]
     return sum(terms, np.zeros(())).ravel()
 
 
 @lru_cache
-def _powers(order: int, parts: int) -> tuple[Array, ...]:
+def _powers(order: int, parts: int) -> list[Any]:
     """The powers 0 to 5 at equal parts (parts,) of one, or their derivatives."""
     u = np.arange(parts) / parts
     powers = [np.polynomial.polynomial.polyder(row, order) if order else row for row in np.eye(6)]
-    return tuple(np.polynomial.polynomial.polyval(u, power) for power in powers)
+    return [np.polynomial.polynomial.polyval(u, power) for power in powers]
 
 
 def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleration: Array) -> Drive:

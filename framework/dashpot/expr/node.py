@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 _interned: dict[tuple[Any, ...], Node] = {}
-_applied: dict[tuple[str | int, ...], Node] = {}
+_applied: dict[tuple[Any, ...], Node] = {}
 _serial = itertools.count()
 _symbols: dict[int, frozenset[str]] = {}
 
