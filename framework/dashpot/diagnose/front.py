@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 RIDGE = 1e-9
 REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
+ROOM = 100e6  # bytes of what is known beside structures of which terms are gone
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
 NONE = frozenset[int]()
@@ -46,6 +47,11 @@ class Beside:
     tangents: int
     occam: float
 
+    @property
+    def nbytes(self) -> int:
+        """The bytes of its matrices."""
+        return self.moves.nbytes + self.base_moves.nbytes + self.gram.nbytes
+
     def unlikely(self, strengths: Array) -> float:
         """How unlikely a combination (c,) of the columns is beforehand, in nats."""
         in_front = self.precision @ (self.moves @ strengths) ** 2
@@ -71,10 +77,15 @@ class Front:
     _known: dict[frozenset[int], Beside] = field(default_factory=dict)
 
     def beside(self, gone: frozenset[int] = NONE) -> Beside:
-        """The columns where some terms are ``gone``, and with them the errors of their forms."""
-        if gone not in self._known:
-            self._known[gone] = self._without(gone)
-        return self._known[gone]
+        """The columns where some terms are ``gone``, and with them the errors of their forms.
+
+        Kept are those beside all terms, and of the others what was asked for last, as long as there is room.
+        """
+        found = self._known.pop(gone, None) or self._without(gone)
+        self._known[gone] = found
+        while len(self._known) > 2 and sum(one.nbytes for one in self._known.values()) > ROOM:
+            del self._known[next(known for known in self._known if known)]
+        return found
 
     def _without(self, gone: frozenset[int]) -> Beside:
         first = self.precision.size
