@@ -25,7 +25,7 @@ limits       the detection limits, the smallest effects found with 95 % power
 proposals    runs to choose the next measurement from
 next_run     the run that tells two models apart
 gain         what a cause is worth on runs that took no part
-named        the accepted causes as they are told
+named        what was added to the files as it is told
 findings     everything that was found, and the files
 diagnosis    the causes told, the verdict and the result file
 diagnose     all of it in order

@@ -90,7 +90,8 @@ def diagnose(
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     corrected = {one.name: _corrected(one, accused) for one in setting.train}
     runs = list(corrected.values())
-    setting = replace(setting, floor=_floor_of_corrected(setting, accused))
+    if accused:
+        setting = replace(setting, floor=_floor_of_corrected(setting, accused))
     model = pursuit.best.model
     together = groups_of(runs, groups)
     final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)

@@ -43,6 +43,7 @@ Array = NDArray[np.float64]
 
 ALONE = 2.0  # times the error of the worst training run
 NEAR_FLOOR = 2.0  # times the noise floor: beyond it the RMSE of a model is more than noise
+# how the head of a file calls a term, by its standing
 IN_FILES = {"accepted": "cause", "probable": "probable cause", "resembles": "resembles"}
 
 

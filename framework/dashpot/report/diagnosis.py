@@ -142,7 +142,7 @@ def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
 
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
-    done = f"was extended to {extended}" if extended and diagnosis["causes"] else "was left as it is"
+    done = f"was extended to {extended}" if extended else "was left as it is"
     return f"{headline(diagnosis)} {model} {done}. {grids.floor_origin(diagnosis)}".strip()
 
 

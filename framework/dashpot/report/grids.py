@@ -104,11 +104,6 @@ def is_likely(cause: Json) -> bool:
     return bool(cause.get("accepted")) or cause.get("standing") == "probable"
 
 
-def is_sure(cause: Json) -> bool:
-    """Whether a cause is told without a doubt: accepted, and with no other one in its place."""
-    return bool(cause.get("accepted")) and not cause.get("indistinguishable_from")
-
-
 def _causes(diagnosis: Json, title: str, causes: Sequence[Json]) -> Grid:
     columns = [
         Column("rank", "rank", "", 1),

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely, is_sure
+from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely
 from dashpot.report.readable import join, percent
 from dashpot.text.digits import number, quantity, with_interval
 
@@ -74,7 +74,7 @@ def _titles(diagnosis: Json) -> list[str]:
     """The causes that are told, each as sure as it is; all that the error resembles where nothing explains it."""
     if diagnosis["verdict"] == "unexplained":
         return [cause_title(cause) for cause in diagnosis["causes"]]
-    return [_title_as_sure_as_it_is(cause) for cause in likely_causes(diagnosis)]
+    return [_probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
 
 
 def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
@@ -213,21 +213,21 @@ def _leftover(diagnosis: Json) -> str:
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:
-    """What is sure comes first; causes that fit alike explain the rest of it."""
+    """What has no rival comes first; causes that fit alike explain the rest of it."""
     rivals = _rivals(diagnosis)
     if len(rivals) < 2:
         likely = likely_causes(diagnosis)
         named = f", {_named(likely)}" if likely else ""
         return f"{error_phrase(errors)}: the cause is not identifiable from these data{named}."
-    sure = [cause for cause in likely_causes(diagnosis) if not cause.get("indistinguishable_from")]
-    known = [cause_title(cause) for cause in sure]
+    alone = [cause for cause in likely_causes(diagnosis) if not cause.get("indistinguishable_from")]
+    known = [cause_title(cause) for cause in alone]
     names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
-    if not sure:
+    if not alone:
         return f"{error_phrase(errors)}: {names} explain it equally well; these data do not distinguish them."
     rest = f"a further part is explained equally well by {names}; these data do not distinguish them"
-    gain = _gain_of(sure)
+    gain = _gain_of(alone)
     share = "part" if gain is None else percent(gain)
-    return f"{error_phrase(errors)}; {share} of it is {_named(sure)}; {rest}."
+    return f"{error_phrase(errors)}; {share} of it is {_named(alone)}; {rest}."
 
 
 def _gain_of(causes: list[Json]) -> float | None:
@@ -260,14 +260,12 @@ def _named(causes: list[Json]) -> str:
 def _as_sure_as_it_is(cause: Json) -> str:
     """A cause with its rivals, which have other parameters, and as probable where it is no more than that."""
     rivals = [cause_title({"cause": word}) for word in cause.get("indistinguishable_from") or ()]
-    if rivals:
-        return " or ".join([cause_title(cause), *rivals])
-    return cause_phrase(cause) if is_sure(cause) else f"probably {cause_phrase(cause)}"
+    return _probably(cause, " or ".join([cause_title(cause), *rivals]) if rivals else cause_phrase(cause))
 
 
-def _title_as_sure_as_it_is(cause: Json) -> str:
-    probable = not (is_sure(cause) or cause.get("indistinguishable_from"))
-    return f"{'probably ' * probable}{cause_title(cause)}"
+def _probably(cause: Json, words: str) -> str:
+    """What is said of a cause, as probable where it is not accepted."""
+    return words if cause.get("accepted") else f"probably {words}"
 
 
 def _rivals(diagnosis: Json) -> list[Json]:

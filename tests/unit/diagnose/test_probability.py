@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from dashpot.diagnose.diagnosis import Diagnosis
+from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
 
 FOLDS, SAMPLES = 8, 100.0
@@ -90,3 +92,35 @@ def test_something_is_there_whatever_it_is_called():
     assert found.presence(("a", "")) == 1.0 > found.probability(("a", ""))
     nothing = pursuit(scored(0.0, "a"), [scored(np.array([1.0, -1.0] * (FOLDS // 2)))])
     assert nothing.presence(("a", "")) == nothing.probability(("a", ""))
+
+
+@pytest.mark.parametrize(
+    ("presence", "standing"),
+    [(1.0, "accepted"), (0.9, "accepted"), (0.899, "probable"), (0.501, "probable"), (0.5, "resembles")],
+)
+def test_nine_of_ten_that_are_accepted_are_to_be_right(presence, standing):
+    assert standing_of(presence) == standing
+
+
+@pytest.mark.parametrize(
+    ("standings", "rivals", "far", "verdict"),
+    [
+        ((), (), False, "nothing_missing"),
+        (("resembles",), (), False, "nothing_missing"),
+        (("probable",), (), False, "ambiguous"),
+        (("accepted", "probable"), (), False, "explained"),
+        (("accepted",), ("b",), False, "ambiguous"),
+        (("probable",), (), True, "unexplained"),
+        (("accepted", "probable"), (), True, "partly_explained"),
+    ],
+)
+def test_only_what_is_accepted_explains(standings, rivals, far, verdict):
+    terms = [SimpleNamespace(standing=standing, rivals=rivals) for standing in standings]
+    found = SimpleNamespace(
+        triage=SimpleNamespace(faults=()),
+        leftover=SimpleNamespace(notable=lambda: False),
+        _far_above_attainable=far,
+        named=[term for term in terms if term.standing == "accepted"],
+        terms=terms,
+    )
+    assert Diagnosis.verdict.func(found) == verdict

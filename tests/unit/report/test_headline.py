@@ -125,6 +125,24 @@ def test_a_cause_is_told_as_sure_as_it_is():
     either = relaxation(probability=0.95, accepted=True, indistinguishable_from=["power_law_damping"])
     said = headline(diagnosis(verdict="partly_explained", causes=[sure, either]))
     assert "and relaxation or power law damping, missing" in said
+    either = relaxation(standing="probable", indistinguishable_from=["power_law_damping"])
+    said = headline(diagnosis(verdict="partly_explained", causes=[sure, either]))
+    assert "and probably relaxation or power law damping, missing" in said
+
+
+def test_a_lone_cause_that_is_only_probable_is_told_so():
+    probable = friction(accepted=False, standing="probable")
+    said = headline(diagnosis(verdict="ambiguous", causes=[probable]))
+    assert said.endswith(
+        "not identifiable from these data, probably dry friction of 41 N [38, 44], missing in the model."
+    )
+    assert short_headline(diagnosis(verdict="ambiguous", causes=[probable])).endswith(": probably dry friction.")
+
+
+def test_what_an_unexplained_error_resembles_is_not_said_to_be_its_cause():
+    causes = [friction(accepted=False, standing="resembles"), relaxation(standing="probable")]
+    said = short_headline(diagnosis(verdict="unexplained", causes=causes))
+    assert said.endswith("no known cause fits; it resembles dry friction and relaxation.")
 
 
 def test_a_cause_in_several_branches_is_not_given_the_number_of_one_of_them():
