@@ -47,7 +47,7 @@ def verb(switches: Switches) -> int:
 def examine(session: Session) -> Iterator[Finding]:
     """All findings."""
     from dashpot.cli import checkup
-    from dashpot.kernel.targets.cache import cache_folder
+    from dashpot.kernel.cache import cache_folder
     from dashpot.model.shipped import spec_folder
 
     requirements = [checkup.Requirement.of(text) for text in requires("dashpot") or ()]

@@ -26,7 +26,7 @@ def verb(models: tuple[str, ...], switches: Switches) -> None:
       dashpot warm my_network.yaml
     """
     from dashpot.kernel.ahead import compile_ahead
-    from dashpot.kernel.targets.cache import cache_folder
+    from dashpot.kernel.cache import cache_folder
     from dashpot.model.shipped import shipped_networks
 
     session = Session(switches)
@@ -44,7 +44,7 @@ def verb(models: tuple[str, ...], switches: Switches) -> None:
 
 def compiled_files() -> set[str]:
     """The names of what is compiled."""
-    from dashpot.kernel.targets.cache import cache_folder
+    from dashpot.kernel.cache import cache_folder
 
     folder = cache_folder() / "kernels"
     return {path.name for ending in ENDINGS for path in folder.rglob(f"*{ending}")}

@@ -119,29 +119,39 @@ def constant(value: float | bool) -> Node:
     if isinstance(value, float) and math.isnan(value):
         raise TraceError("a law holds the constant NaN")
     plain = bool(value) if isinstance(value, (bool, np.bool_)) else float(value)
-    return _intern("constant", (), plain)
+    return interned("constant", (), plain)
 
 
 def symbol(name: str) -> Node:
     """The node of a named input."""
-    return _intern("symbol", (), name)
+    return interned("symbol", (), name)
 
 
 def table(curve: str, argument: Node, order: int = 0) -> Node:
     """The value (or ``order``-th derivative) of a tabulated curve at ``argument``."""
-    return _intern("table", (argument,), (curve, order))
+    return interned("table", (argument,), (curve, order))
 
 
 def lookup(curve: str, argument: Node, order: int = 0) -> Node:
     """The same as ``table`` where the argument moves with the lanes: every lane finds its own segment."""
-    return _intern("lookup", (argument,), (curve, order))
+    return interned("lookup", (argument,), (curve, order))
 
 
 def with_arguments(node: Node, arguments: Sequence[Node]) -> Node:
     """The same operation on other arguments."""
     if node.operation in ("table", "lookup"):
-        return _intern(node.operation, tuple(arguments), node.payload)
+        return interned(node.operation, tuple(arguments), node.payload)
     return apply(node.operation, *arguments) if arguments else node
+
+
+def interned(operation: str, arguments: tuple[Node, ...], payload: Any) -> Node:
+    """The one node of an operation on arguments, as it stands: nothing is folded."""
+    # the type keeps 1.0 and True apart; the sign keeps 0.0 and -0.0 apart
+    mark = (type(payload), math.copysign(1.0, payload)) if isinstance(payload, (float, bool)) else type(payload)
+    key = (operation, tuple(argument.serial for argument in arguments), payload, mark)
+    if key not in _interned:
+        _interned[key] = Node(operation, arguments, payload)
+    return _interned[key]
 
 
 def as_node(value: Any) -> Node:
@@ -162,7 +172,7 @@ def _apply(operation: str, arguments: tuple[Node, ...]) -> Node:
     if all(argument.operation == "constant" for argument in arguments):
         return constant(_fold(operation, arguments))
     simple = _simplify(operation, arguments)
-    return _intern(operation, arguments, None) if simple is None else simple
+    return interned(operation, arguments, None) if simple is None else simple
 
 
 def minimum(first: Node | float, second: Node | float) -> Node:
@@ -221,15 +231,6 @@ def symbols_of(node: Node) -> frozenset[str]:
             own = [inner.payload] if inner.operation == "symbol" else []
             _symbols[inner.serial] = frozenset(own).union(*(_symbols[arg.serial] for arg in inner.arguments))
     return _symbols[node.serial]
-
-
-def _intern(operation: str, arguments: tuple[Node, ...], payload: Any) -> Node:
-    # the type keeps 1.0 and True apart; the sign keeps 0.0 and -0.0 apart
-    mark = (type(payload), math.copysign(1.0, payload)) if isinstance(payload, (float, bool)) else type(payload)
-    key = (operation, tuple(argument.serial for argument in arguments), payload, mark)
-    if key not in _interned:
-        _interned[key] = Node(operation, arguments, payload)
-    return _interned[key]
 
 
 def _fold(operation: str, arguments: tuple[Node, ...]) -> Any:

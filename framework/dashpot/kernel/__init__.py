@@ -4,6 +4,8 @@ compiler - a network becomes a program: the stages, called in order
 ir       - what a program is, whatever the language
 targets  - languages that programs are printed in, and compiled
 
+cache    - where what is compiled is kept
+
 The modules beside them run what is compiled:
 
 columns   - the drive of a run, as the kernel wants it

@@ -15,8 +15,8 @@ import pytest
 from unit.kernel.networks import compiled
 
 from dashpot.data.drive import drive_from_samples
+from dashpot.kernel.cache import DIGEST, cache_folder
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.targets.cache import DIGEST, cache_folder
 from dashpot.kernel.targets.llvm import native
 from dashpot.model.element import Element, Parameter, Response
 from dashpot.model.network import Branch, Group, NetworkSpec, Value

@@ -12,5 +12,6 @@ equations   - all passes of such a network
 elimination - solving a small symmetric system of equations, as a graph
 own_tables  - tables that each lane looks up by itself
 meter       - rows that follow the energy
+kept        - sorted programs on disk
 compile     - the stages, called in order; networks that are built alike share one program
 """

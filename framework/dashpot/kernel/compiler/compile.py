@@ -6,18 +6,20 @@ built alike share one program, so that moving a number, as every fit does, trace
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
 from dashpot.expr.interpret import Recipe
-from dashpot.expr.node import Node, constant
-from dashpot.kernel.compiler.equations import Equations, write_equations
+from dashpot.expr.node import Node, constant, symbol
+from dashpot.expr.written import write_graphs
+from dashpot.kernel.compiler.equations import write_equations
+from dashpot.kernel.compiler.kept import kept_graphs
 from dashpot.kernel.compiler.mechanics import DONE, Meter, driven_symbol, force_row, row_of
 from dashpot.kernel.compiler.multistep import KEPT_TANGENTS, PACE, TURNS
 from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
-from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_network
+from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_along, trace_network
 from dashpot.kernel.ir.layout import Layout, shelves_of
 from dashpot.kernel.ir.online import Online
 from dashpot.kernel.ir.program import Program
@@ -27,6 +29,8 @@ from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.topology import Topology, topology_of
 
 KEPT = 512
+
+Passes = Mapping[str, Mapping[str, Node]]
 
 
 @dataclass(frozen=True)
@@ -47,7 +51,7 @@ def system_of(
 ) -> SystemProgram:
     """The program of a network with unknown nodes; a ``meter`` goes along, and laws may refer to ``signals``."""
     build = _Build((_structure_of(topology), tuple(signals)), (spec, topology, tuple(signals)))
-    return _balanced(build, meter) if meter else _shared(build)
+    return _metered(build, meter) if meter else _shared(build)
 
 
 def online_of(spec: NetworkSpec) -> Online:
@@ -79,19 +83,33 @@ def recipe_of(program: Program) -> Recipe:
 
 @lru_cache(KEPT)
 def _program(build: _Build) -> Program:
-    return sort_tiers(trace_network(build.parts))
+    spec = build.parts
+    laws = tuple(_traced(branch) for branch in spec.leaves())
+    return Program.from_graphs(*kept_graphs(laws, lambda: sort_tiers(trace_network(spec)).graphs()))
 
 
 @lru_cache(KEPT)
 def _shared(build: _Build) -> SystemProgram:
-    return _balanced(build, None)
-
-
-def _balanced(build: _Build, meter: Meter | None) -> SystemProgram:
     spec, topology, signals = build.parts
-    equations = write_equations(topology, meter)
-    known = equations.known | {driven_symbol(signal, "load") for signal in signals}
-    program, passes = _sort(equations, known)
+    laws = tuple(_traced(edge.branch) for edge in topology.edges)
+    shelves = tuple(shelves_of(spec.curves()).items())
+
+    def make() -> dict[str, Any]:
+        program, passes, known = _sorted_equations(topology, None, signals)
+        return {"program": program.graphs(), "passes": passes, "known": {name: symbol(name) for name in known}}
+
+    graphs, digest = kept_graphs((laws, _places_of(topology), signals, shelves), make)
+    program = Program.from_graphs(graphs["program"], digest)
+    return _system_program(build, program, graphs["passes"], frozenset(graphs["known"]))
+
+
+def _metered(build: _Build, meter: Meter) -> SystemProgram:
+    _, topology, signals = build.parts
+    return _system_program(build, *_sorted_equations(topology, meter, signals))
+
+
+def _system_program(build: _Build, program: Program, passes: Passes, known: frozenset[str]) -> SystemProgram:
+    spec, topology, _ = build.parts
     shelves = shelves_of(spec.curves())
     return SystemProgram(
         program,
@@ -104,22 +122,30 @@ def _balanced(build: _Build, meter: Meter | None) -> SystemProgram:
     )
 
 
-def _sort(equations: Equations, known: frozenset[str]) -> tuple[Program, dict[str, dict[str, Node]]]:
+def _sorted_equations(
+    topology: Topology, meter: Meter | None, signals: Sequence[str]
+) -> tuple[Program, Passes, frozenset[str]]:
+    equations = write_equations(topology, meter)
+    known = equations.known | {driven_symbol(signal, "load") for signal in signals}
     roots = [node for rows in equations.passes.values() for node in rows.values()]
     regroup = Regrouping(set(equations.rows), set(known), shared_nodes(roots))
     passes = {name: {row: regroup(node) for row, node in rows.items()} for name, rows in equations.passes.items()}
     columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
     zero = constant(0.0)
-    return Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {}), passes
+    program = Program(columns, constants, (), {}, zero, dict.fromkeys(equations.rows, zero), (), (), {})
+    return program, passes, known
 
 
 def _structure_of(topology: Topology) -> Hashable:
+    return _places_of(topology), tuple(_structure(edge.branch) for edge in topology.edges)
+
+
+def _places_of(topology: Topology) -> Hashable:
     joints = tuple(
         (joint.name, joint.hold, joint.numbers, tuple(joint.masses), joint.mounted)
         for joint in topology.joints.values()
     )
-    edges = tuple((_structure(edge.branch), edge.lower, edge.upper, edge.offset) for edge in topology.edges)
-    return joints, edges
+    return joints, tuple((edge.branch.name, edge.lower, edge.upper, edge.offset) for edge in topology.edges)
 
 
 def _structure(branch: Branch) -> Hashable:
@@ -131,3 +157,14 @@ def _law(element: type[Element]) -> Hashable:
     # a law may change with the methods and constants of its class
     entries = [entry for base in element.__mro__ for entry in vars(base).items()]
     return tuple((key, value) for key, value in entries if callable(value) or isinstance(value, float | int | str))
+
+
+def _traced(branch: Branch) -> str:
+    """The law of a branch as a text; the graphs of every sight differ in the names of the motion alone."""
+    return _law_text(_Build(_structure(branch), branch))
+
+
+@lru_cache(KEPT)
+def _law_text(build: _Build) -> str:
+    traced = trace_along(build.parts, "path")
+    return f"{traced.name}: {write_graphs((traced.force, dict(traced.states)))}"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from dashpot.expr.node import Node
+from dashpot.expr.node import Node, table
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,8 @@ class Program:
     """A network ready to be printed: what is hoisted, and what the passes over the lanes compute.
 
     A step computes ``force`` and ``updates``; at a turning point the states in ``turning`` alone move. Where one of the
-    ``events`` is true, ``corrections`` of old states come first.
+    ``events`` is true, ``corrections`` of old states come first. ``digest`` stands for all that it is made of, where
+    that is known.
     """
 
     columns: tuple[Node, ...]
@@ -33,6 +35,7 @@ class Program:
     turning: tuple[str, ...]
     events: tuple[Node, ...]
     corrections: Mapping[str, Node]
+    digest: str = ""
 
     @property
     def states(self) -> tuple[str, ...]:
@@ -43,3 +46,23 @@ class Program:
     def roots(self) -> list[Node]:
         """What a step computes."""
         return [self.force, *self.updates.values()]
+
+    def graphs(self) -> dict[str, Any]:
+        """All that it is made of, as nodes in tuples and mappings; see ``from_graphs``."""
+        return {
+            "columns": self.columns,
+            "constants": self.constants,
+            "lookups": tuple(table(look.curve, look.argument) for look in self.lookups),
+            "followers": dict(self.followers),
+            "force": self.force,
+            "updates": dict(self.updates),
+            "turning": {name: self.updates[name] for name in self.turning},
+            "events": self.events,
+            "corrections": dict(self.corrections),
+        }
+
+    @classmethod
+    def from_graphs(cls, graphs: Mapping[str, Any], digest: str) -> Program:
+        """The program of such graphs."""
+        looked = tuple(Lookup(node.payload[0], node.arguments[0]) for node in graphs["lookups"])
+        return cls(**{**graphs, "lookups": looked, "turning": tuple(graphs["turning"])}, digest=digest)

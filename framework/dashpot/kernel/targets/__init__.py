@@ -1,7 +1,6 @@
 """Languages that programs are printed in. Each folder or file knows one language, and none knows another.
 
 choice   - the targets that run in this process, and which of them does
-cache    - where compiled code is kept
 omega    - the coefficients of a long function
 llvm     - vectors of lanes as LLVM assembly: the fastest, and the default
 scalar   - one lane, statement by statement, in any language with variables and loops; the next three are such

@@ -12,32 +12,25 @@ native    - the text is compiled once per machine, and kept by what it is made o
 
 from __future__ import annotations
 
-from functools import lru_cache
-
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.ir.system import SystemProgram
 from dashpot.kernel.targets.llvm import source, system_source
-from dashpot.kernel.targets.llvm.native import Native, load_native
+from dashpot.kernel.targets.llvm.native import Native, load_known
 
-KEPT = 512
 VECTORS = 1  # of lanes in a group of a network with unknown nodes
 
 
 def network(program: Program, vectors: int, alone: bool) -> Native:
     """The code of a network with two ends; see ``source``."""
-    return load_native(_text(program, vectors, alone), len(source.ARGUMENTS))
+    mark = _mark(program, vectors, alone)
+    return load_known(mark, len(source.ARGUMENTS), lambda: source.print_source(program, vectors, alone))
 
 
 def system(program: SystemProgram, alone: bool) -> Native:
     """The code of a network with unknown nodes; see ``system_source``."""
-    return load_native(_system_text(program, alone), len(system_source.ARGUMENTS))
+    mark = _mark(program.program, VECTORS, alone)
+    return load_known(mark, len(system_source.ARGUMENTS), lambda: system_source.print_system(program, VECTORS, alone))
 
 
-@lru_cache(KEPT)
-def _text(program: Program, vectors: int, alone: bool) -> str:
-    return source.print_source(program, vectors, alone)
-
-
-@lru_cache(KEPT)
-def _system_text(program: SystemProgram, alone: bool) -> str:
-    return system_source.print_system(program, VECTORS, alone)
+def _mark(program: Program, vectors: int, alone: bool) -> str:
+    return program.digest and f"{program.digest}, {vectors} vectors, {alone}"

@@ -10,7 +10,7 @@ from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 
-from dashpot.kernel.targets.cache import keep, kernel_folder, passing_folder
+from dashpot.kernel.cache import keep, kernel_folder, passing_folder
 
 PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "native.py", "packed.py", "statements.py")
 
