@@ -39,7 +39,7 @@ from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.thinned import thinned
+from dashpot.fit.thinned import subsampled
 from dashpot.kernel.workers import threads
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place
@@ -84,7 +84,7 @@ def diagnose(
     causes = [registry.causes[word] for word in sorted(registry.causes)]
     groups = {run.name: run.cluster for run in triage.dataset.runs}
     sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
-    searched = setting.train if spec.joints else thinned(setting.train)
+    searched = setting.train if spec.joints else subsampled(setting.train)
     refitter = Refitter(searched, registry.elements, sensors, jobs)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)

@@ -122,7 +122,7 @@ class Diagnosis(Findings):
             return "ambiguous"
         if self.named:
             return "explained"
-        return "ambiguous" if any(term.standing == "probable" for term in self.terms) else "nothing_missing"
+        return "ambiguous" if self.terms else "nothing_missing"
 
     @property
     def _far_above_attainable(self) -> bool:

@@ -12,11 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.lines import strongest_line
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import records
 from dashpot.diagnose.view import ModelView
+from dashpot.diagnose.whitening import Noise
 
 Array = NDArray[np.float64]
 
@@ -24,6 +26,7 @@ SIGNIFICANT = 6.0
 SMALLEST_SIZE = 0.1
 LAGS = (0.003, 0.02, 0.15, 1.0)
 KEPT = 1e-8  # of the largest eigenvalue
+UNSEEN = 1e-11  # likewise, of what is left free
 AGAIN = "comes again in repeated runs"
 
 
@@ -48,9 +51,9 @@ class Leftover:
 def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str, str]]) -> Leftover:
     """The most telling one of the tests; ``pairs`` are repeats of each other."""
     noise = look.measured_noise
-    residual, tangents = refitter.linearise(look.model, noise)
+    residual, free = _free(refitter, look, noise)
     tests = [
-        _correlation(refitter, look, residual, tangents),
+        _correlation(refitter, look, residual, free),
         _single_runs(refitter, look, residual),
         _agreement(residual, pairs),
         _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in records(refitter.runs)}),
@@ -59,25 +62,36 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
     if found.score <= SIGNIFICANT:
         return found
     if found.what == AGAIN:
-        return replace(found, share=_repeated(refitter.linearise(look.model, look.noise)[0], pairs))
+        return replace(found, share=_repeated(_free(refitter, look, look.noise)[0], pairs))
     whole = np.concatenate(list(residual.values()))
     return replace(found, share=min(found.size**2 / float(np.mean(whole**2)), 1.0))
 
 
-def _correlation(
-    refitter: Refitter, look: Look, residual: Mapping[str, Array], tangents: Mapping[str, Array]
-) -> Leftover:
-    width = len(next(iter(tangents.values()))) + len(general_functions(look.view, look.view.runs[0]))
+def _free(refitter: Refitter, look: Look, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
+    """By run what the residual (kept,) is beside all that a search leaves free, and this (p, kept), whitened.
+
+    Free are the numbers of the model and the bends of its fitted tables between two knots.
+    """
+    residual, tangents = refitter.linearise(look.model, noise)
+    bends = bends_of_tables(refitter.runs, look.view, look.model.fitted)
+    free = {run: np.concatenate([rows, noise.whiten(run, bends[run])]) for run, rows in tangents.items()}
+    gram = sum(rows @ rows.T for rows in free.values())
+    strengths = _inverse(gram) @ sum(rows @ residual[run] for run, rows in free.items())
+    return {run: residual[run] - strengths @ rows for run, rows in free.items()}, free
+
+
+def _correlation(refitter: Refitter, look: Look, residual: Mapping[str, Array], free: Mapping[str, Array]) -> Leftover:
+    width = len(next(iter(free.values()))) + len(general_functions(look.view, look.view.runs[0]))
     gram, right, names = np.zeros((width, width)), np.zeros(width), list[str]()
     for run in refitter.runs:
         functions = general_functions(look.view, run.name)
         names = list(functions)
         rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
-        rows = np.concatenate([tangents[run.name], rows])
+        rows = np.concatenate([free[run.name], rows])
         gram, right = gram + rows @ rows.T, right + rows @ residual[run.name]
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     gram, right, first = gram / np.outer(scale, scale), right / scale, len(gram) - len(names)
-    inverse = np.linalg.pinv(gram[:first, :first], rcond=1e-11, hermitian=True)
+    inverse = _inverse(gram[:first, :first])
     spread = gram[first:, first:] - gram[first:, :first] @ inverse @ gram[:first, first:]
     scores = right[first:] - gram[first:, :first] @ inverse @ right[:first]
     sizes, vectors = np.linalg.eigh(spread)
@@ -87,6 +101,13 @@ def _correlation(
     alone = scores**2 / np.maximum(np.diag(spread), 1e-5)
     samples = sum(values.size for values in residual.values())
     return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {names[int(np.argmax(alone))]}")
+
+
+def _inverse(gram: Array) -> Array:
+    """The inverse of a Gram matrix, of rows of any units; directions that are not seen stay as they are."""
+    scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    unit = np.outer(scale, scale)
+    return np.asarray(np.linalg.pinv(gram / unit, rcond=UNSEEN, hermitian=True) / unit)
 
 
 def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:

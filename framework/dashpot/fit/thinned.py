@@ -1,16 +1,19 @@
-"""Runs with no more samples than the band that was driven asks for: what a search works on.
+"""Runs with fewer samples: what a descent begins on, and what a search works on where there are very many.
 
-The path keeps its positions and rates at the samples that stay, and between two of them it is a cubic, as before; the
-force is decimated behind a low-pass of zero phase.
+The path keeps its positions and rates at the samples that stay, and between two of them it is a cubic, as before. For a
+descent the force is decimated behind a low-pass of zero phase. A law that bends sharply has harmonics beyond that,
+which the low-pass takes from the measured force alone: where a residual is to tell what is missing, the force is taken
+at the samples that stay, as it is simulated there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from math import ceil
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dashpot.data.band import end_of_band
 from dashpot.data.drive import Drive, drive_from_path
@@ -22,9 +25,13 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.system import CompiledSystem
 
+Array = NDArray[np.float64]
+Resampling = Callable[[Array, int], Array]
+
 SLOW = ("quasi_static", "hold")
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
 END = 15  # samples at either end, over which the low-pass has to guess what is beyond: they do not count
+MOST = 50_000  # samples of all runs together, beyond which a search takes fewer
 WORTHWHILE = 0.5  # of the samples: what a descent that begins on thinned runs must save
 FEWEST = 10 * END  # samples of a run that is decimated
 
@@ -42,8 +49,25 @@ def highest_frequency(runs: Collection[ScoredRun]) -> float:
 
 def thinned(runs: Sequence[ScoredRun]) -> list[ScoredRun]:
     """The runs at ``SAMPLES`` a period of the highest frequency driven, those that have fewer as they are."""
+    return [_every(run, step, decimate) for run, step in zip(runs, _longest_steps(runs), strict=True)]
+
+
+def subsampled(runs: Sequence[ScoredRun]) -> list[ScoredRun]:
+    """The runs as they are or, where they have more than ``MOST`` samples, at as few as that or as ``thinned`` has.
+
+    The force is the measured one at the samples that stay.
+    """
+    step = ceil(sum(run.force.size for run in runs) / MOST)
+    return [_every(run, min(step, longest), _taken) for run, longest in zip(runs, _longest_steps(runs), strict=True)]
+
+
+def _longest_steps(runs: Sequence[ScoredRun]) -> list[int]:
     highest = highest_frequency(runs) if runs else 0.0
-    return [_every(run, int(1.0 / (SAMPLES * highest * run.drive.dt))) for run in runs]
+    return [int(1.0 / (SAMPLES * highest * run.drive.dt)) for run in runs]
+
+
+def _taken(values: Array, step: int) -> Array:
+    return values[::step].copy()
 
 
 def thinned_objective(objective: Objective) -> Objective | None:
@@ -79,13 +103,13 @@ def _of_high_order(objective: Objective, team: Team) -> bool:
     )
 
 
-def _every(run: ScoredRun, step: int) -> ScoredRun:
+def _every(run: ScoredRun, step: int, resample: Resampling) -> ScoredRun:
     kept = -(-run.force.size // max(step, 1))
     if step < 2 or kept < FEWEST or run.kind == STEADY:
         return run
     cut = slice(kept - END)
     whole = run.whole and _excitation(run.whole, step, cut)
-    drive, force = _path(run.drive, step, cut), decimate(run.force, step)[cut]
+    drive, force = _path(run.drive, step, cut), resample(run.force, step)[cut]
     return replace(run, drive=drive, force=force, first=max(-(-run.first // step), END), whole=whole)
 
 

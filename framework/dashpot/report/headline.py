@@ -74,7 +74,15 @@ def _titles(diagnosis: Json) -> list[str]:
     """The causes that are told, each as sure as it is; all that the error resembles where nothing explains it."""
     if diagnosis["verdict"] == "unexplained":
         return [cause_title(cause) for cause in diagnosis["causes"]]
-    return [_probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
+    likely = [_probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
+    return likely or (_resembled(diagnosis) if diagnosis["verdict"] == "ambiguous" else [])
+
+
+def _resembled(diagnosis: Json) -> list[str]:
+    """All that the error resembles: the causes in the file, and what may stand in their places."""
+    rivals = [other for cause in diagnosis["causes"] for other in cause.get("indistinguishable_from") or []]
+    causes = [*diagnosis["causes"], *({"cause": word} for word in rivals)]
+    return list(dict.fromkeys(cause_title(cause) for cause in causes))
 
 
 def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
@@ -214,12 +222,11 @@ def _leftover(diagnosis: Json) -> str:
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     """What has no rival comes first; causes that fit alike explain the rest of it."""
-    rivals = _rivals(diagnosis)
+    rivals, likely = _rivals(diagnosis), likely_causes(diagnosis)
     if len(rivals) < 2:
-        likely = likely_causes(diagnosis)
-        named = f", {_named(likely)}" if likely else ""
-        return f"{error_phrase(errors)}: the cause is not identifiable from these data{named}."
-    alone = [cause for cause in likely_causes(diagnosis) if not cause.get("indistinguishable_from")]
+        told = f", {_named(likely)}" if likely else f"; it resembles {' or '.join(_resembled(diagnosis))}"
+        return f"{error_phrase(errors)}: the cause is not identifiable from these data{told}."
+    alone = [cause for cause in likely if not cause.get("indistinguishable_from")]
     known = [cause_title(cause) for cause in alone]
     names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
     if not alone:

@@ -1,4 +1,4 @@
-"""Decimated records: fewer samples of the same motion, the same forces, no noise folded back."""
+"""Records with fewer samples of the same motion: for a descent decimated, for a search as they were measured."""
 
 from dataclasses import replace
 
@@ -8,9 +8,10 @@ import pytest
 from dashpot import load_registry
 from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
+from dashpot.fit import thinned as module
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.thinned import SAMPLES, thinned, thinned_objective
+from dashpot.fit.thinned import SAMPLES, subsampled, thinned, thinned_objective
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
 
@@ -86,6 +87,32 @@ def test_a_slow_force_stays_and_a_fast_line_is_not_folded_back():
     (run,) = thinned([run_of(slow + fast)])
     inside = slice(40, -40)
     assert np.abs(run.force - slow[:: round(run.drive.dt / STEP)][: run.force.size])[inside].max() < 0.02
+
+
+def test_runs_of_few_samples_are_searched_as_they_are():
+    runs = [run_of(np.zeros(TIME.size)), run_of(np.ones(TIME.size))]
+    assert subsampled(runs) == runs
+
+
+@pytest.mark.parametrize(("most", "step"), [(9000, 3), (10, 24)], ids=["as few as that", "as few as the motion allows"])
+def test_many_samples_become_fewer(monkeypatch, most, step):
+    monkeypatch.setattr(module, "MOST", most)
+    force = np.random.default_rng(1).normal(size=TIME.size)
+    (run,) = subsampled([run_of(force)])
+    assert run.drive.dt == pytest.approx(step * STEP)
+    assert np.array_equal(run.force, force[::step][: run.force.size])
+
+
+def test_what_is_left_of_a_right_model_is_nothing(monkeypatch):
+    """Of a law that bends sharply a low-pass of the measured force alone would leave what looks like another law."""
+    monkeypatch.setattr(module, "MOST", 10)
+    network = compile_network(parse_network(SLIDER, _elements()))
+    fine = slid(motion(STEP / 20.0 * np.arange(20 * TIME.size))[0])[::20]
+    errors = [
+        float(Objective(network, some([run_of(fine)])).losses(network.start[None])[0]) for some in (subsampled, thinned)
+    ]
+    assert errors[0] < 1e-4 * LIMIT
+    assert errors[1] > 1e-2 * LIMIT
 
 
 def _elements():

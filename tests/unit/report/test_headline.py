@@ -139,6 +139,14 @@ def test_a_lone_cause_that_is_only_probable_is_told_so():
     assert short_headline(diagnosis(verdict="ambiguous", causes=[probable])).endswith(": probably dry friction.")
 
 
+def test_what_is_in_the_file_and_less_likely_than_its_rival_is_told_with_it():
+    valve = friction(cause="valve", title="a valve", standing="resembles", indistinguishable_from=["delay"])
+    said = headline(diagnosis(verdict="ambiguous", causes=[valve | {"accepted": False}]))
+    assert said.endswith("not identifiable from these data; it resembles a valve or delay.")
+    short = short_headline(diagnosis(verdict="ambiguous", causes=[valve | {"accepted": False}]))
+    assert short.endswith(": not distinguishable by these data: a valve and delay.")
+
+
 def test_what_an_unexplained_error_resembles_is_not_said_to_be_its_cause():
     causes = [friction(accepted=False, standing="resembles"), relaxation(standing="probable")]
     said = short_headline(diagnosis(verdict="unexplained", causes=causes))
