@@ -31,7 +31,7 @@ Resampling = Callable[[Array, int], Array]
 SLOW = ("quasi_static", "hold")
 SAMPLES = 16  # a period at the end of the driven band: eight harmonics
 END = 15  # samples at either end, over which the low-pass has to guess what is beyond: they do not count
-MOST = 50_000  # samples of all runs together, beyond which a search takes fewer
+MOST = 200_000  # samples of all runs together, beyond which a search takes fewer
 WORTHWHILE = 0.5  # of the samples: what a descent that begins on thinned runs must save
 FEWEST = 10 * END  # samples of a run that is decimated
 
