@@ -106,7 +106,7 @@ def test_nine_of_ten_that_are_accepted_are_to_be_right(presence, standing):
     ("standings", "rivals", "far", "verdict"),
     [
         ((), (), False, "nothing_missing"),
-        (("resembles",), (), False, "nothing_missing"),
+        (("resembles",), (), False, "ambiguous"),
         (("probable",), (), False, "ambiguous"),
         (("accepted", "probable"), (), False, "explained"),
         (("accepted",), ("b",), False, "ambiguous"),
