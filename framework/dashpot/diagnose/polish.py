@@ -23,7 +23,6 @@ from dashpot.model.network import NetworkSpec
 Array = NDArray[np.float64]
 
 STEPS = 60
-LEVEL = 0.975
 
 
 def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = STEPS) -> NetworkSpec:
@@ -74,42 +73,11 @@ def known(
     jobs: int,
     floor: float | None,
 ) -> NetworkSpec:
-    """The network with the intervals of its numbers: by the scatter between pieces of runs, or between whole runs.
-
-    The wider one counts: what differs from run to run does not show within them.
-    """
+    """The network with the intervals of its numbers; runs of one of the ``groups`` err alike."""
     objective = Objective(compile_network(network), runs, jobs)
-    coordinates = model.coordinates
-    point = coordinates.of_values(objective.network.start)
-    found = assess_uncertainty(objective, coordinates, point, (), floor)
-    between = _between_groups(objective, model, point, groups)
-    intervals = {}
-    for k, path in enumerate(coordinates.paths):
-        low, high = found.intervals[k]
-        if np.isfinite(found.widths[k]) and between[k] > found.widths[k]:
-            ends = np.clip(
-                point[k] + np.array([-1.0, 1.0]) * between[k] * coordinates.unit[k],
-                coordinates.low[k],
-                coordinates.high[k],
-            )
-            low, high = (coordinates.number(k, end) for end in ends)
-        intervals[path] = low, high
-    return with_intervals(network, intervals)
-
-
-def _between_groups(objective: Objective, model: Model, point: Array, groups: Mapping[str, str]) -> Array:
-    """Half widths (p,) in natural steps from the scores of whole groups of runs (sandwich; Liang and Zeger 1986)."""
-    from scipy.special import stdtrit
-
-    names = list(dict.fromkeys(groups[run.name] for run in objective.runs))
-    if len(names) < 3:
-        return np.zeros(point.size)
-    linear = linearise(objective, model.coordinates, point)
-    normal, scores = linear.normal, np.zeros((len(names), point.size))
-    for number, score in linear.each(lambda number, rows: (number, rows[1:] @ rows[0])):
-        scores[names.index(groups[objective.runs[number].name])] += score
-    scale = np.sqrt(np.maximum(np.diag(normal), 1e-300))
-    inverse = np.linalg.pinv(normal / np.outer(scale, scale), rcond=1e-9, hermitian=True)
-    moved = (scores / scale) @ inverse / scale
-    count = len(names)
-    return stdtrit(count - 1, LEVEL) * np.sqrt(count / (count - 1) * np.sum(moved**2, axis=0))
+    point = model.coordinates.of_values(objective.network.start)
+    alike: dict[str, list[int]] = {}
+    for number, run in enumerate(runs):
+        alike.setdefault(groups[run.name], []).append(number)
+    found = assess_uncertainty(objective, model.coordinates, point, (), floor, repeats=list(alike.values()))
+    return with_intervals(network, dict(zip(model.coordinates.paths, found.intervals, strict=True)))

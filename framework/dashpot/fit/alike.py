@@ -13,6 +13,7 @@ from dashpot.fit.scored import ScoredRun
 Array = NDArray[np.float64]
 
 CORRELATION = 0.99
+SAME = 0.02  # of the deviation and of the stroke: what a rig repeats
 
 
 def moved_alike(runs: Sequence[ScoredRun]) -> list[list[int]]:
@@ -30,6 +31,28 @@ def moved_alike(runs: Sequence[ScoredRun]) -> list[list[int]]:
         else:
             found.append(number)
     return groups
+
+
+def repeated(runs: Sequence[ScoredRun]) -> list[list[int]]:
+    """Numbers of runs, grouped: those of a group had the same motion, or were measured together.
+
+    A model errs in all of them alike, and each group errs by itself.
+    """
+    groups: list[list[int]] = []
+    for number, run in enumerate(runs):
+        found = next((group for group in groups if _same(run, runs[group[0]])), None)
+        if found is None:
+            groups.append([number])
+        else:
+            found.append(number)
+    return groups
+
+
+def _same(one: ScoredRun, other: ScoredRun) -> bool:
+    if one.record and one.record == other.record:
+        return True
+    x, y = one.drive.displacement, other.drive.displacement
+    return x.size == y.size and bool(np.std(x - y) <= SAME * np.std(x) and abs(np.mean(x - y)) <= SAME * np.ptp(x))
 
 
 def _alike(one: Drive, other: Drive, both: float) -> bool:

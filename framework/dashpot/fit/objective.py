@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.steady import STEADY
+from dashpot.fit.alike import repeated
 from dashpot.fit.enough_steps import EnoughSteps, Team
 from dashpot.fit.last_moved import LastMoved
 from dashpot.fit.scored import ScoredRun
@@ -79,6 +80,10 @@ class Objective:
         other = copy(self)
         other.shares = np.asarray(weights, dtype=float) / np.mean(weights)
         return other
+
+    def repeated(self) -> list[list[int]]:
+        """Numbers of runs, grouped: those of a group are repeats of one another, or were measured together."""
+        return repeated(self.runs)
 
     def _rows(self, team: Team) -> Rows | SystemRows:
         """What is prepared of runs that were measured together, with as many steps as they need so far."""

@@ -1,4 +1,4 @@
-"""How well a fit knows its parameters, from the scatter of its gradient between blocks of the record."""
+"""How well a fit knows its parameters, from the scatter of its gradient between blocks of records and between runs."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ LEVEL = 0.975
 NORMAL = 1.959964  # the quantile of LEVEL of a normal distribution
 BLOCK_SECONDS = 0.5
 FEWEST_BLOCKS = 8
+FEWEST_RUNS = 3
 WEAK = 1e-6
 UNDECIDED = 1e-12  # of the largest eigenvalue, with parameters scaled alike
 SHARE = 1e-6
@@ -34,6 +35,9 @@ class OfRuns(Loss, Protocol):
 
     runs: tuple[ScoredRun, ...]
     total: int
+
+    def repeated(self) -> list[list[int]]:
+        """Numbers of runs, grouped: those of a group are repeats of one another."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +76,12 @@ def assess_uncertainty(
     noise: float | None = None,
     priors: Array | None = None,
     error: float = 0.0,
+    repeats: Sequence[Sequence[int]] | None = None,
 ) -> Uncertainty:
-    """Sandwich covariance with blocks of half a second, so that coloured noise and small model errors count.
+    """Sandwich covariance with blocks of half a second or with whole runs, whichever is wider for a parameter.
+
+    Coloured noise shows between blocks; what a model gets wrong in every cycle of a run shows between runs only. The
+    ``repeats``, groups of numbers of runs, by default those with the same motion, count as one; three are needed.
 
     A block holds the same half second of all runs that were moved alike, since the residuals of a model are alike in
     them; a row of a table is in one block. The score of each block is corrected for what the fit has
@@ -96,18 +104,20 @@ def assess_uncertainty(
     idle = ~unsolved & ~told & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
     root, lost = _scaled_root(linear.normal + known_before.T @ known_before, idle | unsolved)
     covariance, freedom = _sandwich(_blocks(objective, linear), root)
+    random = np.sqrt(np.diag(covariance)) * _quantiles(freedom)
+    random = np.maximum(random, _between_runs(repeats or objective.repeated(), linear, root))
     moved = -linear.beside @ root @ root.T
     # the middle of a prior may be off by its deviation
     pulled = error * known_before @ root @ root.T
     wider = widening(float(loss), noise)
     unknown = idle | lost | unsolved
 
-    def root_of_sum(random: Array | float, systematic: float) -> Array:
+    def root_of_sum(random: Array, systematic: float) -> Array:
         beside = np.sum(moved**2, axis=0) + np.sum(pulled**2, axis=0)
-        squares = (random * wider) ** 2 * np.diag(covariance) + systematic**2 * beside
+        squares = (random * wider) ** 2 + systematic**2 * beside
         return np.where(unknown | ~np.isfinite(squares), np.inf, np.sqrt(squares))
 
-    widths = root_of_sum(_quantiles(freedom), NORMAL)
+    widths = root_of_sum(random, NORMAL)
     near = 1e-6 * (coordinates.high - coordinates.low)
     bound = (point <= coordinates.low + near) | (point >= coordinates.high - near)
     return Uncertainty(
@@ -117,7 +127,7 @@ def assess_uncertainty(
         tuple(np.array(coordinates.paths)[bound].tolist()),
         tuple(np.array(coordinates.paths)[idle].tolist()),
         moved,
-        root_of_sum(1.0, 1.0),
+        root_of_sum(np.sqrt(np.diag(covariance)), 1.0),
     )
 
 
@@ -164,6 +174,20 @@ def _sandwich(blocks: Iterable[Array], root: Array) -> tuple[Array, Array]:
         share = np.sum((root @ axes) ** 2 * np.maximum(leverage, 0.0), axis=1)
         freedom, squares = freedom + share, squares + share**2
     return root @ middle @ root.T, freedom**2 / np.maximum(squares, 1e-300)
+
+
+def _between_runs(groups: Sequence[Sequence[int]], linear: Linear, root: Array) -> Array:
+    """Half widths (p,) of 95 % intervals from the scores of groups of whole runs; 0 for fewer than three."""
+    if len(groups) < FEWEST_RUNS:
+        return np.zeros(len(root))
+    group_of = {number: place for place, group in enumerate(groups) for number in group}
+    scores = np.zeros((len(groups), len(root)))
+    for number, score in linear.each(lambda number, rows: (number, rows[1:] @ rows[0])):
+        scores[group_of[number]] += score
+    count = len(groups)
+    moved = scores @ root @ root.T
+    quantile = _quantiles(np.array([count - 1.0]))
+    return np.asarray(quantile * np.sqrt(count / (count - 1.0) * np.sum(moved**2, axis=0)))
 
 
 def _quantiles(freedom: Array) -> Array:

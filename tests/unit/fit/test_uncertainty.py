@@ -7,6 +7,7 @@ import pytest
 from seeds import seed_of
 from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, network, ready, runs
 
+from dashpot.data.drive import drive_from_path
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.identifiability import identifiability
@@ -44,6 +45,34 @@ def test_the_intervals_hold_the_truth_in_most_of_many_repeats():
         hits += sum(low <= truth <= high for (low, high), truth in pairs)
     # 93 % of 80 intervals on so few blocks; less than 62 is five standard deviations away
     assert hits >= 62
+
+
+def erring(rng) -> list[ScoredRun]:
+    """Six sines of different amplitudes; the force of each errs by something of its own, the same in every cycle."""
+    turn = 2.0 * np.pi * 2.0
+    time = 0.005 * np.arange(1000)
+    found = []
+    for number in range(6):
+        path = [
+            1e-3 * (1.0 + 0.5 * number) * turn**order * np.sin(turn * time + 0.5 * np.pi * order) for order in range(3)
+        ]
+        harmonics = np.array([wave(turn * n * time) for n in (1, 2, 3) for wave in (np.sin, np.cos)])
+        error = NOISE * rng.standard_normal(6) @ harmonics + 0.1 * NOISE * rng.standard_normal(time.size)
+        force = STIFFNESS * path[0] + DAMPING * path[1] + error
+        found.append(ScoredRun(str(number), "sine", drive_from_path(0.005, *path), force, 0))
+    return found
+
+
+def test_an_error_that_comes_again_in_every_cycle_is_seen_between_runs():
+    """As blocks of one record it is always the same; of so many intervals hardly one would hold the truth."""
+    rng = np.random.default_rng(seed_of("test_uncertainty5"))
+    hits = 0
+    for _ in range(30):
+        _, _, known = assessed(KELVIN_VOIGT, erring(rng))
+        low, high = known.intervals[0]
+        hits += low <= STIFFNESS <= high
+    # 95 % of 30; fewer than 21 have a probability of 5e-4 even if it is 90 %
+    assert hits >= 21
 
 
 def test_the_intervals_of_white_noise_are_those_of_linear_regression():

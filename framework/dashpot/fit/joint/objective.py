@@ -45,6 +45,14 @@ class JointObjective:
         ends = np.cumsum([member.size for member in members])
         self.slices = tuple(slice(int(end) - member.size, int(end)) for end, member in zip(ends, members, strict=True))
 
+    def repeated(self) -> list[list[int]]:
+        """Numbers of runs, grouped: those of a group are repeats of one another, of one specimen."""
+        found, before = [], 0
+        for member in self.members:
+            found += [[before + number for number in group] for group in member.objective.repeated()]
+            before += len(member.objective.runs)
+        return found
+
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,) of slots (lanes, slots) in SI; a lane that fails costs infinity."""
         squares = sum(
