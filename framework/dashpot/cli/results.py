@@ -181,11 +181,11 @@ def look_text(look: Look) -> str:
 
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:
-    """The diagnosis for the terminal: the answer in a sentence, then the causes."""
+    """The diagnosis for the terminal: the causes, the errors beside their references, then the answer in a sentence."""
     from dashpot.report.grids import cause_grid
-    from dashpot.report.headline import headline
+    from dashpot.report.headline import beside_references, headline
     from dashpot.report.tables import plain_table
 
     content = diagnosis.as_dict()
     causes = f"{plain_table(cause_grid(content))}\n" if content["causes"] else ""
-    return causes + headline(content)
+    return causes + "\n".join(filter(None, [beside_references(content), headline(content)]))

@@ -20,10 +20,9 @@ from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.fit.api import Progress, Setting, fit_each, prepare, silent
-from dashpot.fit.objective import Objective
+from dashpot.fit.objective import as_simulated
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, floor_of, parameters_of
-from dashpot.kernel.network import compile_network
 from dashpot.model.network import NetworkSpec
 from dashpot.text.problem import InputError
 
@@ -54,8 +53,8 @@ class Comparison:
         runs = list(self.setting.scored.values())
         found = {}
         for fit in self.fits:
-            network = compile_network(fit.fitted)
-            forces = Objective(network, runs).forces(network.start)
+            objective = as_simulated(fit.fitted, runs)
+            forces = objective.forces(objective.network.start)
             found[fit.declared.name] = {run.name: force[0] for run, force in zip(runs, forces, strict=True)}
         return found
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from dashpot.compare.provenance import history_of, provenance_of, warnings_of
+from dashpot.compare.shapes import shapes_of
 from dashpot.compare.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import told
@@ -249,8 +250,10 @@ class Diagnosis(Findings):
             residuals["after"] = self.residuals(self.written, self.after_setting)
         triage = [*(fault.sentence for fault in self.triage.faults), *self.remarks]
         untried = [f"The cause '{word}' could not be tried: {reason}" for word, reason in self.pursuit.look.unavailable]
+        signals = signal_evidence(self.setting.dataset.runs, residuals)
         return {
-            **signal_evidence(self.setting.dataset.runs, residuals),
+            **signals,
+            "shapes": shapes_of(self.setting.dataset.runs, signals["loops"]["simulated"]),
             "patch": self.patch(),
             "rejected": self._rejected(),
             "tried": len(self.pursuit.look.candidates),

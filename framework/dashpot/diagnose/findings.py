@@ -28,10 +28,9 @@ from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
-from dashpot.fit.objective import Objective
+from dashpot.fit.objective import as_simulated
 from dashpot.fit.result import Errors, FitResult
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers, rename
@@ -268,7 +267,7 @@ class Findings:
     def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
         """Measured minus simulated force (n,) of every run, warm-up included."""
         runs = list(setting.scored.values())
-        objective = Objective(compile_network(network), runs, self.jobs)
+        objective = as_simulated(network, runs, self.jobs)
         forces = objective.forces(objective.network.start)
         return {run.name: run.force - force[0] for run, force in zip(runs, forces, strict=True)}
 

@@ -33,7 +33,7 @@ from dashpot.fit.identifiability import identifiability
 from dashpot.fit.kept_curves import refinement
 from dashpot.fit.known import known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
-from dashpot.fit.objective import Objective
+from dashpot.fit.objective import Objective, as_simulated
 from dashpot.fit.order import ordered
 from dashpot.fit.posterior import STEPS, require_sampler, sample_posterior
 from dashpot.fit.prior import beside_priors, first_error, refine_beside_priors, rows_beside, told_priors
@@ -264,10 +264,10 @@ def _polish(spec: NetworkSpec, setting: Setting, jobs: int, watch: _Watch) -> tu
 
 
 def measure_errors(spec: NetworkSpec, setting: Setting, jobs: Jobs = 1) -> Errors:
-    """The errors of a network with given numbers on all runs."""
-    network = compile_network(spec)
-    runs = list(setting.scored.values())
-    per_run = dict(zip(setting.scored, Objective(network, runs, jobs).rmse(network.start)[:, 0].tolist(), strict=True))
+    """The errors of a network with given numbers on all runs, as ``dashpot simulate`` and the measured forces say."""
+    objective = as_simulated(spec, list(setting.scored.values()), jobs)
+    errors = objective.rmse(objective.network.start)[:, 0].tolist()
+    per_run = dict(zip(setting.scored, errors, strict=True))
 
     def pooled(names: Sequence[str]) -> float:
         return float(np.sqrt(np.mean([per_run[name] ** 2 for name in names])))

@@ -4,7 +4,8 @@ It is known wherever a fit is linearised, of the lane it is linearised at: by ho
 or, where they do not, by a solution with twice as many. All lanes of a block take the same steps,
 so that their differences are derivatives. Steps that were needed once stay; what was measured to be enough is taken for
 enough where long and short steps agree as well. A search begins with what the numbers of
-the file need for a tenfold tolerance: it compares lanes that differ by more.
+the file need for a tenfold tolerance: it compares lanes that differ by more. What is told of a file takes the steps of
+its simulation.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import CompiledNetwork
 from dashpot.kernel.solution import Solution
 from dashpot.kernel.system import CompiledSystem
-from dashpot.kernel.within import TOLERANCE, steps_within, told_error
+from dashpot.kernel.within import TOLERANCE, solve_within, steps_within, told_error
 
 Array = NDArray[np.float64]
 
@@ -30,16 +31,23 @@ Team = tuple[int, ...]
 
 
 class EnoughSteps:
-    """The steps of each team of ``runs``; a network without unknown nodes needs none."""
+    """The steps of each team of ``runs``; a network without unknown nodes needs none.
 
-    def __init__(self, network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun]) -> None:
-        self.network, self.runs = network, runs
+    ``as_simulated``: those that a simulation of the numbers of the file takes, in place of those of a search.
+    """
+
+    def __init__(
+        self, network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun], as_simulated: bool = False
+    ) -> None:
+        self.network, self.runs, self.as_simulated = network, runs, as_simulated
         self._refine: dict[Team, int] = {}
         self._enough: dict[Team, float] = {}
 
     def of(self, team: Team) -> int:
         """How many times as many steps as usual, for now."""
-        if team not in self._refine:
+        if team not in self._refine and self.as_simulated and isinstance(self.network, CompiledSystem):
+            self._refine[team] = solve_within(self.network, self.runs[team[0]].excitation).refine
+        elif team not in self._refine:
             self.suffice(team, self.network.start, SEARCHED)
         return self._refine[team]
 

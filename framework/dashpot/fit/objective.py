@@ -267,6 +267,13 @@ class Objective:
             yield number, self.runs[number].seen(shown)
 
 
+def as_simulated(spec: NetworkSpec, runs: Sequence[ScoredRun], jobs: Jobs = 1) -> Objective:
+    """The misfit of the numbers of a file, solved with the steps that ``dashpot simulate`` takes for them."""
+    objective = Objective(compile_network(spec), runs, jobs)
+    objective.steps = EnoughSteps(objective.network, objective.runs, as_simulated=True)
+    return objective
+
+
 def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitening | None, shares: Array) -> Objective:
     return Objective(compile_network(spec), runs, 1, whitening, shares.tolist())
 

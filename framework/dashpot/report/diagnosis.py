@@ -7,6 +7,7 @@ from typing import Any
 
 from dashpot.report import figures, grids
 from dashpot.report.colophon import colophon
+from dashpot.report.comparison import shape_parts
 from dashpot.report.evidence import Evidence
 from dashpot.report.headline import Errors, headline, read_errors, short_headline
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
@@ -49,6 +50,7 @@ def diagnosis_page(diagnosis: Json, evidence: Evidence) -> Page:
 
 def _sections(diagnosis: Json, evidence: Evidence) -> Iterator[Section]:
     yield Section("Verdict", parts=list(_verdict(diagnosis, evidence)))
+    yield Section("The shape of the force", parts=list(shape_parts(evidence)))
     yield Section("What is wrong", parts=list(_misfit(diagnosis, evidence)))
     yield Section("Why", parts=list(_causes(diagnosis)))
     yield Section(
@@ -62,7 +64,7 @@ def _sections(diagnosis: Json, evidence: Evidence) -> Iterator[Section]:
 
 def _verdict(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
     kind, meaning = VERDICTS[diagnosis["verdict"]]
-    yield KeyFigures(_key_figures(read_errors(diagnosis)))
+    yield KeyFigures(_key_figures(read_errors(diagnosis), grids.explainable_value(diagnosis)))
     yield Notice(kind, meaning)
     yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
 
@@ -99,7 +101,7 @@ def _before_and_after(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
     rmse = diagnosis.get("rmse") or {}
     bars = [{"name": label, **rmse[label]} for label in ("before", "after") if rmse.get(label)]
     if bars:
-        yield figures.rmse_bars(bars, grids.floor_value(diagnosis))
+        yield figures.rmse_bars(bars, grids.floor_value(diagnosis), grids.explainable_value(diagnosis))
     if evidence.get("dynamic_stiffness"):
         yield from figures.stiffness_figures(evidence["dynamic_stiffness"])
     if "loops" in evidence:
@@ -129,12 +131,13 @@ def _tried(evidence: Evidence) -> str:
     return f"{tried} candidates were tried." if tried else ""
 
 
-def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
+def _key_figures(errors: Errors, explainable: float | None) -> list[tuple[str, str, str, str]]:
     runs = f"RMSE on {errors.runs}"
     less = "" if errors.gain is None else f"{percent(errors.gain)} less, "
     shown = [
         ("error before", errors.before, "N", runs),
         ("error after", errors.after, "N", f"{less}{runs}"),
+        ("explainable", explainable, "N", "of a general model of the past motion"),
         ("noise floor", errors.floor, "N", "no model gets below"),
     ]
     return [(label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None]
@@ -143,7 +146,8 @@ def _key_figures(errors: Errors) -> list[tuple[str, str, str, str]]:
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
     done = f"was extended to {extended}" if extended else "was left as it is"
-    return f"{headline(diagnosis)} {model} {done}. {grids.floor_origin(diagnosis)}".strip()
+    origins = (grids.floor_origin(diagnosis), grids.explainable_origin(diagnosis))
+    return " ".join(filter(None, [f"{headline(diagnosis)} {model} {done}.", *origins]))
 
 
 def _name(diagnosis: Json, key: str) -> str:

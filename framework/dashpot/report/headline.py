@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, floor_value, is_likely
+from dashpot.report.grids import cause_name, cause_title, explainable_value, floor_value, is_likely
 from dashpot.report.readable import join, percent
 from dashpot.text.digits import number, quantity, with_interval
 
@@ -89,7 +89,7 @@ def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
     """What stands before and behind the names of causes."""
     error = _short_error(errors)
     if verdict == "bad_data":
-        return "The measurement is at fault first; named are ", ""
+        return "The measurement is at fault first; named: ", ""
     if verdict == "unexplained":
         return f"{error}: no known cause fits; it resembles ", ""
     if verdict == "ambiguous":
@@ -141,6 +141,19 @@ def error_phrase(errors: Errors) -> str:
         return f"RMSE {quantity(errors.before, 'N')} (noise floor unknown)"
     ratio = number(errors.before / errors.floor, 2)
     return f"RMSE {quantity(errors.before, 'N')}, {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
+
+
+def beside_references(diagnosis: Json) -> str:
+    """The errors of a `dashpot-diagnosis/1` before and after beside what is explainable and the noise floor."""
+    errors = read_errors(diagnosis)
+    shown = {
+        "before": errors.before,
+        "after": errors.after,
+        "explainable": explainable_value(diagnosis),
+        "noise floor": errors.floor,
+    }
+    known = [f"{name} {quantity(error, 'N')}" for name, error in shown.items() if error is not None]
+    return f"RMSE on {errors.runs}: {', '.join(known)}." if errors.runs else ""
 
 
 def likely_causes(diagnosis: Json) -> list[Json]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dashpot.data.resample import advance
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
+from dashpot.triage.agreement import MOSTLY
 from dashpot.triage.fault import Fault
 from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run
 from dashpot.triage.work import CycleWork, work_of_cycles
@@ -21,6 +22,7 @@ Array = NDArray[np.float64]
 ONE_IN = 1000
 FEWEST_CYCLES = 3
 FEWEST_OTHERS = 2
+_TINY = 1e-300
 # what the numbers of a force may be times those of a displacement: N against m, mm and um, kN against mm
 _SWAPS = (1.0, 1e-3, 1e-6, 1e-9)
 
@@ -94,10 +96,23 @@ def _most_likely(run: Run, work: CycleWork, sound: Sequence[Run]) -> _Try | None
     usual = [_unlike(each, fitted(_but(number, moments))) for number, each in enumerate(moments)]
     tries = list(_tries(run, work, sizes, coefficients))
     least = min(each.unlike for each in tries)
-    if least > max(usual):
+    if least > _farthest(usual):
         return None
     # what differs by no more than the other runs do among themselves is told alike: then the usual mistake comes first
     return next(each for each in tries if each.unlike - least <= max(usual) - min(usual))
+
+
+def _farthest(usual: Sequence[float]) -> float:
+    """The share of the square of its force that the others leave of a sound run in all but one of 1000 cases.
+
+    By Student's t over the logarithms of what they leave of each other; never more than half.
+    """
+    from scipy.special import stdtrit
+
+    logs = np.log(np.maximum(usual, _TINY))
+    beyond = float(stdtrit(logs.size - 1, 1.0 - 1.0 / ONE_IN)) * np.sqrt(1.0 + 1.0 / logs.size)
+    reach = float(np.mean(logs) + beyond * np.std(logs, ddof=1))
+    return float(np.exp(min(max(reach, float(np.max(logs))), np.log(MOSTLY))))
 
 
 def _but(number: int, moments: Sequence[Moments]) -> list[Moments]:

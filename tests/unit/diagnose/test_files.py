@@ -30,6 +30,15 @@ from dashpot.data.dataset import read_dataset
 
 WARM_UP = 0.15  # of a sweep is not judged
 HELD_OUT = "a1_p8"
+PICTURES = (
+    "Force over velocity at mid stroke",
+    "Force over deflection at low speed",
+    "Stiffness after reversals",
+    "By amplitude, preload, setting and order",
+    "Loss stiffness over time",
+    "Residual of simulated before",
+    "Explainable: RMSE of a general model",
+)
 AGAIN = {"again": "a3_p8"}
 
 
@@ -114,6 +123,8 @@ def assert_files_hold(words, tmp_path):
 @pytest.mark.parametrize("word", ["nothing", "friction", "relaxation", "delay", "clipping", "gain", "hum"])
 def test_the_files_say_what_is_told(word, tmp_path):
     told = assert_files_hold([word], tmp_path)
+    report = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert all(picture in report for picture in PICTURES) and told["explainable"]["held_out"] > 0.0
     if word == "nothing":
         assert told["causes"] == []
     elif word not in ("delay", "clipping"):  # which other causes may imitate in six short runs

@@ -6,7 +6,7 @@ import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
 from dashpot.report.comparison import comparison_headline
-from dashpot.report.headline import SENTENCES, headline, short_headline
+from dashpot.report.headline import SENTENCES, beside_references, headline, short_headline
 
 
 def test_an_explained_error_is_named_with_its_size():
@@ -30,6 +30,19 @@ def test_the_short_headline_names_as_many_causes_as_there_is_room_for():
     assert "cause 0, cause 1" in many and many.endswith("more.") and "cause 8" not in many
     left = short_headline(diagnosis(verdict="partly_explained"))
     assert left.endswith("N remain.")
+
+
+def test_errors_stand_beside_what_is_explainable_and_the_noise_floor():
+    told = diagnosis(explainable={"held_out": 15.1, "by": "ridge"})
+    assert beside_references(told) == (
+        "RMSE on held-out runs: before 61.0 N, after 14.6 N, explainable 15.1 N, noise floor 14.5 N."
+    )
+    bare = diagnosis(rmse={"before": {"train": 14.0}}, noise_floor=None)
+    assert beside_references(bare) == "RMSE on training runs: before 14.0 N."
+
+
+def test_bad_data_names_what_the_sound_runs_show():
+    assert short_headline(diagnosis(verdict="bad_data")) == "The measurement is at fault first; named: dry friction."
 
 
 def test_several_causes_share_the_gain():

@@ -110,6 +110,20 @@ def test_a_turned_force_is_named_and_turned_back():
     assert np.array_equal(found.dataset.run("r1").force, mounts()[1].force)
 
 
+@pytest.mark.parametrize("number", range(5))
+def test_any_of_the_runs_may_be_turned(number):
+    """With friction the others predict the smallest run a little worse than each other; it is turned back as well."""
+    runs = []
+    for k, (a, f) in enumerate([(1e-3, 2), (2e-3, 2), (1e-3, 5), (2e-3, 5), (3e-3, 3)]):
+        x = sine(a, f, 5e-3)
+        v = np.gradient(x, STEP)
+        runs.append(run(f"r{k}", x, 1e5 * x + 200.0 * v + 60.0 * np.tanh(v / 2e-4), 2.0, k))
+    turned = replace(runs[number], channels={**runs[number].channels, "force": -runs[number].force})
+    found = examine(Dataset("made", tuple(turned if k == number else each for k, each in enumerate(runs))))
+    assert [(fault.run, fault.kind, fault.factor) for fault in found.faults] == [(f"r{number}", "polarity", -1.0)]
+    assert np.array_equal(found.dataset.runs[number].force, runs[number].force)
+
+
 def test_a_turned_displacement_is_told_from_a_turned_force():
     """The middle of the stroke and the progressive spring tell the one from the other."""
     runs = mounts()

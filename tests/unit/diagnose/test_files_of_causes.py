@@ -1,0 +1,77 @@
+"""What a cause writes into a network file is simulated by the command as it is scored: alone and in pairs."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+from unit.causes.test_promises import NETWORK, REGISTRY, SIZES, STEP, VIEW
+
+from dashpot.cli import main
+from dashpot.data.dataset import read_dataset
+from dashpot.fit.api import measure_errors, prepare
+from dashpot.fit.scored import warm_up
+from dashpot.model.reading import parse_network
+
+NOISE = 20.0  # N
+SUSPECTS = {
+    f"{word}-{suspect.form}": suspect
+    for word, cause in sorted(REGISTRY.causes.items())
+    for suspect in cause().suspects(VIEW, VIEW.network)
+}
+ONE_OF_EACH = list({name.partition("-")[0]: name for name in SUSPECTS}.values())
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    """Two measured runs at two pressures, as files; what is simulated does not have to fit them."""
+    folder = tmp_path_factory.mktemp("data")
+    rng = np.random.default_rng(4)
+    lines = ["format: dashpot-dataset/1", "name: two", "defaults: {channels: {time: {column: t, unit: s},"]
+    lines += ["  displacement: {column: x, unit: m}, force: {column: F, unit: N}}}", "runs:"]
+    for run in VIEW.runs:
+        path = VIEW.displacement(run)
+        force = VIEW.force(run) + NOISE * rng.standard_normal(path.size)
+        rows = np.column_stack([STEP * np.arange(path.size), path, force])
+        np.savetxt(folder / f"{run}.csv", rows, "%.12g", ",", header="t,x,F", comments="")
+        pressure = VIEW.settings(run)["pressure"]
+        lines.append(f"  - {{name: {run}, file: {run}.csv, kind: random, settings: {{pressure: {pressure:g} Pa}}}}")
+    (folder / "dataset.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return folder / "dataset.yaml"
+
+
+def extended(text, name):
+    """A network with a cause of a usual size."""
+    suspect = SUSPECTS[name]
+    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
+    middle = len(suspect.grid) // 2
+    atoms = [(size, suspect.grid[middle])]
+    if suspect.joint:
+        least = 0.05 * size if suspect.sign else 0.0
+        atoms = [(size if number == middle else least, place) for number, place in enumerate(suspect.grid)]
+    return suspect.extend(text, atoms)
+
+
+def assert_simulated_as_scored(text, data, folder):
+    network = folder / "network.yaml"
+    network.write_text(text, encoding="utf-8")
+    dataset = read_dataset(data, {word: reader() for word, reader in REGISTRY.formats.items()})
+    told = measure_errors(parse_network(text, REGISTRY.elements), prepare(dataset, 0)).per_run
+    assert main(["simulate", str(network), "--data", str(data), "-o", str(folder / "out"), "--quiet"]) == 0
+    for run in dataset.runs:
+        force = np.genfromtxt(folder / "out" / f"{run.name}.csv", delimiter=",", skip_header=2)[:, 2]
+        error = np.sqrt(np.mean((run.force - force)[warm_up(run) :] ** 2))
+        assert error == pytest.approx(told[run.name], rel=1e-6)
+
+
+@pytest.mark.parametrize("name", SUSPECTS)
+def test_every_form_of_every_cause_is_simulated_as_it_is_scored(name, data, tmp_path):
+    assert_simulated_as_scored(extended(NETWORK, name), data, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("names", list(combinations(ONE_OF_EACH, 2)), ids="+".join)
+def test_every_pair_of_causes_is_simulated_as_it_is_scored(names, data, tmp_path):
+    text = NETWORK
+    for name in names:
+        text = extended(text, name)
+    assert_simulated_as_scored(text, data, tmp_path)
