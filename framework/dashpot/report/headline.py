@@ -221,7 +221,8 @@ def _stands_in(causes: list[Json]) -> str:
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
     alike = [cause_title(cause) for cause in diagnosis["causes"]]
-    resembled = f"; it resembles {join(alike)}" if alike else ""
+    left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
+    resembled = f"; it resembles {join(alike)}{left}" if alike else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
 
 
