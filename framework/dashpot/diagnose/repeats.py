@@ -16,10 +16,11 @@ from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds
 from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
+from dashpot.fit import alike
 
 Array = NDArray[np.float64]
 
-SAME_MOTION = 0.02  # of the deviation of the displacement
+SAME_MOTION = alike.SAME_MOTION  # of the deviation of the displacement
 Key = tuple[str, int]  # run, number of the kind
 Pair = tuple[str, str]  # runs of the same motion
 

@@ -13,7 +13,7 @@ from dashpot.fit.scored import ScoredRun
 Array = NDArray[np.float64]
 
 CORRELATION = 0.99
-SAME = 0.02  # of the deviation and of the stroke: what a rig repeats
+SAME_MOTION = 0.02  # of the deviation and of the stroke: what a rig repeats
 
 
 def moved_alike(runs: Sequence[ScoredRun]) -> list[list[int]]:
@@ -52,7 +52,9 @@ def _same(one: ScoredRun, other: ScoredRun) -> bool:
     if one.record and one.record == other.record:
         return True
     x, y = one.drive.displacement, other.drive.displacement
-    return x.size == y.size and bool(np.std(x - y) <= SAME * np.std(x) and abs(np.mean(x - y)) <= SAME * np.ptp(x))
+    return x.size == y.size and bool(
+        np.std(x - y) <= SAME_MOTION * np.std(x) and abs(np.mean(x - y)) <= SAME_MOTION * np.ptp(x)
+    )
 
 
 def _alike(one: Drive, other: Drive, both: float) -> bool:

@@ -104,8 +104,9 @@ def assess_uncertainty(
     idle = ~unsolved & ~told & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
     root, lost = _scaled_root(linear.normal + known_before.T @ known_before, idle | unsolved)
     covariance, freedom = _sandwich(_blocks(objective, linear), root)
-    random = np.sqrt(np.diag(covariance)) * _quantiles(freedom)
-    random = np.maximum(random, _between_runs(repeats or objective.repeated(), linear, root))
+    groups = repeats or objective.repeated()
+    within, between = np.sqrt(np.diag(covariance)), _between_runs(groups, linear, root)
+    random = np.maximum(within * _quantiles(freedom), between * _quantiles(np.array([len(groups) - 1.0])))
     moved = -linear.beside @ root @ root.T
     # the middle of a prior may be off by its deviation
     pulled = error * known_before @ root @ root.T
@@ -127,7 +128,7 @@ def assess_uncertainty(
         tuple(np.array(coordinates.paths)[bound].tolist()),
         tuple(np.array(coordinates.paths)[idle].tolist()),
         moved,
-        root_of_sum(np.sqrt(np.diag(covariance)), 1.0),
+        root_of_sum(np.maximum(within, between), 1.0),
     )
 
 
@@ -177,7 +178,7 @@ def _sandwich(blocks: Iterable[Array], root: Array) -> tuple[Array, Array]:
 
 
 def _between_runs(groups: Sequence[Sequence[int]], linear: Linear, root: Array) -> Array:
-    """Half widths (p,) of 95 % intervals from the scores of groups of whole runs; 0 for fewer than three."""
+    """Standard errors (p,) from the scores of groups of whole runs; 0 for fewer than three."""
     if len(groups) < FEWEST_RUNS:
         return np.zeros(len(root))
     group_of = {number: place for place, group in enumerate(groups) for number in group}
@@ -186,8 +187,7 @@ def _between_runs(groups: Sequence[Sequence[int]], linear: Linear, root: Array) 
         scores[group_of[number]] += score
     count = len(groups)
     moved = scores @ root @ root.T
-    quantile = _quantiles(np.array([count - 1.0]))
-    return np.asarray(quantile * np.sqrt(count / (count - 1.0) * np.sum(moved**2, axis=0)))
+    return np.asarray(np.sqrt(count / (count - 1.0) * np.sum(moved**2, axis=0)))
 
 
 def _quantiles(freedom: Array) -> Array:

@@ -102,6 +102,19 @@ SUSPECTS = [
 ]
 
 
+def usual_atoms(suspect):
+    """A usual size of a suspect at the middle of its grid, or at all of its places where they belong together."""
+    # a whole specimen on a spring answers in proportion only to a small compliance
+    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
+    middle = len(suspect.grid) // 2
+    if not suspect.joint:
+        return [(size, suspect.grid[middle])]
+    # one knot of many: a monotone cubic through all of them is not the sum of those through one each; where none
+    # may be zero, the others keep a twentieth
+    least = 0.05 * size if suspect.sign else 0.0
+    return [(size if number == middle else least, place) for number, place in enumerate(suspect.grid)]
+
+
 @pytest.mark.parametrize("suspect", SUSPECTS)
 def test_columns_are_finite_and_one_for_each_place(suspect):
     for run in VIEW.runs:
@@ -113,15 +126,7 @@ def test_columns_are_finite_and_one_for_each_place(suspect):
 @pytest.mark.parametrize("suspect", SUSPECTS)
 def test_the_cure_adds_what_the_columns_show(suspect):
     """The network with the patch less the one without, what its plain numbers would take up aside: to a fiftieth."""
-    # a whole specimen on a spring answers in proportion only to a small compliance
-    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
-    middle = len(suspect.grid) // 2
-    atoms = [(size, suspect.grid[middle])]
-    if suspect.joint:
-        # one knot of many: a monotone cubic through all of them is not the sum of those through one each; where none
-        # may be zero, the others keep a twentieth
-        least = 0.05 * size if suspect.sign else 0.0
-        atoms = [(size if number == middle else least, place) for number, place in enumerate(suspect.grid)]
+    atoms = usual_atoms(suspect)
     extended = parse_network(suspect.extend(NETWORK, atoms), REGISTRY.elements)
     places = [suspect.grid.index(place) for _, place in atoms]
     for run in VIEW.runs:

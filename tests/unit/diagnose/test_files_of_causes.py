@@ -4,7 +4,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from unit.causes.test_promises import NETWORK, REGISTRY, SIZES, STEP, VIEW
+from unit.causes.test_promises import NETWORK, REGISTRY, STEP, VIEW, usual_atoms
 
 from dashpot.cli import main
 from dashpot.data.dataset import read_dataset
@@ -41,14 +41,7 @@ def data(tmp_path_factory):
 
 def extended(text, name):
     """A network with a cause of a usual size."""
-    suspect = SUSPECTS[name]
-    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
-    middle = len(suspect.grid) // 2
-    atoms = [(size, suspect.grid[middle])]
-    if suspect.joint:
-        least = 0.05 * size if suspect.sign else 0.0
-        atoms = [(size if number == middle else least, place) for number, place in enumerate(suspect.grid)]
-    return suspect.extend(text, atoms)
+    return SUSPECTS[name].extend(text, usual_atoms(SUSPECTS[name]))
 
 
 def assert_simulated_as_scored(text, data, folder):

@@ -66,13 +66,17 @@ def erring(rng) -> list[ScoredRun]:
 def test_an_error_that_comes_again_in_every_cycle_is_seen_between_runs():
     """As blocks of one record it is always the same; of so many intervals hardly one would hold the truth."""
     rng = np.random.default_rng(seed_of("test_uncertainty5"))
-    hits = 0
+    hits, off, told = 0, [], []
     for _ in range(30):
-        _, _, known = assessed(KELVIN_VOIGT, erring(rng))
+        coordinates, point, known = assessed(KELVIN_VOIGT, erring(rng))
         low, high = known.intervals[0]
         hits += low <= STIFFNESS <= high
+        off.append((coordinates.numbers(point)[0] / STIFFNESS - 1.0) / coordinates.unit[0])
+        told.append(known.errors[0])
     # 95 % of 30; fewer than 21 have a probability of 5e-4 even if it is 90 %
     assert hits >= 21
+    # the standard error is the one that the intervals come from
+    assert np.sqrt(np.mean(np.square(told))) > 0.5 * np.std(off)
 
 
 def test_the_intervals_of_white_noise_are_those_of_linear_regression():
