@@ -23,6 +23,9 @@ UNITS = {
     "velocity": "m/s",
     "speed": "m/s",
     "travel since reversal": "m",
+    "distance since reversal": "m",
+    "place of the last reversal": "m",
+    "simulated force": "N",
     "time": "s",
     "amplitude": "m",
     "preload": "m",
@@ -45,7 +48,7 @@ def residual_maps(seen: Sequence[Seen]) -> list[dict[str, Any]]:
         [(part * BLOCKS // each.run.time.size) % 2 == 0 for part, each in zip(rows, seen, strict=True)]
     )
     places = {name: _bins(values) for name, values in variables.items()}
-    return [_map(label, _residual(label, seen, rows), places, taught) for label in labels]
+    return [_map(label, *_forces(label, seen, rows), places, taught) for label in labels]
 
 
 def _rows(seen: Seen, most: int) -> NDArray[np.intp]:
@@ -53,14 +56,14 @@ def _rows(seen: Seen, most: int) -> NDArray[np.intp]:
     return np.unique(np.linspace(seen.first, seen.run.time.size - 1, min(count, most)).astype(np.intp))
 
 
-def _residual(label: str, seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> Array:
-    nothing = np.full(max(each.run.time.size for each in seen), np.nan)
-    return np.concatenate(
-        [
-            (each.forces["measured"] - each.forces.get(label, nothing[: each.run.time.size]))[part]
-            for each, part in zip(seen, rows, strict=True)
-        ]
-    )
+def _forces(label: str, seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> tuple[Array, Array]:
+    """The measured and the simulated force at all chosen samples, NaN in runs that were not simulated."""
+    measured = [each.forces["measured"][part] for each, part in zip(seen, rows, strict=True)]
+    simulated = [
+        each.forces[label][part] if label in each.forces else np.full(part.size, np.nan)
+        for each, part in zip(seen, rows, strict=True)
+    ]
+    return np.concatenate(measured), np.concatenate(simulated)
 
 
 def _variables(seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> dict[str, Array]:
@@ -80,8 +83,10 @@ def _of_run(seen: Seen, rows: NDArray[np.intp]) -> dict[str, Array]:
         "order of tests": float(seen.run.order + 1),
         **{name: value for name, value in seen.run.settings.items() if name not in NO_VARIABLES},
     }
-    own = {"deflection": x, "velocity": v, "speed": np.abs(v)}
-    own |= {"travel since reversal": np.abs(x - seen.displacement[last]), "time": seen.run.time[rows]}
+    reversal = seen.displacement[last]
+    own = {"deflection": x, "velocity": v, "speed": np.abs(v), "time": seen.run.time[rows]}
+    own |= {"travel since reversal": x - reversal, "distance since reversal": np.abs(x - reversal)}
+    own |= {"place of the last reversal": reversal}
     return own | {name: np.full(rows.size, float(value)) for name, value in whole.items()}
 
 
@@ -97,11 +102,18 @@ def _bins(values: Array) -> tuple[Array, NDArray[np.intp]]:
 
 
 def _map(
-    label: str, residual: Array, places: Mapping[str, tuple[Array, NDArray[np.intp]]], taught: NDArray[np.bool_]
+    label: str,
+    measured: Array,
+    simulated: Array,
+    places: Mapping[str, tuple[Array, NDArray[np.intp]]],
+    taught: NDArray[np.bool_],
 ) -> dict[str, Any]:
-    known = np.isfinite(residual)
+    known = np.isfinite(measured - simulated)
+    measured, simulated, taught = measured[known], simulated[known], taught[known]
+    residual = measured - simulated
     kept = {name: (edges, place[known]) for name, (edges, place) in places.items()}
-    residual, taught = residual[known], taught[known]
+    if np.ptp(simulated) > 0.0:
+        kept["simulated force"] = _bins(simulated)
     singles = {name: _explained(residual, place, taught) for name, (_, place) in kept.items()}
     shares = {pair: _explained(residual, _joint(kept, pair), taught) for pair in combinations(kept, 2)}
     x, y = max(shares, key=lambda pair: shares[pair])

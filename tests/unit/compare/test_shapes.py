@@ -108,6 +108,32 @@ def test_the_residual_is_shown_over_the_variables_that_made_it():
     assert max(told["singles"], key=told["singles"].get) == "velocity"
 
 
+def test_a_force_that_is_too_small_at_one_setting_is_shown_over_the_simulated_force():
+    rng = np.random.default_rng(2)
+    seen = []
+    for k in range(6):
+        x, pressure = sweep(2e-3, 0.0), float(k % 3)
+        force = STIFFNESS * x + slide(x, 100.0)
+        measured = (1.0 + 0.1 * pressure) * force + 2.0 * rng.standard_normal(x.size)
+        seen.append(see(run(f"r{k}", x, measured, order=k, pressure=pressure), {"model": {f"r{k}": force}}))
+    [told] = residual_maps(seen)
+    assert {told["x"]["name"], told["y"]["name"]} == {"simulated force", "pressure"}
+    assert told["explained"] > 0.95
+
+
+def test_missing_hysteresis_is_shown_over_the_travel_since_the_reversal():
+    rng = np.random.default_rng(2)
+    seen = []
+    for k, amplitude in enumerate((1e-3, 2e-3, 4e-3)):
+        x = sweep(amplitude, 0.0)
+        force = STIFFNESS * x
+        measured = force + slide(x, 100.0, 1.5e-3) + 2.0 * rng.standard_normal(x.size)
+        seen.append(see(run(f"r{k}", x, measured, order=k), {"model": {f"r{k}": force}}))
+    [told] = residual_maps(seen)
+    assert "travel since reversal" in {told["x"]["name"], told["y"]["name"]}
+    assert told["explained"] > 0.9
+
+
 def test_noise_is_explained_by_nothing():
     rng = np.random.default_rng(3)
     x = sweep(2e-3, 0.0)

@@ -14,6 +14,7 @@ from dashpot.report.theme import axis, layout
 from dashpot.text.digits import beside, number
 
 SIGNED = [[0.0, "@after"], [0.5, "@paper"], [1.0, "@before"]]
+LITTLE = 0.05  # of the mean square of the residual: less is told as such
 IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
 
 
@@ -41,10 +42,12 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     }
     best = sorted(told["singles"].items(), key=lambda item: -item[1])[:3]
     alone = ", ".join(f"{name.replace('_', ' ')} {percent(max(share, 0.0))}" for name, share in best)
+    share = max(told["explained"], 0.0)
+    best_two = "These two variables predict" if share >= LITTLE else "No two variables predict more than"
     caption = (
-        "Measured minus simulated force, mean of each cell; positive: the force of the model is too small. These "
-        f"two variables predict {percent(max(told['explained'], 0.0))} of the mean square of the residual on "
-        f"held-out pieces; alone: {alone}. Every row and every column holds the same number of samples."
+        "Measured minus simulated force, mean of each cell; positive: the force of the model is too small. "
+        f"{best_two} {percent(share)} of the mean square of the residual on held-out pieces; alone: {alone}. "
+        "Every row and every column holds the same number of samples."
     )
     axes = {
         which: axis(
