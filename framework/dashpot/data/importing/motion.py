@@ -9,6 +9,7 @@ import numpy as np
 
 _FEW_CYCLES, _SLOW_CYCLE = 3.5, 4.0
 _EVEN, _SMOOTH, _SWEPT = 0.05, 0.25, 1.5
+_TWICE = 1.9  # periods of a record that may show that a motion comes again
 _SAME_COURSE, _ENDS = 0.1, 3  # of frequencies over time, as a share; half periods at either end
 
 
@@ -26,10 +27,13 @@ def find_motion(displacement: np.ndarray, step: float) -> Motion:
     if span == 0 or _rests(displacement, span):
         return Motion("hold", {"preload": float(np.median(displacement))})
     cycles = len(_turns(displacement, 0.25 * span)) / 2
+    if cycles <= _FEW_CYCLES and len(displacement) * step / max(cycles, 1.0) >= _SLOW_CYCLE:
+        return Motion("quasi_static", {})
+    places = _turns(displacement, 0.1 * span)
+    turns = step * places
     if cycles <= _FEW_CYCLES:
-        slow = len(displacement) * step / max(cycles, 1.0) >= _SLOW_CYCLE
-        return Motion("quasi_static" if slow else "transient", {})
-    turns = step * _turns(displacement, 0.1 * span)
+        kind = "harmonic" if _comes_again(displacement, places, _EVEN * span) else "transient"
+        return Motion(kind, _settings(kind, displacement, turns, step))
     # from turn to the next but one: up and down need not take the same time
     kind = _kind_of(_without_ends(turns[2:] - turns[:-2]))
     return Motion(kind, _settings(kind, displacement, turns, step))
@@ -57,6 +61,15 @@ def _turns(signal: np.ndarray, threshold: float) -> np.ndarray:
             turns.append(bottom)
             rising, top = True, index
     return np.array(turns[1:], dtype=int)
+
+
+def _comes_again(displacement: np.ndarray, turns: np.ndarray, most: float) -> bool:
+    """Whether a motion of about two cycles or more is the same a period later, to ``most`` as a root mean square."""
+    if len(turns) < 2:
+        return False
+    period = round(2.0 * (turns[-1] - turns[0]) / (len(turns) - 1))
+    later = displacement[period:] - displacement[:-period]
+    return bool(len(displacement) >= _TWICE * period and np.sqrt(np.mean(later**2)) < most)
 
 
 def _without_ends(periods: np.ndarray) -> np.ndarray:
