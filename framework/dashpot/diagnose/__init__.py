@@ -17,6 +17,8 @@ search       beam search over structures
 evidence     what has to show a fault of the measurement in all runs
 pursue       look, search and refit until no structure scores better
 spare        branches of the diagnosed network that may go
+repeats      what repeats of a run tell of faults of its force channel
+faults_beside  faults of single runs beside a linearised model
 channel      faults of the force channel in single runs
 polish       the parameters of the final files and their intervals
 lines        lines in spectra

@@ -10,8 +10,9 @@ overdispersion. Samples of what a fault leaves that follow from one another coun
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import ChannelFault
 from dashpot.data.correction import Correction
 from dashpot.data.run import Run
+from dashpot.diagnose.faults_beside import FaultsBeside
 from dashpot.diagnose.look import Doubt, Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import (
@@ -40,7 +42,6 @@ Array = NDArray[np.float64]
 
 SLACK = 0.02  # of the range of a condition
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
-Block = tuple[tuple[str, ...], int]  # runs with a fault of the same strengths, number of the kind
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,48 +96,100 @@ def accuse(
 ) -> list[Accused]:
     """The faults of runs that explain most beside the model, one after the other, each with evidence.
 
-    One that is ``doubted`` is expected to be as large as repeats differ.
+    One that others make superfluous is dropped again. One that is ``doubted`` is expected to be as large as repeats
+    differ.
     """
     rows = rows_of(refitter, look, kinds, look.noise)
     alone = rows_of(refitter, look, kinds, plain_noise(look))
-    solver = _Solver(
-        rows,
-        {
-            number: doubt.strengths
-            for number, kind in enumerate(kinds)
-            for doubt in doubted
-            if doubt.fault is kind.fault
-        },
-    )
-    price = Odds(len(rows.shapes)).price("measurement")
+    known = {
+        kind: doubt.strengths for kind in range(len(kinds)) for doubt in doubted if doubt.fault is kinds[kind].fault
+    }
+    solver = FaultsBeside(rows, known, [kind.fault.free for kind in kinds])
     pairs = repeats_of(refitter, groups)
-    shares = {key: independent_share(beside(rows.residual[key[0]], shapes)) for key, shapes in rows.shapes.items()}
+    selection = _Selection(refitter, look, kinds, groups, measured, relevance, alone, pairs, solver)
     chosen: dict[Key, str] = {}
-    while True:
-        gains = {
-            key: shares[key] * solver.gain(key, chosen) - 0.5 * len(shapes) * np.log(shapes.shape[1])
-            for key, shapes in rows.shapes.items()
-            if key not in chosen
-        }
-        for key in sorted(gains, key=lambda key: -gains[key]):
-            least = max(price, relevance * rows.residual[key[0]].size)
-            if gains[key] < least:
-                return _accused(solver, chosen, kinds)
-            evidence = _evidence(key, chosen, alone, kinds, pairs, groups, measured, price)
-            needed = least
-            if evidence == NEIGHBOURS:
-                needed *= _overdispersion_beside(solver, key, chosen)
-            elif kinds[key[1]].fault.alike:
-                needed *= _overdispersion_of_alike(refitter, look, kinds[key[1]].fault, rows, key)
-            changed = evidence.startswith("repeats") and _changed(solver, key, chosen, shares[key])
-            if evidence and gains[key] > needed and not changed:
-                chosen[key] = evidence
+    dropped: set[Key] = set()
+    while found := selection.next(chosen, dropped):
+        chosen |= found
+        while (weakest := selection.superfluous(chosen)) is not None:
+            del chosen[weakest]
+            dropped.add(weakest)
+    return _accused(solver, chosen, kinds)
+
+
+@dataclass(frozen=True, eq=False)
+class _Selection:
+    """What is asked of faults of runs one after the other; ``alone`` holds the rows as they are, not whitened."""
+
+    refitter: Refitter
+    look: Look
+    kinds: Sequence[Kind]
+    groups: Mapping[str, str]
+    measured: Mapping[str, Run]
+    relevance: float
+    alone: Rows
+    pairs: Sequence[Pair]
+    solver: FaultsBeside
+
+    def next(self, chosen: Mapping[Key, str], dropped: Set[Key]) -> dict[Key, str]:
+        """The fault that explains most beside those chosen, with its evidence; empty where none is worth it."""
+        nats = {key: self.nats(key, chosen) for key in self.solver.rows.shapes.keys() - chosen.keys() - dropped}
+        for key in sorted(nats, key=lambda key: (-nats[key], key)):
+            if nats[key] < self._least(key):
                 break
-        else:
-            return _accused(solver, chosen, kinds)
+            if evidence := self._proof(key, chosen, nats[key]):
+                return {key: evidence}
+        return {}
+
+    def superfluous(self, chosen: Mapping[Key, str]) -> Key | None:
+        """The weakest of the chosen faults, if what it explains beside the others is not worth it."""
+        nats = {key: self.nats(key, [other for other in chosen if other != key]) for key in chosen}
+        weakest = min(nats, key=lambda key: (nats[key], key))
+        return weakest if nats[weakest] < self._price else None
+
+    def nats(self, key: Key, others: Iterable[Key]) -> float:
+        """What a fault explains beside others, less what as many numbers explain of noise (Schwarz 1978)."""
+        columns, samples = self.solver.rows.shapes[key].shape
+        numbers = columns - self.solver.free[key[1]]
+        return self._shares[key[0]] * self.solver.gain(key, others) - 0.5 * numbers * float(np.log(samples))
+
+    @cached_property
+    def _shares(self) -> dict[str, float]:
+        """The share of the samples of each run that are independent in what all faults together leave of its residual.
+
+        One share for all faults of a run, so that they are compared by the same likelihood.
+        """
+        rows = self.solver.rows
+        shapes = {
+            run: np.concatenate([each for (name, _), each in rows.shapes.items() if name == run])
+            for run in rows.residual
+        }
+        return {run: independent_share(beside(residual, shapes[run])) for run, residual in rows.residual.items()}
+
+    @cached_property
+    def _price(self) -> float:
+        return Odds(len(self.solver.rows.shapes)).price("measurement")
+
+    def _least(self, key: Key) -> float:
+        return max(self._price, self.relevance * self.solver.rows.residual[key[0]].size)
+
+    def _proof(self, key: Key, chosen: Mapping[Key, str], nats: float) -> str:
+        """The evidence of a fault that explains so much; empty where it does not suffice."""
+        fault = self.kinds[key[1]].fault
+        evidence = _evidence(key, chosen, self.alone, self.kinds, self.pairs, self.groups, self.measured, self._price)
+        needed = self._least(key)
+        if evidence == NEIGHBOURS:
+            needed *= _overdispersion_beside(self.solver, key, chosen)
+        elif fault.alike:
+            needed *= _overdispersion_of_alike(self.refitter, self.look, fault, self.solver.rows, key)
+        if nats <= needed or (
+            evidence.startswith("repeats") and _changed(self.solver, key, chosen, self._shares[key[0]])
+        ):
+            return ""
+        return evidence
 
 
-def _changed(solver: _Solver, key: Key, chosen: Mapping[Key, str], share: float) -> bool:
+def _changed(solver: FaultsBeside, key: Key, chosen: Mapping[Key, str], share: float) -> bool:
     """Whether the fault ``key`` of one run may as well be a specimen that changed between two tests.
 
     The runs are in the order of the dataset, two of them at least before and after: a change with a single run on one
@@ -146,16 +199,17 @@ def _changed(solver: _Solver, key: Key, chosen: Mapping[Key, str], share: float)
     runs, kind = list(solver.rows.residual), key[1]
     if any(other == kind for _, other in chosen):
         return False
-    steps = [solver.gain((tuple(runs[place:]), kind), chosen) for place in range(2, len(runs) - 1)]
+    steps = [solver.gain_of(tuple(runs[place:]), kind, chosen) for place in range(2, len(runs) - 1)]
     lead = solver.gain(key, chosen) - max(steps, default=-np.inf)
     return bool(share * lead < -np.log(RIG_ODDS))
 
 
-def _overdispersion_beside(solver: _Solver, key: Key, chosen: Mapping[Key, str]) -> float:
+def _overdispersion_beside(solver: FaultsBeside, key: Key, chosen: Mapping[Key, str]) -> float:
     """By how much more than noise the fault ``key`` explains in all other runs, beside it and those chosen."""
     known = {**chosen, key: ""}
     others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in known]
-    return overdispersion([solver.gain(other, known) for other in others], len(solver.rows.shapes[key]))
+    columns = len(solver.rows.shapes[key]) - solver.free[key[1]]
+    return overdispersion([solver.gain(other, known) for other in others], columns)
 
 
 def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault, rows: Rows, key: Key) -> float:
@@ -172,7 +226,7 @@ def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault
     return overdispersion(nats, len(rows.shapes[key]))
 
 
-def _accused(solver: _Solver, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
+def _accused(solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
     strengths = solver.strengths(list(chosen))
     found = []
     for key, words in chosen.items():
@@ -238,84 +292,3 @@ def conditions(run: Run) -> dict[str, float]:
     x = run.displacement
     speed = np.sqrt(np.mean(np.square(np.gradient(x, run.sample_time))))
     return {**run.settings, "mean deflection": float(np.mean(x)), "stroke": float(np.ptp(x)), "speed": float(speed)}
-
-
-class _Solver:
-    """Least squares of residuals by tangents of all runs and shapes of single runs, or of several alike.
-
-    Beforehand a fault is thought to be about as large as repeats differ by it, which is ``known`` (k,) by kind, else as
-    what is left of its runs: offsets of all runs would else be as good as another curve.
-    """
-
-    def __init__(self, rows: Rows, known: Mapping[int, Array]) -> None:
-        self.rows, self.known = rows, known
-        self.gram: Array = np.sum([tangents @ tangents.T for tangents in rows.tangents.values()], axis=0)
-        self.right: Array = np.sum([rows.tangents[run] @ rows.residual[run] for run in rows.residual], axis=0)
-        self.square = float(sum(residual @ residual for residual in rows.residual.values()))
-        self.samples = sum(residual.size for residual in rows.residual.values())
-
-    def _normal(self, blocks: Sequence[Block]) -> tuple[Array, Array]:
-        fixed, shapes = len(self.right), self.rows.shapes
-        sizes = [len(shapes[runs[0], kind]) for runs, kind in blocks]
-        ends = fixed + np.cumsum([0, *sizes])
-        gram, right = np.zeros((ends[-1], ends[-1])), np.zeros(ends[-1])
-        gram[:fixed, :fixed], right[:fixed] = self.gram, self.right
-        for number, (runs, kind) in enumerate(blocks):
-            mine = slice(ends[number], ends[number + 1])
-            for run in runs:
-                right[mine] += shapes[run, kind] @ self.rows.residual[run]
-                gram[mine, :fixed] += shapes[run, kind] @ self.rows.tangents[run].T
-            gram[:fixed, mine] = gram[mine, :fixed].T
-            for other, (others, other_kind) in enumerate(blocks):
-                for run in set(runs) & set(others):
-                    gram[mine, ends[other] : ends[other + 1]] += shapes[run, kind] @ shapes[run, other_kind].T
-            gram[mine, mine] += np.diag(self._precision(runs, kind))
-        return gram, right
-
-    def _precision(self, runs: Sequence[str], kind: int) -> Array:
-        """What is known of the strengths (k,) of a fault of some runs beforehand."""
-        if kind in self.known:
-            return np.asarray(np.maximum(self.known[kind], 1e-300) ** -2.0)
-        expected = sum(float(self.rows.residual[run] @ self.rows.residual[run]) for run in runs)
-        size = np.sum([np.sum(self.rows.shapes[run, kind] ** 2, axis=1) for run in runs], axis=0)
-        return np.asarray(size / max(expected, 1.0))
-
-    def _solved(self, blocks: Sequence[Block]) -> tuple[Array, float]:
-        gram, right = self._normal(blocks)
-        scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-        inverse = np.linalg.pinv(gram / np.outer(scale, scale), rcond=1e-11, hermitian=True)
-        solution = inverse @ (right / scale) / scale
-        return solution, self.square - float(solution @ right)
-
-    def gain(self, key: Key | Block, chosen: Iterable[Key]) -> float:
-        """The nats that a fault explains beside others that are chosen."""
-        known = [_block(one) for one in chosen]
-        before, after = self._solved(known)[1], self._solved([*known, _block(key)])[1]
-        return 0.5 * self.samples * float(np.log(max(before, 1e-300) / max(after, 1e-300)))
-
-    def square_of(self, run: str, keys: Iterable[Key]) -> float:
-        """The square of what the model and faults, found together, leave of the residual of a run."""
-        keys = list(keys)
-        rest = self.rows.residual[run] - self._solution(keys)[: len(self.right)] @ self.rows.tangents[run]
-        for key, strengths in self.strengths(keys).items():
-            if key[0] == run:
-                rest = rest - strengths @ self.rows.shapes[key]
-        return max(float(rest @ rest), 1e-300)
-
-    def strengths(self, keys: Sequence[Key]) -> dict[Key, Array]:
-        """The strengths of faults found together."""
-        solution, first, found = self._solution(keys), len(self.right), dict[Key, Array]()
-        for key in keys:
-            count = len(self.rows.shapes[key])
-            found[key] = solution[first : first + count]
-            first += count
-        return found
-
-    def _solution(self, keys: Sequence[Key]) -> Array:
-        """How the parameters of the model move, then the strengths of faults found together."""
-        return self._solved([_block(key) for key in keys])[0]
-
-
-def _block(key: Key | Block) -> Block:
-    runs, kind = key
-    return ((runs,) if isinstance(runs, str) else runs), kind

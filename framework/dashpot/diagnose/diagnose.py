@@ -19,9 +19,9 @@ from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
-from dashpot.diagnose.folds import FEWEST
+from dashpot.diagnose.folds import FEWEST, Folds
 from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import look_settled
+from dashpot.diagnose.look import Look, look_at, look_settled
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
 
 ATTEMPTS = 3
 SAME = 1e-3  # of an error
+ROUNDS = 3  # in which faults of single runs are found beside a model that is fitted to the corrected runs
 RELEVANCE = 0.0015  # share of the error by which a cause must matter
 
 
@@ -147,20 +148,45 @@ def find_causes(
     pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
     del first  # a look is large
     pursuit = pursuer.run(model)
-    measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
     accused: list[Accused] = []
     if recorded.runs:
-        accused = accuse(recorded, pursuit.look, kinds, groups, measured, doubted, relevance)
-    if accused:
-        again = _put_right(refitter, accused)
-        refitted = replace(pursuit.look, model=again.fit(pursuit.look.model, pursuit.look.noise))
-        left = look_for_leftover(again, refitted, pairs)
-        accused = [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
+        measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
+
+        def accuse_beside(look: Look) -> list[Accused]:
+            return accuse(recorded, look, kinds, groups, measured, doubted, relevance)
+
+        accused = faults_of_single_runs(refitter, pursuit.look, folds, pairs, accuse_beside)
     if accused:
         again = _put_right(refitter, accused)
         start = again.fit(pursuit.best.model, pursuit.look.noise)
         pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
     return pursuit, accused
+
+
+def faults_of_single_runs(
+    refitter: Refitter,
+    look: Look,
+    folds: Folds,
+    pairs: Sequence[tuple[str, str]],
+    accuse_beside: Callable[[Look], list[Accused]],
+) -> list[Accused]:
+    """The faults of single runs beside a model that they do not bend, those that are sure enough to be named.
+
+    The model was fitted to the runs as they are. It is fitted to the corrected ones, and the faults are found again
+    beside it, until the same ones come back.
+    """
+    accused = accuse_beside(look)
+    if not accused:
+        return []
+    for _ in range(ROUNDS):
+        right = _put_right(refitter, accused)
+        before, accused = accused, accuse_beside(look_at(right, right.fit(look.model, look.noise), (), folds))
+        if {(one.run, one.kind) for one in before} == {(one.run, one.kind) for one in accused}:
+            break
+    right = _put_right(refitter, accused)
+    fitted = replace(look, model=right.fit(look.model, look.noise))
+    left = look_for_leftover(right, fitted, pairs)
+    return [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
 
 
 def _put_right(refitter: Refitter, accused: Sequence[Accused]) -> Refitter:

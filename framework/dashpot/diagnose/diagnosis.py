@@ -116,7 +116,8 @@ class Diagnosis(Findings):
         """One of the verdict words of the result file."""
         if self.triage.faults:
             return "bad_data"
-        open_ends = (self.leftover.notable() and not self._at_floor) or self._far_above_attainable
+        left = self.leftover.notable() and not self._at_floor or self.leftover.line
+        open_ends = left or self._far_above_attainable
         if open_ends:
             return "partly_explained" if self.named else "unexplained"
         if any(named.rivals for named in self.named):

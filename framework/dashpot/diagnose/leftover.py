@@ -35,13 +35,16 @@ class Leftover:
     """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
 
     ``what`` says how it shows, ``share`` how much of the square of the residual it is; of the residual in newtons where
-    it comes again in repeated runs, else of the whitened one.
+    it comes again in repeated runs or is a line, else of the whitened one. ``line`` says whether there is a notable
+    line in the spectrum. Repeated runs differ by it, so that a noise floor that comes from them holds it, but it is no
+    noise.
     """
 
     score: float
     size: float
     what: str
     share: float = 0.0
+    line: bool = False
 
     def notable(self) -> bool:
         """Whether something is left that is both certain and not negligible beside the noise."""
@@ -52,17 +55,22 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
     """The most telling one of the tests; ``pairs`` are repeats of each other."""
     noise = look.measured_noise
     residual, free = _free(refitter, look, noise)
+    plain, _ = _free(refitter, look, look.noise)
+    line = _line(refitter, look, plain)
     tests = [
         _correlation(refitter, look, residual, free),
         _single_runs(refitter, look, residual),
         _agreement(residual, pairs),
-        _line(residual, {run.name: run.drive.dt * noise.steps[run.name] for run in records(refitter.runs)}),
+        line,
     ]
     found = max(tests, key=lambda leftover: (leftover.score > SIGNIFICANT, leftover.size))
+    found = replace(found, line=line.notable())
     if found.score <= SIGNIFICANT:
         return found
     if found.what == AGAIN:
-        return replace(found, share=_repeated(_free(refitter, look, look.noise)[0], pairs))
+        return replace(found, share=_repeated(plain, pairs))
+    if found.what == line.what:
+        return replace(found, share=found.size**2 / (1.0 + found.size**2))
     whole = np.concatenate(list(residual.values()))
     return replace(found, share=min(found.size**2 / float(np.mean(whole**2)), 1.0))
 
@@ -144,10 +152,21 @@ def _repeated(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -
     return float(np.clip(sum(float(one @ other) for one, other in both) / squares, 0.0, 1.0))
 
 
-def _line(white: Mapping[str, Array], steps: Mapping[str, float]) -> Leftover:
+def _line(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
+    """The strongest line in what no function of the motion or the time explains of each run: a specimen scatters so.
+
+    Not whitened, since a filter that makes noise white takes lines for noise.
+    """
+    noise, rests, steps = look.noise, dict[str, Array](), dict[str, float]()
+    for run in records(refitter.runs):
+        functions = general_functions(look.view, run.name) | single_functions(look.view, run.name)
+        rows = noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
+        directions = np.linalg.svd(rows, full_matrices=False)[2]
+        rests[run.name] = residual[run.name] - (directions @ residual[run.name]) @ directions
+        steps[run.name] = run.drive.dt * noise.steps[run.name]
     if not steps:
         return Leftover(0.0, 0.0, "is no line")
-    found = strongest_line({run: white[run] for run in steps}, steps)
+    found = strongest_line(rests, steps)
     return Leftover(found.score, found.size, f"is a line at {found.frequency:.4g} Hz")
 
 

@@ -1,5 +1,7 @@
 """Faults of single runs: found where repeats or neighbours show them, never where a law could do the same."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from unit.diagnose.rig import MOTIONS, NOISE, SAMPLES, STEP, Motion, bench, causes, dataset, line, plain
@@ -60,6 +62,15 @@ def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
     assert not [run for run, word in examined(data) if word == "gain"]
 
 
+CURVE = """\
+format: dashpot-network/1
+name: curve
+branches:
+  spring:
+    element: spring
+    stiffness: {deflection: [0 mm, 4 mm, 8 mm, 12 mm, 16 mm], force: {start: [0 kN, 1 kN, 3 kN, 6 kN, 9 kN]}}
+  damping: {element: damper, damping: {start: 200 N*s/m}}
+"""
 SCATTER = {"again_1": 6.0, "again_2": -4.0, "again_3": 3.0}  # N, by which a specimen differs from one test to the next
 
 
@@ -158,6 +169,30 @@ def test_hum_is_seen_where_nothing_was_driven():
     for one in found.values():
         assert one.evidence_of == "at_rest" and one.kind.fault.form == "50 Hz"
         assert np.hypot(*one.strengths) == pytest.approx(12.0, rel=0.15)
+
+
+def test_hum_is_seen_beside_its_own_harmonic_and_its_swing():
+    """What the fundamental leaves of the hum is no noise that could hide it."""
+    motions = {name: replace(motion, fastest=25.0) for name, motion in MOTIONS.items()}
+    fault = {
+        name: lambda force, phase=phase: (
+            force + line(50.0, 60.0, phase) * (1.0 + line(0.7, 0.15, phase)) + line(100.0, 15.0, 2.0 * phase)
+        )
+        for phase, name in enumerate(MOTIONS)
+    }
+    found = examined(dataset(motions=motions, fault=fault))
+    assert {run for run, _ in found} == set(MOTIONS)
+    assert {word for _, word in found} == {"hum"}
+
+
+def test_an_offset_beside_a_curve_that_it_bends_is_no_drift():
+    """A drift takes up any offset, and a little of the error of a curve: what counts is its movement."""
+    data = dataset(lambda motion: plain(motion) + 4e9 * motion.x() ** 3, fault={"a1_p8": lambda force: force - 600.0})
+    found = diagnose(bench(data, CURVE).model.declared, data, registry=load_registry()).as_dict()["causes"]
+    (fault,) = [one for one in found if one["accepted"] and one["class"] == "measurement"]
+    assert fault["cause"] == "offset"
+    (offset,) = fault["parameters"].values()
+    assert offset["value"] == pytest.approx(-600.0, abs=3.0)
 
 
 def test_a_line_among_lines_of_its_kind_is_no_hum():

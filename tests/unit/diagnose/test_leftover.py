@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 from scipy.signal import lfilter
-from unit.diagnose.rig import SAMPLES, STEP, bench, causes, dataset
+from unit.diagnose.rig import MOTIONS, SAMPLES, STEP, Motion, bench, causes, dataset, line
 
+from dashpot.contract.registry import load_registry
+from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import look_at
@@ -41,6 +43,27 @@ def test_the_share_of_a_structure_that_comes_again_is_that_of_the_squares_in_new
     assert found.what == "comes again in repeated runs"
     assert found.share == pytest.approx(made_alike, abs=0.05)
     assert found.share == pytest.approx(alike, abs=0.1)  # noises of two runs are alike by chance, too
+
+
+def test_an_undriven_line_is_no_noise_though_repeats_differ_by_it():
+    """A pump at 37 Hz, of its own phase in every run: the noise floor from repeats holds it."""
+    phases = {name: 1.0 + number for number, name in enumerate([*MOTIONS, *AGAIN])}
+    fault = {name: lambda force, phase=phase: force + line(37.0, 8.0, phase) for name, phase in phases.items()}
+    data = dataset(repeats=AGAIN, fault=fault)
+    found = diagnose(bench(data).model.declared, data, registry=load_registry()).as_dict()
+    assert found["rmse"]["after"]["train"] == pytest.approx(found["noise_floor"]["value"], rel=0.1)
+    assert found["verdict"] == "unexplained"
+    assert found["leftover"]["line"] and found["leftover"]["what"].startswith("is a line at 3")
+
+
+def test_what_a_specimen_scatters_from_test_to_test_is_no_line():
+    """Steady sines, damped by another amount in every test: a line at their frequency, and a function of the motion."""
+    motions = {f"p{p}": Motion(2e-3, 1e-3 * p, 1.0) for p in (5, 6, 7, 8, 9, 10)}
+    fault = {name: lambda force, by=by: force * (1.0 + 0.02 * by) for by, name in enumerate(motions)}
+    made = bench(dataset(motions=motions, fault=fault))
+    look = look_at(made.refitter, made.model, causes("friction"), folds_of(made.refitter.runs, made.groups))
+    found = look_for_leftover(made.refitter, look, [])
+    assert found.notable() and not found.line
 
 
 def _means(signal, step):
