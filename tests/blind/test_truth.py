@@ -539,6 +539,11 @@ def test_a_blind_axle_has_its_effect_at_its_strength(seed, tmp_path):
     assert not re.search("friction|strength|null", (tmp_path / "dataset.yaml").read_text())
 
 
+def test_an_axle_hides_nothing_that_it_does_not_have(tmp_path):
+    with pytest.raises(ValueError, match="kind: expected one of friction, .*, got 'hum'"):
+        draw_case(3, "axle", "hum", folder=tmp_path)
+
+
 def test_two_effects_in_an_axle_are_both_there(seed, tmp_path):
     """By the difference of its forces from those without: an offset, and a law between the ends of a part."""
     truth = draw_case(seed, "axle", "offset+friction", 2.0, folder=tmp_path / "two").label.open("something")

@@ -85,6 +85,16 @@ def overdispersion(nats: Sequence[float], columns: int) -> float:
     return max(1.0, 2.0 * float(np.median(nats)) / float(chi2.median(columns))) if nats else 1.0
 
 
+def evidence_in(runs: Sequence[tuple[float, float]]) -> float:
+    """The nats of a fault of the channel from its ``nats`` in each run and their overdispersion.
+
+    Noise is another one in every run, so that nats of runs add up where nothing else is left. The error of a model
+    comes again: of runs in which it explains more than noise does the best one counts.
+    """
+    clear = sum(nats for nats, excess in runs if excess == 1.0)
+    return clear + max((nats / excess for nats, excess in runs if excess > 1.0), default=0.0)
+
+
 def accuse(
     refitter: Refitter,
     look: Look,
@@ -111,9 +121,9 @@ def accuse(
     dropped: set[Key] = set()
     while found := selection.next(chosen, dropped):
         chosen |= found
-        while (weakest := selection.superfluous(chosen)) is not None:
-            del chosen[weakest]
-            dropped.add(weakest)
+        while superfluous := selection.superfluous(chosen):
+            dropped |= superfluous
+            chosen = {key: evidence for key, evidence in chosen.items() if key not in superfluous}
     return _accused(solver, chosen, kinds)
 
 
@@ -132,20 +142,33 @@ class _Selection:
     solver: FaultsBeside
 
     def next(self, chosen: Mapping[Key, str], dropped: Set[Key]) -> dict[Key, str]:
-        """The fault that explains most beside those chosen, with its evidence; empty where none is worth it."""
+        """What explains most beside the faults chosen, with its evidence; empty where nothing is worth it."""
         nats = {key: self.nats(key, chosen) for key in self.solver.rows.shapes.keys() - chosen.keys() - dropped}
-        for key in sorted(nats, key=lambda key: (-nats[key], key)):
-            if nats[key] < self._least(key):
+        together = [[key for key in keys if nats[key] > 0.0] for keys in self._together(nats)]
+        for keys in sorted(together, key=lambda keys: (-sum(nats[key] for key in keys), keys)):
+            if sum(nats[key] for key in keys) < self._price:
                 break
-            if evidence := self._proof(key, chosen, nats[key]):
-                return {key: evidence}
+            proven = {key: evidence for key in keys if (evidence := self._proof(key, chosen))}
+            if (
+                evidence_in([(nats[key], self._excess(key, proof, chosen)) for key, proof in proven.items()])
+                > self._price
+            ):
+                return proven
         return {}
 
-    def superfluous(self, chosen: Mapping[Key, str]) -> Key | None:
-        """The weakest of the chosen faults, if what it explains beside the others is not worth it."""
+    def superfluous(self, chosen: Mapping[Key, str]) -> set[Key]:
+        """The weakest of the chosen faults, if what they explain beside the others is not worth it."""
         nats = {key: self.nats(key, [other for other in chosen if other != key]) for key in chosen}
-        weakest = min(nats, key=lambda key: (nats[key], key))
-        return weakest if nats[weakest] < self._price else None
+        weakest = min(self._together(nats), key=lambda keys: (sum(nats[key] for key in keys), keys), default=[])
+        return set(weakest) if sum(nats[key] for key in weakest) < self._price else set()
+
+    def _together(self, keys: Iterable[Key]) -> list[list[Key]]:
+        """Faults that are one: what acts at rest is of the channel, in all runs in which it shows."""
+        found: dict[Key, list[Key]] = {}
+        for key in sorted(keys):
+            at_rest = self.kinds[key[1]].fault.evidence_of == "at_rest"
+            found.setdefault(("", key[1]) if at_rest else key, []).append(key)
+        return list(found.values())
 
     def nats(self, key: Key, others: Iterable[Key]) -> float:
         """What a fault explains beside others, less what as many numbers explain of noise (Schwarz 1978)."""
@@ -170,23 +193,21 @@ class _Selection:
     def _price(self) -> float:
         return Odds(len(self.solver.rows.shapes)).price("measurement")
 
-    def _least(self, key: Key) -> float:
-        return max(self._price, self.relevance * self.solver.rows.residual[key[0]].size)
-
-    def _proof(self, key: Key, chosen: Mapping[Key, str], nats: float) -> str:
-        """The evidence of a fault that explains so much; empty where it does not suffice."""
-        fault = self.kinds[key[1]].fault
+    def _proof(self, key: Key, chosen: Mapping[Key, str]) -> str:
+        """The evidence of a fault that is large enough; empty where a law of the specimen could do the same."""
+        if self.solver.gain(key, chosen) < self.relevance * self.solver.rows.residual[key[0]].size:
+            return ""
         evidence = _evidence(key, chosen, self.alone, self.kinds, self.pairs, self.groups, self.measured, self._price)
-        needed = self._least(key)
-        if evidence == NEIGHBOURS:
-            needed *= _overdispersion_beside(self.solver, key, chosen)
-        elif fault.alike:
-            needed *= _overdispersion_of_alike(self.refitter, self.look, fault, self.solver.rows, key)
-        if nats <= needed or (
-            evidence.startswith("repeats") and _changed(self.solver, key, chosen, self._shares[key[0]])
-        ):
+        if evidence.startswith("repeats") and _changed(self.solver, key, chosen, self._shares[key[0]]):
             return ""
         return evidence
+
+    def _excess(self, key: Key, evidence: str, chosen: Mapping[Key, str]) -> float:
+        """By how much more than noise such faults explain of sound data, at least 1."""
+        fault = self.kinds[key[1]].fault
+        if evidence == NEIGHBOURS:
+            return _overdispersion_beside(self.solver, key, chosen)
+        return _overdispersion_of_alike(self.refitter, self.look, fault, self.solver.rows, key) if fault.alike else 1.0
 
 
 def _changed(solver: FaultsBeside, key: Key, chosen: Mapping[Key, str], share: float) -> bool:

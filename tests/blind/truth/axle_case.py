@@ -67,7 +67,9 @@ DRIVES = (
 
 
 def draw_axle(seed: int, kinds: list[str], strengths: list[float], rng: np.random.Generator, folder: Path) -> Truth:
-    """Draw numbers, noise and what is hidden; write the dataset."""
+    """Draw numbers, noise and what is hidden; write the dataset. ValueError for what an axle does not have."""
+    if unknown := [kind for kind in kinds if kind not in AXLE_KINDS]:
+        raise ValueError(f"kind: expected one of {', '.join(AXLE_KINDS)}, got '{unknown[0]}'")
     numbers, noise = Numbers.draw(rng), Noise.draw(rng)
     bare = [_simulate(numbers, drive) for drive in DRIVES]
     moves = [
