@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from types import MappingProxyType
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
+from dashpot.kernel.block import Block
 from dashpot.kernel.compiler.compile import recipe_of
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.ir.program import Program
@@ -23,6 +24,7 @@ from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
 Prepared = TypeVar("Prepared")
+LAST = 4  # sets of lanes that stay ready for the next run
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,25 @@ class Compiled(ABC, Generic[Prepared]):
     def observation(self, values: Array, settings: Mapping[str, float] = MappingProxyType({})) -> Observation:
         """How the load cells see each lane in a run with these settings."""
         return read_observation(self.paths, with_settings(self.spec, np.atleast_2d(values), settings))
+
+    def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
+        # a fit asks for the same lanes run by run; runs of one network may be in several threads
+        asked = dt, width, lanes.tobytes()
+        found = self._last.get(asked)
+        if found is None:
+            found = self._fresh_blocks(dt, lanes, width)
+            for oldest in list(self._last)[: -LAST + 1]:
+                self._last.pop(oldest, None)
+            self._last[asked] = found
+        return found
+
+    @cached_property
+    def _last(self) -> dict[Hashable, list[Block]]:
+        return {}
+
+    @abstractmethod
+    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
+        """Lanes (lanes, slots) in blocks of ``width``, ready for steps of ``dt`` in s."""
 
     def _fill(self, rows: int, dt: float | Array, lanes: Array) -> Array:
         # a workspace (rows, lanes) with the constants of the lanes in its first rows; dt may be of each lane

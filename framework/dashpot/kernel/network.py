@@ -109,18 +109,6 @@ class CompiledNetwork(Compiled[Rows]):
         vectors, _ = next((group for group in wider if group[0] * LANES >= count), wider[-1])
         return self.native(vectors), vectors * LANES
 
-    def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
-        # a fit asks for the same lanes run by run; runs of one network may be in several threads
-        asked = dt, width, lanes.tobytes()
-        last = self._last[0]
-        if last is None or last[0] != asked:
-            self._last[0] = last = asked, self._fresh_blocks(dt, lanes, width)
-        return last[1]
-
-    @cached_property
-    def _last(self) -> list[tuple[Hashable, list[Block]] | None]:
-        return [None]
-
     def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}
         workspace = self._fill(1 + score_row(self.program), dt, lanes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from itertools import islice
@@ -242,7 +242,8 @@ class CompiledSystem(Compiled[SystemRows]):
 
         By steps of high order the march ends as soon as every lane has been too fast for them.
         """
-        blocks, driven = tuple(self._blocks(run, lanes, course)), len(self.outputs)
+        step, driven = run.excitation.dt / course.steps(run), len(self.outputs)
+        blocks = tuple(replace(each, workspace=each.fresh_workspace()) for each in self._blocks(step, lanes, WIDTH))
         totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
         states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
         out = np.empty((lanes.shape[0], rows, 0 if scoring else run.excitation.samples))
@@ -275,11 +276,11 @@ class CompiledSystem(Compiled[SystemRows]):
         scores = _of_lanes(totals, count).T
         return Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
 
-    def _blocks(self, run: SystemRows, lanes: Array, course: Course) -> Iterator[Block]:
-        step, count = run.excitation.dt / course.steps(run), lanes.shape[0]
-        both = self._fill(self.system.rows, np.repeat([step, 0.5 * step], count), np.concatenate([lanes, lanes]))
+    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
+        count = lanes.shape[0]
+        both = self._fill(self.system.rows, np.repeat([dt, 0.5 * dt], count), np.concatenate([lanes, lanes]))
         workspace = both.reshape(self.system.rows, 2, count).swapaxes(0, 1)
-        return blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, WIDTH)
+        return list(blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, width))
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
         return with_settings(

@@ -160,7 +160,7 @@ def without_held_out(told):
     """The result without what is measured on held-out runs, and without the digest of the data."""
     for pair in told["rmse"].values():
         del pair["held_out"]
-    del told["dataset"]["digest"], told["explainable"]
+    del told["dataset"]["digest"], told["explainable"]["held_out"], told["explainable"]["per_run"][HELD_OUT]
     for cause in told["causes"]:
         for key in ("gain", "gain_interval", "removal"):
             del cause[key]
