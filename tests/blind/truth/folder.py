@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -17,23 +18,32 @@ name: {name}
     time: {{column: t, unit: s}}
     displacement: {{column: x, unit: mm}}
     force: {{column: F, unit: N}}
-runs:
+{further}runs:
 """
+_TEMPERATURE = "    temperature: {column: T, unit: K}\n"
 
 
 def write_dataset(
-    folder: Path, name: str, measured: dict[Plan, tuple[np.ndarray, np.ndarray]], sheet: str | None = None
+    folder: Path,
+    name: str,
+    measured: dict[Plan, tuple[np.ndarray, np.ndarray]],
+    sheet: str | None = None,
+    temperatures: Mapping[Plan, np.ndarray] | None = None,
 ) -> Path:
     """Write displacement [m] and force [N] of every run, and the data sheet of the force channel if it has one.
+
+    ``temperatures`` [K], one for each sample of every run, are a channel beside them.
 
     Returns the path of dataset.yaml.
     """
     folder.mkdir(parents=True, exist_ok=True)
     for plan, (displacement, force) in measured.items():
         time = np.arange(force.size) / SAMPLING
-        np.savez(folder / f"{plan.name}.npz", t=time, x=displacement * 1e3, F=force)
+        beside = {"T": temperatures[plan]} if temperatures else {}
+        np.savez(folder / f"{plan.name}.npz", t=time, x=displacement * 1e3, F=force, **beside)
     target = folder / "dataset.yaml"
-    head = _HEAD.format(name=name, sensors=f"sensors: {{force: {{{sheet}}}}}\n" if sheet else "")
+    sensors = f"sensors: {{force: {{{sheet}}}}}\n" if sheet else ""
+    head = _HEAD.format(name=name, sensors=sensors, further=_TEMPERATURE if temperatures else "")
     target.write_text(head + "".join(_entry(plan) for plan in measured), encoding="utf-8")
     return target
 
