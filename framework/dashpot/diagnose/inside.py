@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Suspect
-from dashpot.data.drive import drive_from_samples
+from dashpot.data.drive import drive_from_path
 from dashpot.data.excitation import Excitation
+from dashpot.data.interpolating import QUINTIC, interpolated_rates
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.view import ModelView
 from dashpot.fit.objective import Objective
@@ -132,7 +133,8 @@ class Inside:
     def _at(self, site: Site, pair: Pair, record: str) -> ScoredRun:
         run, (motions, _) = self.records[record][0], self._solved[record]
         deflection = motions[pair[0]] - motions[pair[1]] + site.offset
-        drive = drive_from_samples(run.drive.dt, deflection)
+        # a simulated motion has no sensor noise
+        drive = drive_from_path(run.drive.dt, deflection, *interpolated_rates(run.drive.dt, deflection, QUINTIC))
         whole = replace(Excitation.of_drive(drive), settings=run.excitation.settings)
         return replace(run, name=_name(record, pair), drive=drive, end="", record="", whole=whole)
 
