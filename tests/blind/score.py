@@ -49,9 +49,16 @@ class Outcome:
     scenario: str = ""
 
     @property
+    def effects(self) -> list[Any]:
+        """What was hidden in training runs: held-out runs decide nothing, and a fault of one of them is no name."""
+        held_out = {run.partition("@")[0] for run in self.verdict["held_out"]}  # a run of an axle has two forces
+        shows = [any(rms > 0.0 for run, rms in each.rms.items() if run not in held_out) for each in self.truth.effects]
+        return [effect for effect, show in zip(self.truth.effects, shows, strict=True) if show]
+
+    @property
     def kinds(self) -> tuple[str, ...]:
-        """What was hidden."""
-        return tuple(self.truth.kinds)
+        """Their kinds."""
+        return tuple(sorted(effect.kind for effect in self.effects))
 
     @property
     def named(self) -> list[str]:
@@ -66,7 +73,7 @@ class Outcome:
     @property
     def strength(self) -> float:
         """Effect over noise unabsorbed RMS of the base, largest of all effects."""
-        return max((effect.strength_left for effect in self.truth.effects), default=0.0)
+        return max((effect.strength_left for effect in self.effects), default=0.0)
 
     @property
     def right(self) -> bool:
@@ -129,7 +136,7 @@ class Outcome:
         if NO_LAW in self.kinds:
             return self.right
         least = max(LEAST_STRENGTH, LEAST_SHARE * self.strength)
-        due = {effect.kind for effect in self.truth.effects if effect.strength_left >= least}
+        due = {effect.kind for effect in self.effects if effect.strength_left >= least}
         return due <= set(self.named) <= set(self.kinds)
 
     @property

@@ -58,10 +58,10 @@ def test_the_diagram_has_a_point_and_an_interval_for_every_bin():
     assert "6 names" in diagram(bins) and "0 names" in diagram([])
 
 
-def case(hidden, verdict, *causes, scenario="sines"):
-    """A case with hidden kinds of twice the noise, and what was said of it."""
-    effects = [SimpleNamespace(kind=kind, form="", strength=2.0, strength_left=2.0) for kind in hidden]
-    truth = SimpleNamespace(kinds=tuple(hidden), effects=effects, noise_rms={})
+def case(hidden, verdict, *causes, scenario="sines", run="first"):
+    """A case with hidden kinds of twice the noise in a ``run``, and what was said of it; `last` is held out."""
+    effects = [SimpleNamespace(kind=kind, form="", strength=2.0, strength_left=2.0, rms={run: 2.0}) for kind in hidden]
+    truth = SimpleNamespace(effects=effects, noise_rms={})
     said = [
         {
             "cause": word,
@@ -74,9 +74,8 @@ def case(hidden, verdict, *causes, scenario="sines"):
         for word, probability in causes
     ]
     rmse = {"after": {"held_out": None}}
-    return Outcome(
-        1, "spring", truth, {"verdict": verdict, "causes": said, "rmse": rmse, "held_out": []}, 1.0, scenario=scenario
-    )
+    told = {"verdict": verdict, "causes": said, "rmse": rmse, "held_out": ["last"]}
+    return Outcome(1, "spring", truth, told, 1.0, scenario=scenario)
 
 
 def test_where_no_law_fits_unexplained_is_right_and_names_are_not():
@@ -87,6 +86,12 @@ def test_where_no_law_fits_unexplained_is_right_and_names_are_not():
     assert not stacked.right and not stacked.exact and not stacked.confidently_wrong
     assert not sure.right and sure.confidently_wrong
     assert not case(["no_law"], "nothing_missing").right
+
+
+def test_a_fault_that_only_a_held_out_run_has_is_not_to_be_named():
+    assert case(["gain"], "nothing_missing", run="last").right
+    assert not case(["gain"], "explained", ("gain", 1.0), run="last").right
+    assert not case(["gain"], "nothing_missing").right
 
 
 def test_the_summary_counts_names_by_design_and_scores_their_probabilities():
