@@ -7,7 +7,7 @@ import pytest
 from unit.diagnose.rig import MOTIONS, NOISE, SAMPLES, STEP, Motion, bench, causes, dataset, line, plain
 
 from dashpot.contract.registry import load_registry
-from dashpot.diagnose.channel import accuse, conditions, covers
+from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
@@ -203,6 +203,21 @@ def test_a_line_among_lines_of_its_kind_is_no_hum():
     missed = [sum(map(line, frequencies, sizes, each)) for each in phases]
     fault = {name: lambda force, more=more: force + more for name, more in zip(MOTIONS, missed, strict=True)}
     assert not [run for run, word in examined(dataset(fault=fault)) if word == "hum"]
+
+
+def test_nats_of_runs_add_up_where_nothing_but_noise_is_left():
+    """An error of the model comes again in every run: the best one counts."""
+    assert evidence_in([(5.0, 1.0), (6.0, 1.0)]) == 11.0
+    assert evidence_in([(30.0, 3.0), (40.0, 5.0)]) == 10.0
+    assert evidence_in([(5.0, 1.0), (30.0, 3.0), (40.0, 5.0)]) == 15.0
+    assert evidence_in([]) == 0.0
+
+
+def test_a_gain_and_an_offset_of_one_run_are_both_told():
+    """Each explains what the other cannot: none is dropped."""
+    found = examined(dataset(fault={"a3_p8": lambda force: 1.05 * force + 200.0}))
+    assert set(found) == {("a3_p8", "gain"), ("a3_p8", "offset")}
+    assert found["a3_p8", "gain"].strengths[0] == pytest.approx(0.05, rel=0.1)
 
 
 def test_repeats_are_the_same_motion():
