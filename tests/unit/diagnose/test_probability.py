@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from dashpot.diagnose.diagnosis import Diagnosis
+from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
 
@@ -118,9 +119,22 @@ def test_only_what_is_accepted_explains(standings, rivals, far, verdict):
     terms = [SimpleNamespace(standing=standing, rivals=rivals) for standing in standings]
     found = SimpleNamespace(
         triage=SimpleNamespace(faults=()),
-        leftover=SimpleNamespace(notable=lambda: False),
+        leftover=Leftover(0.0, 0.0, ""),
         _far_above_attainable=far,
         named=[term for term in terms if term.standing == "accepted"],
         terms=terms,
+    )
+    assert Diagnosis.verdict.func(found) == verdict
+
+
+@pytest.mark.parametrize(("line", "verdict"), [(True, "unexplained"), (False, "nothing_missing")])
+def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
+    found = SimpleNamespace(
+        triage=SimpleNamespace(faults=()),
+        leftover=Leftover(20.0, 0.5, "", line=line),
+        _at_floor=True,
+        _far_above_attainable=False,
+        named=[],
+        terms=[],
     )
     assert Diagnosis.verdict.func(found) == verdict
