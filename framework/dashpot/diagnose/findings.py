@@ -238,6 +238,11 @@ class Findings:
         return self._trained <= NEAR_FLOOR * (self.setting.floor.value or 0.0)
 
     @property
+    def _beyond_noise(self) -> bool:
+        """Whether the error is far more than what repeated runs differ by."""
+        return self.setting.floor.source == "repeats" and not self._near_floor
+
+    @property
     def _at_floor(self) -> bool:
         return self._trained <= (1.0 + self.relevance) * (self.setting.floor.value or 0.0)
 

@@ -121,6 +121,7 @@ def test_only_what_is_accepted_explains(standings, rivals, far, verdict):
         triage=SimpleNamespace(faults=()),
         leftover=Leftover(0.0, 0.0, ""),
         _far_above_attainable=far,
+        _beyond_noise=False,
         named=[term for term in terms if term.standing == "accepted"],
         terms=terms,
     )
@@ -134,6 +135,7 @@ def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
         leftover=Leftover(20.0, 0.5, "", line=line),
         _at_floor=True,
         _far_above_attainable=False,
+        _beyond_noise=False,
         named=[],
         terms=[],
     )
