@@ -5,7 +5,8 @@ two pairs of repeats disagree by the same, or where other, sound runs cover the 
 that is the fastest, the largest or the only one at a setting is not. A specimen that changed between two tests, for
 good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds of a specimen. Where
 no repeat tells, what the same fault would explain in all other runs is the error of the model: nats are divided by this
-overdispersion. Samples of what a fault leaves that follow from one another count as fewer.
+overdispersion. Samples that follow from one another in what all faults together leave of a run count as fewer. A fault
+that acts at rest is one of the channel: what it explains in several runs is added up.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def evidence_in(runs: Sequence[tuple[float, float]]) -> float:
     Noise is another one in every run, so that nats of runs add up where nothing else is left. The error of a model
     comes again: of runs in which it explains more than noise does the best one counts.
     """
-    clear = sum(nats for nats, excess in runs if excess == 1.0)
+    clear = sum(nats for nats, excess in runs if excess <= 1.0)
     return clear + max((nats / excess for nats, excess in runs if excess > 1.0), default=0.0)
 
 
@@ -149,10 +150,8 @@ class _Selection:
             if sum(nats[key] for key in keys) < self._price:
                 break
             proven = {key: evidence for key in keys if (evidence := self._proof(key, chosen))}
-            if (
-                evidence_in([(nats[key], self._excess(key, proof, chosen)) for key, proof in proven.items()])
-                > self._price
-            ):
+            counted = [(nats[key], self._excess(key, evidence, chosen)) for key, evidence in proven.items()]
+            if evidence_in(counted) > self._price:
                 return proven
         return {}
 
