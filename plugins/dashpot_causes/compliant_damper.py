@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View
 from dashpot.model.network import Branch, NetworkSpec
-from dashpot.model.patch import branch_names, replace_branch
+from dashpot.model.patch import branch_names, replace_branch, set_entry
 from dashpot.text.quantity import pretty
+from dashpot_causes.relaxation import FASTEST
 
 Array = NDArray[np.float64]
 Numbers = Mapping[str, float]
@@ -27,12 +29,20 @@ UNITS = {
     "rebound_knee": "m/s",
     "compression_opened": "N*s/m",
     "rebound_opened": "N*s/m",
+    "travel": "m",
 }
 PLAIN = ("exponent", "reference", "compression_opened", "rebound_opened")
-NEAR = 1e-2  # of 1/w at the end of the band: a lag so short that the force changes in proportion to it
+# of 1/w at the end of the band: a lag so short that the force changes in proportion to it, and some longer ones
+LAGS = (1e-2, *(0.0625 * 2.0**step for step in range(7)))
+RATIOS = (
+    1.0,
+    3.0,
+)  # of the travel of a spring that stiffens to what a linear one would be pressed by the highest speed
 SHORTEST = 1.01e-5  # s, the least lag that a file may ask for
 STRAIGHT = 1e3  # m/s, the knee of a valve that has none
 REFERENCE = 0.1  # m/s
+SMALL = 1e-2  # of the travel of a spring that stiffens: its force grows by as much
+TRAVELS = (1e-5, 1.0)  # m, from the least to the largest that a file may ask for
 
 
 class CompliantDamper(Cause):
@@ -49,31 +59,41 @@ class CompliantDamper(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each dashpot of the network by itself, the force changing in proportion to a small compliance."""
+        """Each dashpot of the network on springs that let it lag by some times; of one that has a spring, how that
+        stiffens.
+        """
         outermost = set(branch_names(network.text)) if network.document and not network.joints else set()
-        found = [(branch, _dashpot_of(branch)) for branch in network.leaves() if branch.name in outermost]
-        dampers = [_Damper(branch, dashpot) for branch, dashpot in found if dashpot and not branch.scale]
-        if not dampers:
-            return
-        lag = NEAR / (2.0 * np.pi * view.highest_frequency)
+        branches = [branch for branch in network.leaves() if branch.name in outermost and not branch.scale]
+        lag = 1.0 / (2.0 * np.pi * view.highest_frequency)
+        rigid = [(branch, dashpot) for branch in branches if (dashpot := _dashpot_of(branch))]
+        if rigid:
+            places = [_Damper(*found, share * lag) for found, share in product(rigid, LAGS)]
+            yield _form("a spring in series with a damper", places, "compliance", "m/N")
+        linear = [(branch, dashpot.damping) for branch, dashpot in rigid if branch.element.word == "damper"]
+        if linear:
+            stiffening = [
+                _Damper(branch, _stiffening(damping, ratio * view.speed), share * lag)
+                for (branch, damping), ratio, share in product(linear, RATIOS, LAGS[1::2])
+            ]
+            yield _form("a spring that stiffens in series with a damper", stiffening, "compliance", "m/N", unknowns=1)
+        sprung = [_Sprung(branch) for branch in branches if _is_sprung(branch, FASTEST * lag)]
+        if sprung:
+            yield _form("the spring in series with a damper stiffens", sprung, "inverse travel", "1/m")
 
-        def columns(view: View, run: str) -> Array:
-            return np.array([damper.column(view, run, lag) for damper in dampers])
 
-        def extend(text: str, atoms: Sequence[Atom]) -> str:
-            for compliance, place in atoms:
-                text = dampers[int(place)].extend(text, compliance)
-            return text
+def _form(
+    name: str, places: Sequence[_Damper] | Sequence[_Sprung], quantity: str, unit: str, unknowns: int = 0
+) -> Suspect:
+    def columns(view: View, run: str) -> Array:
+        return np.array([place.column(view, run) for place in places])
 
-        yield Suspect(
-            "a spring in series with a damper",
-            tuple(map(float, range(len(dampers)))),
-            columns,
-            extend,
-            unknowns=0,
-            quantity="compliance",
-            unit="m/N",
-        )
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        for strength, number in atoms:
+            text = places[int(number)].extend(text, strength)
+        return text
+
+    grid = tuple(map(float, range(len(places))))
+    return Suspect(name, grid, columns, extend, unknowns=unknowns, quantity=quantity, unit=unit)
 
 
 @dataclass(frozen=True)
@@ -87,12 +107,15 @@ class _Dashpot:
 
 @dataclass(frozen=True)
 class _Damper:
+    """A dashpot between both ends, and the lag in s that a spring gives it."""
+
     branch: Branch
     dashpot: _Dashpot
+    lag: float
 
-    def column(self, view: View, run: str, lag: float) -> Array:
+    def column(self, view: View, run: str) -> Array:
         """The change of the force (n,) over the compliance."""
-        stiffness = self.dashpot.damping / lag
+        stiffness = self.dashpot.damping / self.lag
         rigid = {key: value.number for key, value in self.branch.values.items()}
         rigid |= {key: curve.values[0].number for key, curve in self.branch.curves.items()}
         soft = view.respond(run, self.dashpot.element, [self.dashpot.values(stiffness)])[0]
@@ -109,6 +132,33 @@ class _Damper:
         entries = [f"{key}: {number if key in PLAIN else f'{{start: {number}}}'}" for key, number in shown.items()]
         entry = f"{{element: {self.dashpot.element}, {', '.join(entries)}}}"
         return replace_branch(text, self.branch.name, entry)
+
+
+@dataclass(frozen=True)
+class _Sprung:
+    """A dashpot on a spring."""
+
+    branch: Branch
+
+    def column(self, view: View, run: str) -> Array:
+        """The change of the force (n,) over one by the travel at which the spring is blocked, which is far away."""
+        numbers = {key: value.number for key, value in self.branch.values.items()}
+        stretch = min(numbers["relaxation_time"] * view.speed, view.stroke)
+        near, far = stretch / SMALL, stretch / SMALL**2
+        springs = [{**numbers, "travel": travel} for travel in (near, far)]
+        stiffer, straight = view.respond(run, "stiffening_maxwell", springs)
+        return (stiffer - straight) / (1.0 / near - 1.0 / far)
+
+    def extend(self, text: str, inverse: float) -> str:
+        """The network with a spring that stiffens; its branch has to be one with a spring."""
+        travel = float(np.clip(1.0 / max(inverse, 1.0 / TRAVELS[1]), *TRAVELS))
+        text = set_entry(text, self.branch.name, "travel", f"{{start: {pretty(travel, UNITS['travel'], 6)}}}")
+        return set_entry(text, self.branch.name, "element", "stiffening_maxwell")
+
+
+def _is_sprung(branch: Branch, slowest: float) -> bool:
+    """Whether a branch is a linear spring and a dashpot that relax faster than ``slowest`` in s."""
+    return branch.element.word == "maxwell" and branch.values["relaxation_time"].number < slowest
 
 
 def _dashpot_of(branch: Branch) -> _Dashpot | None:
@@ -132,6 +182,15 @@ SIDES = ("compression", "rebound")
 
 def _linear(damping: float) -> _Dashpot:
     return _Dashpot("maxwell", lambda k: {"stiffness": k, "relaxation_time": damping / k}, damping)
+
+
+def _stiffening(damping: float, speed: float) -> _Dashpot:
+    """On a spring that is blocked where a linear one would be at a ``speed``."""
+
+    def values(k: float) -> Numbers:
+        return {"stiffness": k, "relaxation_time": damping / k, "travel": damping / k * speed}
+
+    return _Dashpot("stiffening_maxwell", values, damping)
 
 
 def _power(force: float, exponent: float, reference: float) -> _Dashpot:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View
 from dashpot.model.network import NetworkSpec
-from dashpot.model.patch import add_measurement
+from dashpot.model.patch import add_measurement, remove_measurement
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
 LONGEST = 0.05
+# of 1/w at the end of the band: delays so short that the force changes in proportion to them, and longer ones
+SHARES = (1e-2, *(side * 0.0625 * 2.0**step for step in range(7) for side in (1.0, -1.0)))
 LAGS = tuple(float(lag) for lag in np.geomspace(5e-5, 2e-2, 20))  # s
 
 
@@ -32,21 +35,37 @@ class Delay(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A shift of the model's force by a small time or a low-pass, unless the network has one of them already.
+        """A shift of the model's force by a small time or a low-pass, in the place of the other one where there is one.
 
         To first order in the frequency they are the same: both together, one against the other, would be any law.
         """
-        if not {"force.delay", "force.lag"} & set(network.measurement):
+        if "force.delay" not in network.measurement:
+            delays = tuple(share / (2.0 * np.pi * view.highest_frequency) for share in SHARES)
             yield Suspect(
-                "delay", (0.0,), _slope, _extend, sign=0, unknowns=0, measured=True, quantity="delay", unit="s"
+                "delay",
+                delays,
+                partial(_shifted, delays),
+                _extend,
+                sign=0,
+                unknowns=0,
+                measured=True,
+                quantity="delay",
+                unit="s",
             )
+        if "force.lag" not in network.measurement:
             yield Suspect(
                 "low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share", unit="1"
             )
 
 
-def _slope(view: View, run: str) -> Array:
-    return -np.gradient(view.force(run), view.step(run), edge_order=2)[None]
+def _shifted(delays: Sequence[float], view: View, run: str) -> Array:
+    """The change of the force over a delay; before and after the run the force does not change."""
+    from scipy.interpolate import CubicSpline
+
+    force, step = view.force(run), view.step(run)
+    time = step * np.arange(force.size)
+    path = CubicSpline(time, force)
+    return np.array([(path(np.clip(time - delay, 0.0, time[-1])) - force) / delay for delay in delays])
 
 
 def _lagging(view: View, run: str) -> Array:
@@ -64,10 +83,12 @@ def _lagging(view: View, run: str) -> Array:
 def _low_pass(text: str, atoms: Sequence[Atom]) -> str:
     share, lag = atoms[0]
     start = float(np.clip(share * lag, LAGS[0], LAGS[-1]))
+    text = remove_measurement(text, "delay")
     return add_measurement(text, "lag", f"{{start: {pretty(start, 's', 6)}, bounds: [1 us, {pretty(LONGEST, 's')}]}}")
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:
     lag = float(np.clip(atoms[0][0], -0.9 * LONGEST, 0.9 * LONGEST))
     bounds = f"[{pretty(-LONGEST, 's')}, {pretty(LONGEST, 's')}]"
+    text = remove_measurement(text, "lag")
     return add_measurement(text, "delay", f"{{start: {pretty(lag, 's', 6)}, bounds: {bounds}}}")

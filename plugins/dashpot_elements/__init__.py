@@ -29,6 +29,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "power_law_damper",
         "valve",
         "compliant_damper",
+        "stiffening_maxwell",
         "fading_damper",
         "worn_damper",
     ),

@@ -33,9 +33,12 @@ def memory() -> tuple[State, State]:
 def pressed(x: Motion, z: Any, stiffness: Any, dt: Any, law: Law) -> Response:
     """The force of the branch and its states after a step; ``z`` has ``load`` and ``speed``."""
     rate = SHARE * dt * stiffness
-    # velocity of the cubic path where the trapezoid ends
-    bow = x.travel / dt - 0.5 * (x.velocity_old + x.velocity_new)
-    middle = (1.0 - PART) * x.velocity_old + PART * x.velocity_new + 6.0 * PART * (1.0 - PART) * bow
-    load, _ = law(z.load + rate * (x.velocity_old - z.speed + middle), rate)
+    load, _ = law(z.load + rate * (x.velocity_old - z.speed + middle_velocity(x, dt)), rate)
     load, speed = law(NEAR * load - FAR * z.load + rate * x.velocity_new, rate)
     return Response(load, load=load, speed=speed)
+
+
+def middle_velocity(x: Motion, dt: Any) -> Any:
+    """The velocity of the cubic path in m/s where the trapezoid ends."""
+    bow = x.travel / dt - 0.5 * (x.velocity_old + x.velocity_new)
+    return (1.0 - PART) * x.velocity_old + PART * x.velocity_new + 6.0 * PART * (1.0 - PART) * bow

@@ -92,6 +92,58 @@ def power_of_ten(low, high):
     return st.floats(low, high).map(lambda exponent: 10.0**exponent)
 
 
+STIFFENING = {"stiffness": 4e4, "relaxation_time": 0.02, "travel": 1e-3}
+
+
+def test_a_dashpot_on_a_spring_that_stiffens_is_of_second_order_in_the_step(state):
+    """Against the deflection e of the spring, e' = v - k e/(1 - |e|/s)/d."""
+    k, time_constant, s = STIFFENING.values()
+    errors = []
+    for dt in (1e-3, 0.5e-3, 0.25e-3):
+        time, found = march("stiffening_maxwell", dt, 1.0, **STIFFENING)
+        answer = solve_ivp(
+            lambda t, e: [speed(t) - e[0] / (1.0 - abs(e[0]) / s) / time_constant],
+            (0.0, time[-1]),
+            [0.0],
+            method="LSODA",
+            rtol=1e-11,
+            atol=1e-14,
+            t_eval=time,
+            max_step=2e-4,
+        )
+        stretch = answer.y[0]
+        errors.append(relative(found, k * stretch / (1.0 - np.abs(stretch) / s)))
+    assert np.max(np.abs(stretch)) > 0.5 * s
+    state(f"stiffening_maxwell at 1, 0.5, 0.25 ms: {', '.join(f'{error:.1e}' for error in errors)}")
+    assert errors[0] < 2e-3
+    assert np.all(orders(errors) > 1.6)
+
+
+def test_a_spring_that_is_blocked_far_away_is_that_of_a_maxwell_element():
+    _, maxwell = march("maxwell", 0.25e-3, stiffness=4e4, relaxation_time=0.02)
+    for travel, share in ((10.0, 1.0), (1.0, 10.0)):
+        _, found = march("stiffening_maxwell", 0.25e-3, stiffness=4e4, relaxation_time=0.02, travel=travel)
+        assert relative(found, maxwell) < 1e-4 * share
+
+
+def test_a_spring_that_is_blocked_at_once_leaves_the_dashpot():
+    drive = circling(5e-3, 5.0, 2, 100)
+    network = network_of("stiffening_maxwell", stiffness=1e6, relaxation_time=8e-4, travel=1e-6)
+    found, expected = network.simulate(network.prepare(drive))[5:], 800.0 * drive.velocity[5:]
+    # where the motion turns the spring, of a micrometre, is between its ends
+    turning = np.abs(drive.velocity[5:]) < 1e-6
+    assert found[~turning] == pytest.approx(expected[~turning], abs=0.2)
+    assert np.max(np.abs(found)) < 1.001 * np.max(np.abs(expected))
+
+
+@given(given=power_of_ten(-9, 3), part=power_of_ten(-9, 4), travel=power_of_ten(-6, 1))
+def test_deflection_and_flow_of_a_spring_that_stiffens_are_what_is_given(given, part, travel):
+    from dashpot_elements.stiffening_maxwell import _loaded
+
+    loaded = float(_loaded(-given, part, travel))
+    assert -loaded / (1.0 - loaded / travel) - part * loaded == pytest.approx(given, rel=1e-9)
+
+
 @given(
     lag=power_of_ten(-3, 5),
     damping=power_of_ten(-1, 6),

@@ -45,6 +45,7 @@ ODD = [
     "sliding_mass",
     "softening",
     "spring",
+    "stiffening_maxwell",
     "stribeck",
     "stribeck_curve",
     "worn_damper",

@@ -12,22 +12,23 @@ import numpy as np
 from dashpot.contract.cause import Cause
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
-from dashpot.data.correction import Correction, corrected_run
+from dashpot.data.correction import corrected_run
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
-from dashpot.diagnose.folds import FEWEST, Folds
+from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import Look, look_at, look_settled
+from dashpot.diagnose.look import Look, look_settled
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
-from dashpot.diagnose.pursuit import NAMED, Pursuit
+from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
+from dashpot.diagnose.single_runs import corrected, correction_of, explained_with_runs, put_right
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
@@ -38,7 +39,6 @@ from dashpot.fit.grounding import free_curves
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
-from dashpot.fit.scored import ScoredRun
 from dashpot.fit.thinned import subsampled
 from dashpot.kernel.workers import threads
 from dashpot.model.network import Group, NetworkSpec
@@ -50,7 +50,6 @@ if TYPE_CHECKING:
 
 ATTEMPTS = 3
 SAME = 1e-3  # of an error
-ROUNDS = 3  # in which faults of single runs are found beside a model that is fitted to the corrected runs
 RELEVANCE = 0.0015  # share of the error by which a cause must matter
 
 
@@ -89,15 +88,15 @@ def diagnose(
     refitter = Refitter(searched, registry.elements, sensors, jobs)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
-    corrected = {one.name: _corrected(one, accused) for one in setting.train}
-    runs = list(corrected.values())
+    sound = {one.name: corrected(one, accused) for one in setting.train}
+    runs = list(sound.values())
     if accused:
         setting = replace(setting, floor=_floor_of_corrected(setting, accused))
     model = pursuit.best.model
     together = groups_of(runs, groups)
     final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)
     removals = [Removal(one.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
-    last = _put_right(refitter, accused)
+    last = put_right(refitter, accused)
     spare = spare_branches(last, pursuit.look, pursuit.best.model)
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
     return Diagnosis(
@@ -106,7 +105,7 @@ def diagnose(
         fit=fit,
         pursuit=pursuit,
         accused=tuple(accused),
-        corrected=corrected,
+        corrected=sound,
         final=final,
         removals=tuple(removals),
         leftover=leftover,
@@ -148,54 +147,19 @@ def find_causes(
     pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
     del first  # a look is large
     pursuit = pursuer.run(model)
-    accused: list[Accused] = []
-    if recorded.runs:
-        measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
+    if not recorded.runs:
+        return pursuit, []
+    measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
 
-        def accuse_beside(look: Look) -> list[Accused]:
-            return accuse(recorded, look, kinds, groups, measured, doubted, relevance)
+    def accuse_beside(look: Look) -> list[Accused]:
+        return accuse(recorded, look, kinds, groups, measured, doubted, relevance)
 
-        accused = faults_of_single_runs(refitter, pursuit.look, folds, pairs, accuse_beside)
-    if accused:
-        again = _put_right(refitter, accused)
-        start = again.fit(pursuit.best.model, pursuit.look.noise)
+    found = explained_with_runs(pursuer, pursuit, pairs, accuse_beside)
+    if found.accused:
+        again = put_right(refitter, found.accused)
+        start = again.fit(found.model, pursuit.look.noise)
         pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
-    return pursuit, accused
-
-
-def faults_of_single_runs(
-    refitter: Refitter,
-    look: Look,
-    folds: Folds,
-    pairs: Sequence[tuple[str, str]],
-    accuse_beside: Callable[[Look], list[Accused]],
-) -> list[Accused]:
-    """The faults of single runs beside a model that they do not bend, those that are sure enough to be named.
-
-    The model was fitted to the runs as they are. It is fitted to the corrected ones, and the faults are found again
-    beside it, until the same ones come back.
-    """
-    accused = accuse_beside(look)
-    if not accused:
-        return []
-    for _ in range(ROUNDS):
-        right = _put_right(refitter, accused)
-        before, accused = accused, accuse_beside(look_at(right, right.fit(look.model, look.noise), (), folds))
-        if {(one.run, one.kind) for one in before} == {(one.run, one.kind) for one in accused}:
-            break
-    right = _put_right(refitter, accused)
-    fitted = replace(look, model=right.fit(look.model, look.noise))
-    left = look_for_leftover(right, fitted, pairs)
-    return [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
-
-
-def _put_right(refitter: Refitter, accused: Sequence[Accused]) -> Refitter:
-    return replace(refitter, runs=[_corrected(run, accused) for run in refitter.runs], reduced=Kept())
-
-
-def _corrected(run: ScoredRun, accused: Sequence[Accused]) -> ScoredRun:
-    correction = correction_of(run.name, accused)
-    return replace(run, force=correction.apply(run.force, run.drive.dt)) if correction else run
+    return pursuit, list(found.accused)
 
 
 def _floor_of_corrected(setting: Setting, accused: Sequence[Accused]) -> NoiseFloor:
@@ -206,14 +170,6 @@ def _floor_of_corrected(setting: Setting, accused: Sequence[Accused]) -> NoiseFl
         for run in dataset.runs
     ]
     return noise_floor(replace(dataset, runs=tuple(runs)))
-
-
-def correction_of(run: str, accused: Sequence[Accused]) -> Correction | None:
-    """What puts a run right; None for a sound one."""
-    found = None
-    for one in (one for one in accused if one.run == run):
-        found = found.then(one.correction) if found else one.correction
-    return found
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:

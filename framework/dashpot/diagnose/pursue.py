@@ -211,13 +211,14 @@ class Pursuer:
         present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.scores_of(look, present.model)
-            found = [self._without(look, present, (term,), odds) for term in present.model.terms]
+            found = [self.without(look, present, (term,), odds) for term in present.model.terms]
             worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
             if min(worth, default=1.0) >= NAMED:
                 return present, tuple(self._without_causes(look, present, found, odds))
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
-    def _without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
+    def without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
+        """A structure without some of its terms, refitted under the noise of a look."""
         rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
         return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
 
@@ -225,7 +226,7 @@ class Pursuer:
         for name in dict.fromkeys(one.name for one in found):
             mine = [one for one in found if one.name == name]
             every = tuple(term for one in mine for term in one.terms)
-            yield mine[0] if len(mine) == 1 else self._without(look, present, every, odds)
+            yield mine[0] if len(mine) == 1 else self.without(look, present, every, odds)
 
     def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
@@ -253,19 +254,27 @@ class Pursuer:
         cost = without.likelihood(forms_err=False) - present.likelihood(forms_err=False)
         return cost > float(without.samples.sum()) * self.relevance
 
-    def rivals(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[tuple[Term, Scored]]:
-        """For each term the best structure with another cause in its place, refitted."""
-        look = scores.look
-        wanted = dict.fromkeys(range(len(look.model.terms)), TRIED)
-        for structure in ranked:
-            gone, new = structure.dropped, [look.candidates[k] for k, _ in structure.added]
-            if len(gone) == 1 and len(new) == 1:
-                (number,) = gone
-                if wanted[number] and new[0].name not in look.model.names:
-                    trial = self.refitted(scores, structure)
-                    wanted[number] = 0 if trial else wanted[number] - 1
-                    if trial:
-                        yield look.model.terms[number], trial
+    def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> Iterator[tuple[Term, Scored]]:
+        """For each term structures with another cause in its place, refitted."""
+        for number, term in enumerate(scores.look.model.terms):
+            exchanged = [one for one in ranked if one.dropped == {number} and _joins_alone(scores, one)]
+            yield from ((term, trial) for trial in self._best_first(scores, exchanged))
+
+    def _best_first(self, scores: Scores, ranked: Sequence[Structure]) -> Iterator[Scored]:
+        """Structures refitted in their order, as long as the next one promises more than the best refit has kept."""
+        kept = np.inf
+        for structure in ranked[:TRIED]:
+            if scores.score(structure) < kept:
+                trial = self.refitted(scores, structure)
+                if trial:
+                    kept = min(kept, trial.score)
+                    yield trial
+
+
+def _joins_alone(scores: Scores, structure: Structure) -> bool:
+    """Whether one cause joins that is not there."""
+    names = [scores.look.candidates[k].name for k, _ in structure.added]
+    return len(names) == 1 and names[0] not in scores.look.model.names
 
 
 def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:

@@ -82,9 +82,10 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
 
 
 def _same_fault(scores: Scores, structure: Structure) -> set[int]:
-    """The other forms of faults of the measurement that join: one against the other they would be any law."""
-    candidates = scores.look.candidates
+    """The other forms of faults of the measurement that are there: one against the other they would be any law."""
+    candidates, terms = scores.look.candidates, enumerate(scores.look.model.terms)
     faults = {candidates[k].name for k, _ in structure.added if candidates[k].cause.kind == "measurement"}
+    faults |= {term.name for k, term in terms if term.cause.kind == "measurement" and k not in structure.dropped}
     return {k for k, one in enumerate(candidates) if one.name in faults}
 
 

@@ -91,8 +91,11 @@ class Model:
         return all(path in known for owned in self.owned for path in owned)
 
     def count(self, number: int) -> int:
-        """How many parameters of a term are searched."""
-        return len(set(self.owned[number]) & set(self.coordinates.paths))
+        """How many more parameters are searched with a term: less those of a branch that it took the place of."""
+        homes = {path.rpartition(".")[0] for path in self.owned[number]}
+        gone = {slot.path for slot in self.base.slots() if slot.value.searched} - {s.path for s in self.fitted.slots()}
+        replaced = sum(path.rpartition(".")[0] in homes for path in gone)
+        return len(set(self.owned[number]) & set(self.coordinates.paths)) - replaced
 
     def numbers_of(self, number: int) -> dict[str, float]:
         """Fitted parameters in SI that a term brought, by the last word of the path; a second one ends in ``_2``."""

@@ -171,6 +171,15 @@ def add_measurement(text: str, key: str, entry: str) -> str:
     return add_entry(document, force, f"{key}: {entry}")
 
 
+def remove_measurement(text: str, key: str) -> str:
+    """The text without an entry of that key under ``measurement: force:``; as it is where there is none."""
+    document = Document.parse(text)
+    if not (_has(document.root, "measurement") and _has(_mapping(document.root, "measurement"), "force")):
+        return text
+    force = _mapping(document.root, "measurement", "force")
+    return remove_entry(document, force, key) if key in force.entries else text
+
+
 def rename(text: str, name: str, comment: Iterable[str]) -> str:
     """The text with another ``name:`` and comment lines at its head."""
     head = "".join(f"# {line}".rstrip() + "\n" for line in comment)

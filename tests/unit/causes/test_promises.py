@@ -12,6 +12,7 @@ from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import with_settings
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
 from dashpot.model.reading import parse_network
+from dashpot_causes import compliant_damper
 
 REGISTRY = load_registry()
 NETWORK = """\
@@ -102,11 +103,24 @@ SUSPECTS = [
 ]
 
 
+def of_its_own(suspect, number):
+    """The size of a law that has another shape at another size: that for which the column at a place is made."""
+    end = 2.0 * np.pi * VIEW.highest_frequency
+    if suspect.form == "delay":
+        return suspect.grid[number]
+    if suspect.form == "a spring in series with a damper":
+        return compliant_damper.LAGS[number] / end / DAMPING
+    if suspect.form == "a spring that stiffens in series with a damper":
+        return [*compliant_damper.LAGS[1::2], *compliant_damper.LAGS[1::2]][number] / end / DAMPING
+    return None
+
+
 def usual_atoms(suspect):
     """A usual size of a suspect at the middle of its grid, or at all of its places where they belong together."""
-    # a whole specimen on a spring answers in proportion only to a small compliance
-    size = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
     middle = len(suspect.grid) // 2
+    # a whole specimen on a spring answers in proportion only to a small compliance
+    usual = SIZES[suspect.unit] * (0.02 if suspect.form == "compliance" else 1.0)
+    size = of_its_own(suspect, middle) or usual
     if not suspect.joint:
         return [(size, suspect.grid[middle])]
     # one knot of many: a monotone cubic through all of them is not the sum of those through one each; where none

@@ -31,7 +31,7 @@ def compliance(text, view=VIEW):
 def test_a_damper_of_the_network_is_put_on_a_spring(word):
     """The column is the derivative of the force after the compliance; the cure is the branch behind that spring."""
     text = damped(word)
-    [suspect] = compliance(text)
+    suspect = compliance(text)[0]
     small = 2e-7 if word == "damper" else 1e-6
     network = parse_network(suspect.extend(text, [(small, 0.0)]), REGISTRY.elements)
     assert [branch.name for branch in network.leaves()] == ["stiffness", "damping"]
@@ -52,6 +52,40 @@ def test_a_damper_of_the_network_is_put_on_a_spring(word):
     ],
 )
 def test_what_is_no_simple_dashpot_is_left_alone(entry):
+    assert compliance(NETWORK.replace("{element: damper, damping: 300 N*s/m}", entry)) == []
+
+
+def test_the_spring_of_a_linear_damper_may_stiffen():
+    """Started where a linear spring would be pressed by the fastest motion, at a quarter of the lag of the band."""
+    _, suspect = compliance(NETWORK)
+    lag = 0.25 / (2.0 * np.pi * VIEW.highest_frequency)
+    network = parse_network(suspect.extend(NETWORK, [(lag / 300.0, 1.0)]), REGISTRY.elements)
+    found = {slot.path: slot.value.number for slot in network.slots()}
+    assert network.leaves()[1].element.word == "stiffening_maxwell"
+    assert found["damping.stiffness"] == pytest.approx(300.0 / lag, rel=1e-5)
+    assert found["damping.relaxation_time"] == pytest.approx(lag, rel=1e-5)
+    assert found["damping.travel"] == pytest.approx(lag * VIEW.speed, rel=1e-5)
+
+
+SPRUNG = "{element: maxwell, stiffness: 200 N/mm, relaxation_time: 3 ms}"
+
+
+def test_the_spring_of_a_dashpot_that_has_one_may_stiffen():
+    """The column is the derivative of the force after one by the travel at which the spring is blocked."""
+    text = NETWORK.replace("{element: damper, damping: 300 N*s/m}", SPRUNG)
+    [suspect] = compliance(text)
+    network = parse_network(suspect.extend(text, [(2.0, 0.0)]), REGISTRY.elements)
+    assert {slot.path: slot.value.number for slot in network.slots()}["damping.travel"] == pytest.approx(0.5)
+    drive = VIEW.drives["large"]
+    plain, far = (parse_network(suspect.extend(text, [(inverse, 0.0)]), REGISTRY.elements) for inverse in (1.0, 3.0))
+    change = simulate_eagerly(far, drive) - simulate_eagerly(plain, drive)
+    shown = 2.0 * suspect.columns(VIEW, "large")[0]
+    assert change == pytest.approx(shown, abs=0.03 * np.abs(shown).max())
+
+
+def test_what_relaxes_within_the_band_is_no_dashpot_on_a_spring():
+    slow = 0.6 / (2.0 * np.pi * VIEW.highest_frequency)
+    entry = SPRUNG.replace("3 ms", f"{slow} s")
     assert compliance(NETWORK.replace("{element: damper, damping: 300 N*s/m}", entry)) == []
 
 
