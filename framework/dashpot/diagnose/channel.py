@@ -41,7 +41,7 @@ from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]
 
-SLACK = 0.02  # of the range of a condition
+SLACK = 0.02  # of the range of a condition, or of its size where that is larger: alike, as repeats are
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 
 
@@ -205,7 +205,7 @@ class _Selection:
         """By how much more than noise such faults explain of sound data, at least 1."""
         fault = self.kinds[key[1]].fault
         if evidence == NEIGHBOURS:
-            return _overdispersion_beside(self.solver, key, chosen)
+            return _overdispersion_beside(self.solver, key, chosen, self._shares)
         return _overdispersion_of_alike(self.refitter, self.look, fault, self.solver.rows, key) if fault.alike else 1.0
 
 
@@ -224,12 +224,17 @@ def _changed(solver: FaultsBeside, key: Key, chosen: Mapping[Key, str], share: f
     return bool(share * lead < -np.log(RIG_ODDS))
 
 
-def _overdispersion_beside(solver: FaultsBeside, key: Key, chosen: Mapping[Key, str]) -> float:
-    """By how much more than noise the fault ``key`` explains in all other runs, beside it and those chosen."""
+def _overdispersion_beside(
+    solver: FaultsBeside, key: Key, chosen: Mapping[Key, str], shares: Mapping[str, float]
+) -> float:
+    """By how much more than noise the fault ``key`` explains in all other runs, beside it and those chosen.
+
+    Of the nats in each run its share of independent samples counts, as it does of the fault.
+    """
     known = {**chosen, key: ""}
     others = [other for other in solver.rows.shapes if other[1] == key[1] and other not in known]
     columns = len(solver.rows.shapes[key]) - solver.free[key[1]]
-    return overdispersion([solver.gain(other, known) for other in others], columns)
+    return overdispersion([shares[other[0]] * solver.gain(other, known) for other in others], columns)
 
 
 def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault, rows: Rows, key: Key) -> float:
@@ -296,12 +301,13 @@ def covers(others: Sequence[Run], run: Run) -> bool:
     """Whether a run lies within what others cover: its deflection, stroke, speed and every number that was set."""
     if len(others) < 2:
         return False
-    known = [conditions(other) for other in others]
-    for word, value in conditions(run).items():
+    known, asked = [conditions(other) for other in others], conditions(run)
+    for word, value in asked.items():
         values = [one[word] for one in known if word in one]
         if not values:
             return False
-        slack = SLACK * max(max(values) - min(values), abs(value) * SLACK)
+        size = asked["stroke"] if word == "mean deflection" else abs(value)
+        slack = SLACK * max(max(values) - min(values), size)
         if not min(values) - slack <= value <= max(values) + slack:
             return False
     return True

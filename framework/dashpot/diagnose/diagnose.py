@@ -28,7 +28,7 @@ from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
-from dashpot.diagnose.single_runs import corrected, correction_of, explained_with_runs, put_right
+from dashpot.diagnose.single_runs import corrected, correction_of, faults_beside, put_right
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
@@ -154,12 +154,12 @@ def find_causes(
     def accuse_beside(look: Look) -> list[Accused]:
         return accuse(recorded, look, kinds, groups, measured, doubted, relevance)
 
-    found = explained_with_runs(pursuer, pursuit, pairs, accuse_beside)
-    if found.accused:
-        again = put_right(refitter, found.accused)
-        start = again.fit(found.model, pursuit.look.noise)
+    accused = faults_beside(refitter, pursuit.look, pairs, accuse_beside)
+    if accused:
+        again = put_right(refitter, accused)
+        start = again.fit(pursuit.best.model, pursuit.look.noise)
         pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
-    return pursuit, list(found.accused)
+    return pursuit, accused
 
 
 def _floor_of_corrected(setting: Setting, accused: Sequence[Accused]) -> NoiseFloor:

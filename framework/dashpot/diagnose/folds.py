@@ -38,14 +38,6 @@ class Folds:
         edges = np.round(np.array(ends) * kept).astype(int).tolist()
         return [(number, slice(*ends)) for number, ends in zip(numbers, pairwise(edges), strict=True)]
 
-    def together(self) -> set[frozenset[int]]:
-        """The folds of each group of runs: those of runs that share one."""
-        groups: set[frozenset[int]] = set()
-        for _, numbers in self.parts.values():
-            touched = {group for group in groups if group & set(numbers)}
-            groups = (groups - touched) | {frozenset(numbers).union(*touched)}
-        return groups
-
 
 def folds_of(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> Folds:
     """The folds of runs; ``groups`` names for each one the group of its repeats."""

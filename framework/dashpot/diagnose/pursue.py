@@ -211,14 +211,13 @@ class Pursuer:
         present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.scores_of(look, present.model)
-            found = [self.without(look, present, (term,), odds) for term in present.model.terms]
+            found = [self._without(look, present, (term,), odds) for term in present.model.terms]
             worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
             if min(worth, default=1.0) >= NAMED:
                 return present, tuple(self._without_causes(look, present, found, odds))
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
-    def without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
-        """A structure without some of its terms, refitted under the noise of a look."""
+    def _without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
         rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
         return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
 
@@ -226,7 +225,7 @@ class Pursuer:
         for name in dict.fromkeys(one.name for one in found):
             mine = [one for one in found if one.name == name]
             every = tuple(term for one in mine for term in one.terms)
-            yield mine[0] if len(mine) == 1 else self.without(look, present, every, odds)
+            yield mine[0] if len(mine) == 1 else self._without(look, present, every, odds)
 
     def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
