@@ -298,19 +298,28 @@ def _evidence(
 
 
 def covers(others: Sequence[Run], run: Run) -> bool:
-    """Whether a run lies within what others cover: its deflection, stroke, speed and every number that was set."""
-    if len(others) < 2:
+    """Whether a run lies between others: its deflection, stroke, speed and every number that was set.
+
+    All together: the conditions of the run are a mean of those of the others, with weights (linear programming). One
+    at a corner, as the largest stroke at the smallest preload, is not; what a law does there no other run tells.
+    """
+    from scipy.optimize import linprog
+
+    asked = conditions(run)
+    words = list(asked)
+    known = [found for found in map(conditions, others) if found.keys() >= asked.keys()]
+    if len(known) < 2:
         return False
-    known, asked = [conditions(other) for other in others], conditions(run)
-    for word, value in asked.items():
-        values = [one[word] for one in known if word in one]
-        if not values:
-            return False
-        size = asked["stroke"] if word == "mean deflection" else abs(value)
-        slack = SLACK * max(max(values) - min(values), size)
-        if not min(values) - slack <= value <= max(values) + slack:
-            return False
-    return True
+    table = np.array([[one[word] for word in words] for one in known])
+    aim = np.array([asked[word] for word in words])
+    sizes = np.array([asked["stroke"] if word == "mean deflection" else abs(asked[word]) for word in words])
+    slack = SLACK * np.maximum(np.ptp(table, axis=0), sizes)
+    slack[slack == 0.0] = 1.0
+    rows = (table / slack).T
+    within = np.concatenate([rows, -rows])
+    ends = np.concatenate([aim / slack + 1.0, 1.0 - aim / slack])
+    weights = np.ones((1, len(known)))
+    return bool(linprog(np.zeros(len(known)), within, ends, weights, [1.0], bounds=(0.0, None)).success)
 
 
 def conditions(run: Run) -> dict[str, float]:

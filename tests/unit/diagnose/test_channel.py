@@ -7,6 +7,7 @@ import pytest
 from unit.diagnose.rig import MOTIONS, NOISE, SAMPLES, STEP, Motion, bench, causes, dataset, line, plain
 
 from dashpot.contract.registry import load_registry
+from dashpot.data.run import Run
 from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.folds import folds_of
@@ -236,3 +237,25 @@ def test_what_covers_a_run():
     assert not covers(shallow, runs["a3_p11"])
     assert not covers(others[:1], runs["a3_p8"])
     assert conditions(runs["a3_p8"])["stroke"] == pytest.approx(6e-3, rel=0.01)
+
+
+def driven(amplitude, preload, frequency=5.0):
+    """A run of a sine of so many mm about so many mm."""
+    time = np.arange(2000) * 1e-3
+    path = 1e-3 * (preload + amplitude * np.sin(2.0 * np.pi * frequency * time))
+    name = f"a{amplitude}_p{preload}_f{frequency}"
+    settings = {"frequency": frequency}
+    return Run(name, "harmonic", time, {"displacement": path, "force": 1e5 * path}, settings=settings)
+
+
+def test_a_run_at_a_corner_is_not_covered_and_one_between_others_is():
+    grid = [driven(a, p) for a in (1, 2, 5) for p in (10, 20, 30)]
+    inside = {run.name: covers([one for one in grid if one is not run], run) for run in grid}
+    assert inside == {run.name: not run.name.startswith(("a1_p10", "a5_p10", "a1_p30", "a5_p30")) for run in grid}
+
+
+def test_the_same_stroke_at_a_speed_between_others_is_covered():
+    """Peak to peak of a sampled sine is the same to a percent."""
+    speeds = [driven(5, 0, frequency) for frequency in (1.0, 3.0, 7.0, 19.0, 23.0)]
+    inside = [covers([one for one in speeds if one is not run], run) for run in speeds]
+    assert inside == [False, True, True, True, False]
