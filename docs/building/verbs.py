@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import inspect
 import os
 import re
@@ -14,13 +15,17 @@ from pathlib import Path
 
 import click
 from architecture import written
+from click.testing import CliRunner
 
 from building.parts import folded, put
+from dashpot.cli import main
 from dashpot.cli.shell import VERBS
 from dashpot.cli.shell import dashpot as command
 
 FILES = Path(__file__).resolve().parents[1] / "verbs" / "files"
 SHOWN_LINES = 40
+SETTINGS = {"COLUMNS": "100", "NO_COLOR": "1"}
+TELLS_ITS_MEMORY = ("campaign",)  # that of the process in which it runs
 MEASURED: Mapping[str, str] = {
     "mount": "dashpot simulate specimen.yaml --rig bench.yaml --seed 1 -o mount",
     "mount_2": "dashpot simulate specimen.yaml --rig bench.yaml --seed 2 -o mount_2",
@@ -89,12 +94,26 @@ def commands(source: str) -> list[str]:
 
 def run(line: str, folder: Path) -> str:
     """What a command prints on standard output; a fault of it goes through with its messages."""
-    settings = {**os.environ, "COLUMNS": "100", "NO_COLOR": "1", "PYTHONIOENCODING": "utf-8"}
-    words = [sys.executable, "-m", *line.split()]
-    done = subprocess.run(words, cwd=folder, env=settings, capture_output=True, text=True, encoding="utf-8")
-    if done.returncode:
-        raise RuntimeError(f"{line}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    return done.stdout
+    words = line.split()[1:]
+    code, printed, told_besides = (_alone if words[0] in TELLS_ITS_MEMORY else _here)(words, folder)
+    if code:
+        raise RuntimeError(f"{line}: exit code {code}\n{printed}{told_besides}")
+    return printed
+
+
+def _here(words: list[str], folder: Path) -> tuple[int, str, str]:
+    """The exit code of a command in this process, and what it prints on standard output and standard error."""
+    with CliRunner().isolation(env=SETTINGS) as (printed, told_besides, _), contextlib.chdir(folder):
+        code = main(words)
+    return code, printed.getvalue().decode(), told_besides.getvalue().decode()
+
+
+def _alone(words: list[str], folder: Path) -> tuple[int, str, str]:
+    """The same of a command in a process of its own."""
+    command = [sys.executable, "-m", "dashpot", *words]
+    settings = {**os.environ, **SETTINGS, "PYTHONIOENCODING": "utf-8"}
+    done = subprocess.run(command, cwd=folder, env=settings, capture_output=True, text=True, encoding="utf-8")
+    return done.returncode, done.stdout, done.stderr
 
 
 def shown(text: str) -> str:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from dashpot.campaign.declaration import CampaignSpec, Job
@@ -63,11 +66,24 @@ def timed_job(work: Work, job: Job) -> tuple[Outcome, float, int | None]:
 
 def peak_memory() -> int | None:
     """The most memory that this process has had, in bytes; None where the system does not say."""
+    return _of_this_program() or _of_this_process()
+
+
+def _of_this_program() -> int | None:
+    """Linux alone tells it; what it tells of a process begins with the memory of the one that started it."""
+    try:
+        found = re.search(r"^VmHWM:\s+(\d+) kB$", Path("/proc/self/status").read_text(), re.MULTILINE)
+    except OSError:
+        return None
+    return 1024 * int(found[1]) if found else None
+
+
+def _of_this_process() -> int | None:
     try:
         import resource
     except ImportError:
         return None
-    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return (1 if sys.platform == "darwin" else 1024) * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
 
 def preview_content(campaign: CampaignSpec, costs: Sequence[Cost], workers: int) -> dict[str, Any]:

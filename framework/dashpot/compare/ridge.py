@@ -107,12 +107,15 @@ def _strengths(grams: Sequence[Gram], families: Sequence[int]) -> Array:
 
 def _descend(error: Callable[[Array, float], float], chosen: Array) -> Array:
     """The strength of one family after the other, until none changes."""
-    lowest = error(chosen, np.inf)
+    lowest, seen = error(chosen, np.inf), {tuple(chosen)}
     for _ in range(SWEEPS):
         before = chosen
         for family in range(len(chosen)):
             for strength in STRENGTHS[: -1 if family == 0 else None]:
                 tried = np.where(np.arange(len(chosen)) == family, strength, chosen)
+                if tuple(tried) in seen:  # what was not lower then is not lower than the lowest one now
+                    continue
+                seen.add(tuple(tried))
                 if (found := error(tried, lowest)) < lowest:
                     lowest, chosen = found, tried
         if np.array_equal(before, chosen):

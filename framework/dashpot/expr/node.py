@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -199,8 +199,8 @@ def compute(operation: str) -> Callable[..., Any]:
     return np.where if operation == "where" else getattr(np, operation)
 
 
-def walk(roots: Iterable[Node]) -> list[Node]:
-    """Every node that the roots need, arguments first.
+def walk(roots: Iterable[Node], known: Container[int] = ()) -> list[Node]:
+    """Every node that the roots need, arguments first; none that is an argument and has one of the ``known`` serials.
 
     The order follows from the form of the graph alone, not from when its nodes were made: equal networks give equal
     lists, whatever was traced before.
@@ -209,7 +209,7 @@ def walk(roots: Iterable[Node]) -> list[Node]:
     stack = list(roots)[::-1]
     while stack:
         node = stack[-1]
-        waiting = [argument for argument in node.arguments if argument.serial not in done]
+        waiting = [each for each in node.arguments if each.serial not in done and each.serial not in known]
         if waiting and node.serial not in done:
             stack.extend(waiting[::-1])
         else:
@@ -227,7 +227,7 @@ def is_logical(node: Node) -> bool:
 def symbols_of(node: Node) -> frozenset[str]:
     """The names of all symbols that a node needs."""
     if node.serial not in _symbols:
-        for inner in walk([node]):
+        for inner in walk([node], _symbols):
             own = [inner.payload] if inner.operation == "symbol" else []
             _symbols[inner.serial] = frozenset(own).union(*(_symbols[arg.serial] for arg in inner.arguments))
     return _symbols[node.serial]

@@ -40,7 +40,7 @@ def check_agreement(element: type[Element], seed: int | None = None) -> None:
         sizes = draw_sizes(rng)
         drive = random_drive(rng, kind, sizes.length, sizes.time, SAMPLES)
         for specimen in draw_specimens(element, rng, sizes):
-            _compare(examination, specimen, drive, f"{specimen.form}, {kind}", rng)
+            _compare(examination, specimen, drive, f"{specimen.form}, {kind}", rng.spawn(1)[0])
 
 
 def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: str, rng: np.random.Generator) -> None:
@@ -55,10 +55,11 @@ def _compare(examination: Examination, specimen: Specimen, drive: Drive, case: s
     scale = _force_scale(specimen, eager)
     advice = "A step may depend on its arguments only: no attributes of its own, no random numbers, no look at types."
     _demand_equal(examination, traced / scale, eager / scale, f"with {case}, the traced law", advice)
-    known = determined(specimen, drive, eager, scale, rng)
+    if not np.all(np.abs(compiled - eager) <= TOLERANCE * scale):
+        compiled = np.where(determined(specimen, drive, eager, scale, rng), compiled, eager)
     _demand_equal(
         examination,
-        np.where(known, compiled, eager) / scale,
+        compiled / scale,
         eager / scale,
         f"with {case}, the compiled law",
         "Avoid differences of nearly equal large numbers.",

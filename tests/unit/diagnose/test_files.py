@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import cache
 from itertools import combinations
 
 import numpy as np
@@ -104,10 +105,23 @@ def errors(network, data, folder, held_out, aside=()):
     return {"train": np.sqrt(np.mean(found[False])), "held_out": np.sqrt(np.mean(found[True]))}
 
 
-def assert_files_hold(words, tmp_path):
-    out = diagnosed(measured(*words), tmp_path)
+@pytest.fixture(scope="module")
+def folder_of(tmp_path_factory):
+    """The folder with a dataset of laws and faults in ``data`` and its diagnosis in ``out``, made once."""
+
+    @cache
+    def made(words):
+        folder = tmp_path_factory.mktemp("_".join(words))
+        diagnosed(measured(*words), folder)
+        return folder
+
+    return made
+
+
+def assert_files_hold(folder, tmp_path):
+    out = folder / "out"
     told = json.loads((out / "diagnosis.json").read_text())
-    plain_data = tmp_path / "data" / "dataset.yaml"
+    plain_data = folder / "data" / "dataset.yaml"
     corrected = out / told["corrected_dataset"] if told["corrected_dataset"] else plain_data
     assert corrected.exists()
     kept = read_dataset(corrected, {word: reader() for word, reader in load_registry().formats.items()}).runs
@@ -121,16 +135,17 @@ def assert_files_hold(words, tmp_path):
 
 
 @pytest.mark.parametrize("word", ["nothing", "friction", "relaxation", "delay", "clipping", "gain", "hum"])
-def test_the_files_say_what_is_told(word, tmp_path):
-    told = assert_files_hold([word], tmp_path)
-    report = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+def test_the_files_say_what_is_told(word, folder_of, tmp_path):
+    out = folder_of((word,)) / "out"
+    told = assert_files_hold(out.parent, tmp_path)
+    report = (out / "report.html").read_text(encoding="utf-8")
     assert all(picture in report for picture in PICTURES) and told["explainable"]["held_out"] > 0.0
     if word == "nothing":
         assert told["causes"] == []
     elif word not in ("delay", "clipping"):  # which other causes may imitate in six short runs
         assert [cause["cause"] for cause in told["causes"]] == [word]
     if told["corrected_dataset"] is None:
-        assert not (tmp_path / "out" / "dataset.yaml").exists()
+        assert not (out / "dataset.yaml").exists()
 
 
 EVERY = [word for word in (*LAWS, *FAULTS) if word != "nothing"]
@@ -138,16 +153,16 @@ EVERY = [word for word in (*LAWS, *FAULTS) if word != "nothing"]
 
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [*((word,) for word in EVERY), *combinations(EVERY, 2)], ids="+".join)
-def test_the_files_say_what_is_told_of_every_cause_and_pair(words, tmp_path):
-    assert_files_hold(words, tmp_path)
+def test_the_files_say_what_is_told_of_every_cause_and_pair(words, folder_of, tmp_path):
+    assert_files_hold(folder_of(words), tmp_path)
 
 
 @pytest.mark.parametrize("words", [("friction",), ("gain",), ("nothing",)], ids="+".join)
-def test_held_out_runs_decide_nothing(words, tmp_path):
+def test_held_out_runs_decide_nothing(words, folder_of, tmp_path):
     """Their forces are replaced by noise: names, numbers and files stay, only the errors there are others."""
-    data = measured(*words)
     noise = 500.0 * np.random.default_rng(9).standard_normal(SAMPLES)
-    outs = [diagnosed(data, tmp_path / "one"), diagnosed(with_force(data, {HELD_OUT: noise}), tmp_path / "other")]
+    replaced = diagnosed(with_force(measured(*words), {HELD_OUT: noise}), tmp_path)
+    outs = [folder_of(words) / "out", replaced]
     one, other = (without_held_out(json.loads((out / "diagnosis.json").read_text())) for out in outs)
     assert one == other
     names = [sorted(path.name for path in out.glob("*.yaml")) for out in outs]

@@ -107,11 +107,10 @@ class Regrouping:
         self.done: dict[int, Node] = {}
 
     def __call__(self, root: Node) -> Node:
-        for node in walk([root]):
-            if node.serial not in self.done:
-                self.done[node.serial] = self.settle(self.rebuild(node))
-                if node.serial in self.shared:
-                    self.kept.add(self.done[node.serial].serial)
+        for node in walk([] if root.serial in self.done else [root], self.done):
+            self.done[node.serial] = self.settle(self.rebuild(node))
+            if node.serial in self.shared:
+                self.kept.add(self.done[node.serial].serial)
         return self.done[root.serial]
 
     def settle(self, node: Node) -> Node:
