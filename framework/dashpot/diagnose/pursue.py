@@ -254,20 +254,20 @@ class Pursuer:
         return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> Iterator[tuple[Term, Scored]]:
-        """For each term structures with another cause in its place, refitted."""
+        """For each term the best few structures with another cause in its place, refitted.
+
+        A second one is refitted where it promises more than the refit of the first one has kept.
+        """
         for number, term in enumerate(scores.look.model.terms):
             exchanged = [one for one in ranked if one.dropped == {number} and _joins_alone(scores, one)]
-            yield from ((term, trial) for trial in self._best_first(scores, exchanged))
-
-    def _best_first(self, scores: Scores, ranked: Sequence[Structure]) -> Iterator[Scored]:
-        """Structures refitted in their order, as long as the next one promises more than the best refit has kept."""
-        kept = np.inf
-        for structure in ranked[:TRIED]:
-            if scores.score(structure) < kept:
-                trial = self.refitted(scores, structure)
-                if trial:
-                    kept = min(kept, trial.score)
-                    yield trial
+            different = {_key(scores, one): one for one in reversed(exchanged)}
+            kept, many = np.inf, 0
+            for structure in sorted(different.values(), key=scores.score)[:TRIED]:
+                if many < REFITTED and scores.score(structure) < kept:
+                    trial = self.refitted(scores, structure)
+                    if trial:
+                        kept, many = min(kept, trial.score), many + 1
+                        yield term, trial
 
 
 def _joins_alone(scores: Scores, structure: Structure) -> bool:
