@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
 import pytest
-from unit.causes.test_promises import NETWORK, REGISTRY, VIEW, SmallView
+from scipy.interpolate import make_interp_spline
+from unit.causes.test_promises import NETWORK, REGISTRY, STEP, VIEW, SmallView
 
+from dashpot.diagnose.term import first_model
 from dashpot.kernel.eager import simulate_eagerly
+from dashpot.model.patch import add_branch, replace_branch
 from dashpot.model.reading import parse_network
 
 DAMPERS = {
@@ -87,6 +91,41 @@ def test_what_relaxes_within_the_band_is_no_dashpot_on_a_spring():
     slow = 0.6 / (2.0 * np.pi * VIEW.highest_frequency)
     entry = SPRUNG.replace("3 ms", f"{slow} s")
     assert compliance(NETWORK.replace("{element: damper, damping: 300 N*s/m}", entry)) == []
+
+
+@pytest.mark.parametrize(("there", "other"), [("delay", "low-pass of first order"), ("lag", "delay")])
+def test_a_delay_and_a_low_pass_take_the_place_of_each_other(there, other):
+    text = f"{NETWORK}measurement: {{force: {{gain: 1.01, {there}: {{start: 2 ms}}}}}}\n"
+    [suspect] = REGISTRY.causes["delay"]().suspects(VIEW, parse_network(text, REGISTRY.elements))
+    assert suspect.form == other
+    network = parse_network(suspect.extend(text, [(3e-3, suspect.grid[0])]), REGISTRY.elements)
+    assert set(network.measurement) == {"force.gain", "force.delay" if there == "lag" else "force.lag"}
+
+
+def test_a_delay_shifts_the_force_by_its_own_size():
+    """Against the force of the same motion a little earlier; before the run nothing moved."""
+    form = next(one for one in REGISTRY.causes["delay"]().suspects(VIEW, VIEW.network) if one.form == "delay")
+    force, time = VIEW.force("large"), STEP * np.arange(120)
+    for delay, column in zip(form.grid, form.columns(VIEW, "large"), strict=True):
+        shifted = make_interp_spline(time, force, k=5)(np.clip(time - delay, 0.0, time[-1]))
+        assert delay * column == pytest.approx(shifted - force, abs=2e-2 * np.ptp(force))
+
+
+def test_a_branch_that_takes_the_place_of_another_counts_by_what_it_adds():
+    """A damper has one number, on a spring it has two: one more, as of any term with a strength."""
+    base = parse_network(
+        NETWORK.replace("300 N*s/m", "{start: 300 N*s/m, bounds: [3 N*s/m, 3 kN*s/m]}"), REGISTRY.elements
+    )
+    on_spring = replace_branch(
+        base.text,
+        "damping",
+        "{element: maxwell, stiffness: {start: 1 kN/mm, bounds: [1 N/mm, 9 kN/mm]}, "
+        "relaxation_time: {start: 1 ms, bounds: [0.1 ms, 9 ms]}}",
+    )
+    added = add_branch(base.text, "more:\n  element: damper\n  damping: {start: 1 N*s/m, bounds: [0.1 N*s/m, 9 N*s/m]}")
+    for text, owned in ((on_spring, ("damping.stiffness", "damping.relaxation_time")), (added, ("more.damping",))):
+        model = replace(first_model(base, parse_network(text, REGISTRY.elements)), base=base, owned=(owned,))
+        assert model.count(0) == 1
 
 
 def dependence(text=NETWORK, view=VIEW):

@@ -19,6 +19,7 @@ from dashpot.model.patch import (
     fill_numbers,
     make_dependent,
     remove_branch,
+    remove_measurement,
     rename,
     replace_branch,
     set_entry,
@@ -407,6 +408,23 @@ def test_the_force_channel_gets_any_entry_and_another_one_in_its_place(before, k
     for again in (text, add_measurement(text, key, entry)):
         found = {slot.path: slot.value.number for slot in read(again).slots() if slot.path.startswith("measurement")}
         assert found == paths
+    assert comments(text) == comments(BLOCK + before)
+
+
+@pytest.mark.parametrize(
+    ("before", "left"),
+    [
+        ("", {}),
+        ("measurement: {}\n", {}),
+        ("measurement: {force: {gain: 1.1}}\n", {"gain": 1.1}),
+        ("measurement: {force: {lag: 2 ms, gain: 1.1}}\n", {"gain": 1.1}),
+        ("measurement:\n  force:\n    gain: 1.1   # checked\n    lag: {start: 2 ms}\n", {"gain": 1.1}),
+    ],
+)
+def test_an_entry_of_the_force_channel_goes_where_there_is_one(before, left):
+    text = remove_measurement(BLOCK + before, "lag")
+    found = {slot.path: slot.value.number for slot in read(text).slots() if slot.path.startswith("measurement")}
+    assert found == {f"measurement.force.{name}": number for name, number in left.items()}
     assert comments(text) == comments(BLOCK + before)
 
 
