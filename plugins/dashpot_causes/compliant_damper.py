@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,10 +35,8 @@ UNITS = {
 PLAIN = ("exponent", "reference", "compression_opened", "rebound_opened")
 # of 1/w at the end of the band: a lag so short that the force changes in proportion to it, and some longer ones
 LAGS = (1e-2, *(0.0625 * 2.0**step for step in range(7)))
-RATIOS = (
-    1.0,
-    3.0,
-)  # of the travel of a spring that stiffens to what a linear one would be pressed by the highest speed
+# of the travel of a spring that stiffens: over what a linear one would be pressed by the damping at the highest speed
+RATIOS = (1.0, 3.0)
 SHORTEST = 1.01e-5  # s, the least lag that a file may ask for
 STRAIGHT = 1e3  # m/s, the knee of a valve that has none
 REFERENCE = 0.1  # m/s
@@ -64,35 +63,38 @@ class CompliantDamper(Cause):
         """
         outermost = set(branch_names(network.text)) if network.document and not network.joints else set()
         branches = [branch for branch in network.leaves() if branch.name in outermost and not branch.scale]
-        lag = 1.0 / (2.0 * np.pi * view.highest_frequency)
-        rigid = [(branch, dashpot) for branch in branches if (dashpot := _dashpot_of(branch))]
+        lags = np.array(LAGS) / (2.0 * np.pi * view.highest_frequency)
+        rigid = [_Damper(branch, dashpot, lags) for branch in branches if (dashpot := _dashpot_of(branch))]
         if rigid:
-            places = [_Damper(*found, share * lag) for found, share in product(rigid, LAGS)]
-            yield _form("a spring in series with a damper", places, "compliance", "m/N")
-        linear = [(branch, dashpot.damping) for branch, dashpot in rigid if branch.element.word == "damper"]
+            yield _form("a spring in series with a damper", rigid, "compliance", "m/N")
+        linear = [(one.branch, one.dashpot.damping) for one in rigid if one.branch.element.word == "damper"]
         if linear:
             stiffening = [
-                _Damper(branch, _stiffening(damping, ratio * view.speed), share * lag)
-                for (branch, damping), ratio, share in product(linear, RATIOS, LAGS[1::2])
+                _Damper(branch, _stiffening(damping, ratio * view.speed), lags[1::2])
+                for (branch, damping), ratio in product(linear, RATIOS)
             ]
             yield _form("a spring that stiffens in series with a damper", stiffening, "compliance", "m/N", unknowns=1)
-        sprung = [_Sprung(branch) for branch in branches if _is_sprung(branch, FASTEST * lag)]
+        slowest = FASTEST / (2.0 * np.pi * view.highest_frequency)
+        sprung = [_Sprung(branch) for branch in branches if _is_sprung(branch, slowest)]
         if sprung:
             yield _form("the spring in series with a damper stiffens", sprung, "inverse travel", "1/m")
 
 
 def _form(
-    name: str, places: Sequence[_Damper] | Sequence[_Sprung], quantity: str, unit: str, unknowns: int = 0
+    name: str, laws: Sequence[_Damper] | Sequence[_Sprung], quantity: str, unit: str, unknowns: int = 0
 ) -> Suspect:
+    """The places of a form are those of one law after the other."""
+    owners = [law for law in laws for _ in range(law.places)]
+
     def columns(view: View, run: str) -> Array:
-        return np.array([place.column(view, run) for place in places])
+        return np.concatenate([law.columns(view, run) for law in laws])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, number in atoms:
-            text = places[int(number)].extend(text, strength)
+            text = owners[int(number)].extend(text, strength)
         return text
 
-    grid = tuple(map(float, range(len(places))))
+    grid = tuple(map(float, range(len(owners))))
     return Suspect(name, grid, columns, extend, unknowns=unknowns, quantity=quantity, unit=unit)
 
 
@@ -105,24 +107,29 @@ class _Dashpot:
     damping: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Damper:
-    """A dashpot between both ends, and the lag in s that a spring gives it."""
+    """A dashpot between both ends, and the lags (places,) in s that springs give it."""
 
     branch: Branch
     dashpot: _Dashpot
-    lag: float
+    lags: Array
 
-    def column(self, view: View, run: str) -> Array:
-        """The change of the force (n,) over the compliance."""
-        stiffness = self.dashpot.damping / self.lag
+    @property
+    def places(self) -> int:
+        """How many springs are tried."""
+        return self.lags.size
+
+    def columns(self, view: View, run: str) -> Array:
+        """The changes of the force (places, n) over the compliances."""
+        stiffness = self.dashpot.damping / self.lags
         rigid = {key: value.number for key, value in self.branch.values.items()}
         rigid |= {key: curve.values[0].number for key, curve in self.branch.curves.items()}
-        soft = view.respond(run, self.dashpot.element, [self.dashpot.values(stiffness)])[0]
-        change = (soft - view.respond(run, self.branch.element.word, [rigid])[0]) * stiffness
+        soft = view.respond(run, self.dashpot.element, [self.dashpot.values(each) for each in stiffness.tolist()])
+        changes = (soft - view.respond(run, self.branch.element.word, [rigid])) * stiffness[:, None]
         # a spring has no memory yet at the first sample
-        change[0] = change[1]
-        return change
+        changes[:, 0] = changes[:, 1]
+        return changes
 
     def extend(self, text: str, compliance: float) -> str:
         """The network with the dashpot on a spring."""
@@ -139,15 +146,16 @@ class _Sprung:
     """A dashpot on a spring."""
 
     branch: Branch
+    places: ClassVar[int] = 1
 
-    def column(self, view: View, run: str) -> Array:
-        """The change of the force (n,) over one by the travel at which the spring is blocked, which is far away."""
+    def columns(self, view: View, run: str) -> Array:
+        """The change of the force (1, n) over one by the travel at which the spring is blocked, which is far away."""
         numbers = {key: value.number for key, value in self.branch.values.items()}
         stretch = min(numbers["relaxation_time"] * view.speed, view.stroke)
         near, far = stretch / SMALL, stretch / SMALL**2
         springs = [{**numbers, "travel": travel} for travel in (near, far)]
         stiffer, straight = view.respond(run, "stiffening_maxwell", springs)
-        return (stiffer - straight) / (1.0 / near - 1.0 / far)
+        return np.atleast_2d(stiffer - straight) / (1.0 / near - 1.0 / far)
 
     def extend(self, text: str, inverse: float) -> str:
         """The network with a spring that stiffens; its branch has to be one with a spring."""
