@@ -1,12 +1,12 @@
 """Faults of the force channel of single runs: asserted only with evidence that no law of a specimen can give.
 
 A run may be accused where its repeat disagrees and stands out from the scatter of all repeats; without a repeat, where
-two pairs of repeats disagree by the same, or where other, sound runs cover the conditions under which it was made; one
-that is the fastest, the largest or the only one at a setting is not. A specimen that changed between two tests, for
-good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds of a specimen. Where
-no repeat tells, what the same fault would explain in all other runs is the error of the model: nats are divided by this
-overdispersion. Samples that follow from one another in what all faults together leave of a run count as fewer. A fault
-that acts at rest is one of the channel: what it explains in several runs is added up.
+two pairs of repeats disagree by the same, or where its conditions lie between those of other, sound runs; one that is
+the fastest, the largest, the only one at a setting or at a corner of the conditions is not. A specimen that changed
+between two tests, for good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds
+of a specimen. Where no repeat tells, what the same fault would explain in all other runs is the error of the model:
+nats are divided by this overdispersion. Samples that follow from one another in what all faults together leave of a run
+count as fewer. A fault that acts at rest is one of the channel: what it explains in several runs is added up.
 """
 
 from __future__ import annotations
