@@ -16,7 +16,7 @@ from dashpot.text.quantity import pretty_all
 
 Array = NDArray[np.float64]
 UNITS = {"limit": "N", "stiffness": "N/m", "exponent": "1", "creep_velocity": "m/s", "growth": "N/m", "middle": "m"}
-PLACES = 7
+YIELDS, PLACES = (5e-4, 0.6), 7  # of the stroke: yield travels, and how many of them
 CREEPS = (1e-3, 1e-2)  # of the largest speed
 ROOM = (0.1, 1.5)  # times the least and the largest of them: how far a refit may go
 KNOTS = 5  # of the factor over the reach
@@ -43,10 +43,12 @@ class LoadDependentFriction(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """Smooth sliders over yield travels, rigid contacts over creep velocities, their force growing or falling along
-        the reach; smooth sliders whose limit grows to both sides of a middle, as under a side load.
+        the reach; smooth sliders whose limit grows to both sides of a middle, as under a side load; sharp ones whose
+        limit grows along the reach or to both sides.
         """
-        yield _side_load(view)
-        travels = tuple(np.geomspace(5e-4 * view.stroke, 0.6 * view.stroke, PLACES))
+        yield _to_both_sides(view)
+        yield _under_a_load(view)
+        travels = tuple(view.stroke * np.geomspace(*YIELDS, PLACES))
         creeps = tuple(creep * view.speed for creep in CREEPS)
         within = {"creep_velocity": (ROOM[0] * creeps[0], ROOM[1] * creeps[-1])}
         for rising in (True, False):
@@ -55,11 +57,32 @@ class LoadDependentFriction(Cause):
             yield _Scaled("coulomb", creeps, _creeping, view.reach, FACTORS[0], rising, within).suspect(KNOTS + 1)
 
 
-def _side_load(view: View) -> Suspect:
-    """A slider whose limit grows to both sides of some place; the strength is the limit at the end that is further."""
+def _to_both_sides(view: View) -> Suspect:
+    """A smooth slider whose limit grows to both sides of some place."""
+    return _around_a_place("side_load_friction", "growing to both sides", MIDDLES, TRAVELS, min, view)
+
+
+def _under_a_load(view: View) -> Suspect:
+    """A sharp slider whose limit grows with the distance from some place, which may be an end of the reach."""
+    travels = np.geomspace(*YIELDS, PLACES).tolist()
+    return _around_a_place("loaded_slider", "a sharp slider under a load", (0.0, 0.5, 1.0), travels, max, view)
+
+
+def _around_a_place(
+    element: str,
+    form: str,
+    shares: Sequence[float],
+    travels: Sequence[float],
+    grows_to: Callable[[float, float], float],
+    view: View,
+) -> Suspect:
+    """A slider whose limit grows away from a place; the strength is the limit at the end that is further.
+
+    Places are tried at ``shares`` of the reach, yield travels at ``travels`` of the stroke. The limit has to grow to
+    the nearer end of the reach, which is the ``min``, or to the further one.
+    """
     low, high = view.reach
-    middles = [low + share * (high - low) for share in MIDDLES]
-    places = [(middle, travel * view.stroke) for middle in middles for travel in TRAVELS]
+    places = [(low + share * (high - low), travel * view.stroke) for share in shares for travel in travels]
 
     def values(limit: float, number: float) -> Mapping[str, float]:
         middle, travel = places[int(number)]
@@ -72,20 +95,20 @@ def _side_load(view: View) -> Suspect:
         }
 
     def admits(found: Mapping[str, float]) -> bool:
-        # both ends have to lie off the middle, and the limit has to grow to them
-        nearer = min(high - found["middle"], found["middle"] - low)
-        return CHANGES * (found["limit"] + found["growth"] * nearer) > found["limit"]
+        way = grows_to(high - found["middle"], found["middle"] - low)
+        return CHANGES * (found["limit"] + found["growth"] * way) > found["limit"]
 
+    grid = tuple(float(number) for number in range(len(places)))
     suspect = added_branch(
-        "side_load_friction",
+        element,
         "load_dependent_friction",
-        tuple(float(number) for number in range(len(places))),
+        grid,
         values,
         UNITS,
         unknowns=3,
         bounds={"middle": (low, high)},
         admits=admits,
-        form="growing to both sides",
+        form=form,
     )
     return replace(suspect, quantity="largest limit")
 

@@ -19,8 +19,8 @@ from dashpot_causes.stiffness_curve import hats
 Array = NDArray[np.float64]
 UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 KNOTS = 4
-TIMES = 5
-SHORTEST, LONGEST = 8.0, 0.05  # relaxation times: of a sample, of a run
+TIMES = 9
+SHORTEST, LONGEST = 2.0, 0.3  # relaxation times: of a sample, of a run
 BOUNDS = "bounds: [0.02, 50]"
 CHANGES = 0.9  # least over largest factor of a branch of its own: what changes by less does not depend on preload
 

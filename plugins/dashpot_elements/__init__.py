@@ -43,6 +43,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "stribeck_curve",
         "directional_friction",
         "side_load_friction",
+        "loaded_slider",
         "loose_friction",
         "bouc_wen",
         "iwan",

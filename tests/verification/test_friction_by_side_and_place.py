@@ -80,3 +80,24 @@ def test_a_stiff_slider_follows_the_butterfly_of_its_limit():
     work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
     # to and fro: 4 times the integral of the limit over half the stroke
     assert work == pytest.approx(4.0 * (5.0 * 5e-3 + 0.5 * 4e3 * 5e-3**2), rel=2e-3)
+
+
+@pytest.mark.parametrize(("growth", "middle"), [(0.0, 0.0), (2e3, 1.5e-3), (5e3, 0.0), (5e4, 3e-3), (2e5, 1e-3)])
+def test_a_slider_under_a_load_is_the_limit_of_many_small_steps(growth, middle):
+    """Moreau's catching-up: after each of many small ways the force goes to the nearest one that is admitted."""
+    time, found = march("loaded_slider", 1e-3, 2.0, stiffness=6e4, limit=12.0, growth=growth, middle=middle)
+    parts, exact, force = 400, [0.0], 0.0
+    path = place(np.linspace(0.0, time[-1], parts * (time.size - 1) + 1))
+    for way, there in zip(np.diff(path), path[1:], strict=True):
+        limit = 12.0 + growth * abs(there - middle)
+        force = min(max(force + 6e4 * way, -limit), limit)
+        exact.append(force)
+    assert relative(found, np.array(exact)[::parts]) < 1e-4
+
+
+def test_a_slider_under_a_load_slides_along_its_butterfly_and_sticks_in_between():
+    _, x, force = last_cycle("loaded_slider", 5e-3, 1.0, 3, 4000, stiffness=1e9, limit=5.0, growth=4e3)
+    limit = 5.0 + 4e3 * np.abs(x)
+    assert np.all(np.abs(force) <= limit * (1.0 + 1e-12))
+    work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
+    assert work == pytest.approx(4.0 * (5.0 * 5e-3 + 0.5 * 4e3 * 5e-3**2), rel=2e-3)

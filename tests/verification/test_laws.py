@@ -61,6 +61,7 @@ RATE_INDEPENDENT = {
     "loose_friction": {"limit": 15.0, "stiffness": 6e4, "gap": 5e-4},
     "directional_friction": {"stiffness": 6e4, "compression": 15.0, "rebound": 25.0},
     "side_load_friction": {"stiffness": 6e4, "limit": 15.0, "growth": 4e3, "middle": 1e-3},
+    "loaded_slider": {"stiffness": 6e4, "limit": 15.0, "growth": 4e3, "middle": 1e-3},
 }
 SCALED = {
     "damper": "damping: 200 N*s/m",

@@ -10,12 +10,16 @@ from dashpot.model.sites import Site
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A form of a cause with the place of its columns among all; ``site`` is where in a network with nodes."""
+    """A form of a cause with the place of its columns among all; ``site`` is where in a network with nodes.
+
+    ``twin`` is how many before it have the same form and grid, and differ in what the grid does not have.
+    """
 
     cause: type[Cause]
     suspect: Suspect
     columns: slice
     site: Site | None = None
+    twin: int = 0
 
     @property
     def name(self) -> tuple[str, str]:

@@ -28,7 +28,7 @@ from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
-from dashpot.diagnose.single_runs import corrected, correction_of, faults_beside, put_right
+from dashpot.diagnose.single_runs import corrected, correction_of, faults_beside, names_of, put_right
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
@@ -50,6 +50,7 @@ if TYPE_CHECKING:
 
 ATTEMPTS = 3
 SAME = 1e-3  # of an error
+SEARCHES = 2  # beside faults of single runs; the same faults come back after the first one
 RELEVANCE = 0.0015  # share of the error by which a cause must matter
 
 
@@ -130,8 +131,9 @@ def find_causes(
 ) -> tuple[Pursuit, list[Accused]]:
     """The best structure, and the faults of single training runs beside it.
 
-    Where repeats of a run disagree, all runs may have that fault, as large as they differ, while causes are searched;
-    where runs are found at fault in the end, causes are searched again in the residual.
+    Where repeats of a run disagree, all runs may have that fault, as large as they differ, while causes are searched.
+    Where runs are found at fault in the end, causes are searched again in the corrected runs, and the faults are found
+    again beside these causes; where others come back, once more.
     """
     model = first_model(fit.declared, fit.fitted)
     if kept_curves(fit.fitted):
@@ -155,10 +157,13 @@ def find_causes(
         return accuse(recorded, look, kinds, groups, measured, doubted, relevance)
 
     accused = faults_beside(refitter, pursuit.look, pairs, accuse_beside)
-    if accused:
+    for _ in range(SEARCHES if accused else 0):
         again = put_right(refitter, accused)
         start = again.fit(pursuit.best.model, pursuit.look.noise)
         pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
+        before, accused = accused, faults_beside(refitter, pursuit.look, pairs, accuse_beside)
+        if names_of(before) == names_of(accused):
+            break
     return pursuit, accused
 
 

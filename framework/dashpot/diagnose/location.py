@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
@@ -62,7 +63,7 @@ def gather_candidates(
     What only a data sheet can tell is tried where the ``sheet`` of the force channel names its quantity.
     """
     found: list[Candidate] = []
-    unavailable, first = [], 0
+    unavailable, first, twins = [], 0, Counter[tuple[object, ...]]()
     for cause in causes:
         for location in locations:
             try:
@@ -73,8 +74,11 @@ def gather_candidates(
             for suspect in suspects:
                 if cause.kind == "measurement" and cause.evidence_of == "data_sheet" and suspect.quantity not in sheet:
                     continue
-                found.append(Candidate(cause, suspect, slice(first, first + len(suspect.grid)), location.site))
-                first += len(suspect.grid)
+                alike = cause, location.site, suspect.form, suspect.grid
+                columns = slice(first, first + len(suspect.grid))
+                found.append(Candidate(cause, suspect, columns, location.site, twins[alike]))
+                twins[alike] += 1
+                first = columns.stop
     return found, tuple(dict.fromkeys(unavailable))
 
 

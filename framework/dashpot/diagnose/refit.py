@@ -146,7 +146,7 @@ class Refitter:
     def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> NDArray[np.floating]:
         """The columns (places, kept) of a candidate on a run, reduced; those of the motion alone are kept in memory."""
         suspect = candidate.suspect
-        key = candidate.cause, suspect.form, suspect.grid, run.name
+        key = candidate.cause, suspect.form, suspect.grid, candidate.twin, run.name
         if (known := self.reduced.columns.get(key)) is not None:
             return known
         found = noise.reduce(run.name, shown(run, np.atleast_2d(suspect.columns(view, run.name))))

@@ -35,14 +35,15 @@ def faults_beside(
         right = put_right(refitter, accused)
         beside = look_at(right, right.fit(look.model, look.noise), (), look.folds)
         before, accused = accused, accuse_beside(beside)
-        if _named(before) == _named(accused):
+        if names_of(before) == names_of(accused):
             break
     right = put_right(refitter, accused)
     left = look_for_leftover(right, replace(look, model=right.fit(look.model, look.noise)), pairs)
     return [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
 
 
-def _named(accused: Sequence[Accused]) -> set[tuple[str, Kind]]:
+def names_of(accused: Sequence[Accused]) -> set[tuple[str, Kind]]:
+    """Which runs have which faults, whatever their strengths."""
     return {(one.run, one.kind) for one in accused}
 
 

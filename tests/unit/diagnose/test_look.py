@@ -9,8 +9,13 @@ from unit.diagnose.rig import MOTIONS, NOISE, REGISTRY, Made, bench, causes, dat
 from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.front import Front, beside, in_front, occam
+from dashpot.diagnose.location import gather_candidates, locations_of
 from dashpot.diagnose.look import look_at, look_settled
+from dashpot.diagnose.refit import Kept
 from dashpot.diagnose.score import Scores, nats
+from dashpot.diagnose.table_rows import moved
+from dashpot.diagnose.view import view_of
+from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates
 
 
@@ -216,3 +221,19 @@ def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
     every = np.eye(look.layout.size)
     assert (again.front.groups(every) == look.front.groups(every)).all() and (again.sizes == look.sizes).all()
+
+
+def test_columns_that_are_kept_in_memory_are_those_that_are_computed(made):
+    """Forms of one cause may differ in what their name and grid do not tell, as in a relaxation time."""
+    runs = made.refitter.runs[:1]
+    once = replace(made.refitter, runs=runs, reduced=Kept())
+    view = view_of(made.model.fitted, moved(runs), once.elements)
+    found, _ = gather_candidates(list(REGISTRY.causes.values()), locations_of(view, made.model.fitted, None))
+    noise = Noise({runs[0].name: 1})
+    for candidate in found:
+        once.columns(candidate, view, runs[0], noise)
+    again = [once.columns(candidate, view, runs[0], noise) for candidate in found]
+    for candidate, kept in zip(found, again, strict=True):
+        anew = np.atleast_2d(candidate.suspect.columns(view, runs[0].name))[:, runs[0].first :]
+        assert kept == pytest.approx(anew, rel=1e-5, abs=1e-5 * np.abs(anew).max()), candidate.suspect.form
+    assert sum(candidate.twin > 0 for candidate in found) > 2
