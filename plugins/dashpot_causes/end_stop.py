@@ -11,7 +11,7 @@ from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
 PLACES = 9
-SHARE = 0.5  # of the reach, from either end
+NEAREST, SHARE = 0.02, 0.5  # of the reach, from either end
 DEPTH = 0.1  # of the reach: where the stiffness of a progressive buffer is told
 EXPONENT = 2.0
 EXPONENTS = (1.0, 4.0)
@@ -34,7 +34,7 @@ class EndStop(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A linear and a progressive buffer beyond a deflection near either end, if that is on its side of zero."""
         low, high = view.reach
-        places = np.linspace(0.0, SHARE * (high - low), PLACES + 1)[1:]
+        places = (high - low) * np.geomspace(NEAREST, SHARE, PLACES)
         upper = tuple(place for place in high - places if place > 0.0)
         lower = tuple(place for place in low + places if place < 0.0)
         units = {"stiffness": "N/m", "compression": "m", "rebound": "m", "exponent": "1", "reference": "m"}

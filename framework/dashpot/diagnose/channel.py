@@ -3,8 +3,8 @@
 A run may be accused where its repeat disagrees and stands out from the scatter of all repeats; without a repeat, where
 two pairs of repeats disagree by the same, or where its conditions lie between those of other, sound runs; one that is
 the fastest, the largest, the only one at a setting or at a corner of the conditions is not. A specimen that changed
-between two tests, for good, is the rival of a fault of one run: it shows in all tests before or after, and has the odds
-of a specimen. Where no repeat tells, what the same fault would explain in all other runs is the error of the model:
+between two tests, for good, in stiffness or zero, is the rival of such a fault of one run: it shows in all tests before
+or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in all other runs is the error of the model:
 nats are divided by this overdispersion. Samples that follow from one another in what all faults together leave of a run
 count as fewer. A fault that acts at rest is one of the channel: what it explains in several runs is added up.
 """
@@ -197,9 +197,8 @@ class _Selection:
         if self.solver.gain(key, chosen) < self.relevance * self.solver.rows.residual[key[0]].size:
             return ""
         evidence = _evidence(key, chosen, self.alone, self.kinds, self.pairs, self.groups, self.measured, self._price)
-        if evidence.startswith("repeats") and _changed(self.solver, key, chosen, self._shares[key[0]]):
-            return ""
-        return evidence
+        rival = evidence.startswith("repeats") and self.kinds[key[1]].fault.scatters
+        return "" if rival and _changed(self.solver, key, chosen, self._shares[key[0]]) else evidence
 
     def _excess(self, key: Key, evidence: str, chosen: Mapping[Key, str]) -> float:
         """By how much more than noise such faults explain of sound data, at least 1."""

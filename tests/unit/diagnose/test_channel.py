@@ -63,6 +63,20 @@ def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
     assert not [run for run, word in examined(data) if word == "gain"]
 
 
+def test_a_zero_that_drifts_in_most_runs_is_no_specimen_that_changed():
+    """A specimen that changed for good between two tests has another stiffness or zero; it does not drift on."""
+    rates = dict(zip([*MOTIONS, "again", "once_more"], (0, 0, 25, 32, 28, 40, 22, -10), strict=True))
+    repeats = {"again": "a1_p5", "once_more": "a3_p11"}
+    fault = {
+        run: lambda force, rise=rise: force + np.linspace(-0.5 * rise, 0.5 * rise, force.size)
+        for run, rise in rates.items()
+        if rise
+    }
+    found = examined(dataset(repeats=repeats, fault=fault))
+    assert {word for _, word in found} == {"drift"}
+    assert {run for run, _ in found} >= {run for run, rise in rates.items() if abs(rise) > 20.0}
+
+
 CURVE = """\
 format: dashpot-network/1
 name: curve
