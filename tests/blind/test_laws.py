@@ -131,6 +131,25 @@ def side_load(motion: Motion, state: State) -> Array:
     return (10.0 + 9e3 * np.abs(motion.displacement - 10e-3)) * np.tanh(motion.velocity / 1e-3)
 
 
+def leaves(motion: Motion, state: State) -> Array:
+    """Steel leaves, pressed together by a load that grows with the square of the deflection, that shear up to 0.3 of
+    it: 300 N/mm.
+    """
+    load = 30e3 * motion.displacement + 3e6 * motion.displacement**2
+    force, found = 0.0, []
+    for way, limit in zip(np.diff(motion.displacement, prepend=motion.displacement[0]), 0.3 * load, strict=True):
+        force = min(max(force + 300e3 * way, -limit), limit)
+        found.append(force)
+    return np.array(found)
+
+
+def growing_contact(motion: Motion, state: State) -> Array:
+    """A pad whose area of contact grows with the square of the deflection, its shear relaxing within 0.3 s."""
+    area = 0.2 + (motion.displacement / 12e-3) ** 2
+    fades, ways = np.exp(-STEP / 0.3), np.diff(motion.displacement, prepend=motion.displacement[0])
+    return 25e3 * area * lfilter([np.sqrt(fades)], [1.0, -fades], ways)
+
+
 def foaming(motion: Motion, state: State) -> Array:
     """Oil that foams: a part of the damping is gone like one over the time."""
     return 900.0 * motion.velocity / (1.0 + motion.time / 1.2)
@@ -206,6 +225,8 @@ CASES = [
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("friction", lip_seal),
     Case("load_dependent_friction", side_load),
+    Case("load_dependent_friction", leaves),
+    Case("preload_dependent_damping", growing_contact),
     Case("fading_damping", foaming),
     Case("loose_mass", rattling),
     Case("loose_mass", dragged),
