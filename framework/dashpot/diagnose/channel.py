@@ -4,9 +4,10 @@ A run may be accused where its repeat disagrees and stands out from the scatter 
 two pairs of repeats disagree by the same, or where its conditions lie between those of other, sound runs; one that is
 the fastest, the largest, the only one at a setting or at a corner of the conditions is not. A specimen that changed
 between two tests, for good, in stiffness or zero, is the rival of such a fault of one run: it shows in all tests before
-or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in all other runs is the error of the model:
-nats are divided by this overdispersion. Samples that follow from one another in what all faults together leave of a run
-count as fewer. A fault that acts at rest is one of the channel: what it explains in several runs is added up.
+or after, and has the odds of a specimen. Where no repeat tells, what the same fault would explain in all other runs is
+the error of the model: nats are divided by this overdispersion. Samples that follow from one another in what all faults
+together leave of a run count as fewer. A fault that acts at rest is one of the channel: what it explains in several
+runs is added up.
 """
 
 from __future__ import annotations
