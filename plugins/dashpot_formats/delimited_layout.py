@@ -20,7 +20,7 @@ _NUMBER = {
 }
 # what stands where there is no number
 NO_VALUE = {"", "nan", "na", "n/a", "inf", "-inf", "+inf", "null"}
-_COMMENT_SIGNS = ("#", "%", "//", "!", ";")
+_COMMENT_SIGNS = ("#", "%", "//", "!")
 _SAMPLE = 60
 _ROWS_ON_END = 3
 
@@ -35,10 +35,14 @@ class Layout:
     width: int
 
 
+def comment_signs(delimiter: str | None) -> tuple[str, ...]:
+    """What a line begins with that is a remark."""
+    return _COMMENT_SIGNS if delimiter == ";" else (*_COMMENT_SIGNS, ";")
+
+
 def is_comment(line: str, delimiter: str | None) -> bool:
     """Whether a line is a remark."""
-    start = line.lstrip()
-    return start.startswith(_COMMENT_SIGNS) and not (delimiter == ";" and start.startswith(";"))
+    return line.lstrip().startswith(comment_signs(delimiter))
 
 
 def uncomment(line: str) -> str:

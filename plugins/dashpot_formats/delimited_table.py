@@ -10,7 +10,7 @@ import numpy as np
 
 from dashpot.contract.reader import ReadingError, Table
 from dashpot_formats.delimited_header import Header, read_header
-from dashpot_formats.delimited_layout import NO_VALUE, Layout, is_comment, is_number, split_row
+from dashpot_formats.delimited_layout import NO_VALUE, Layout, comment_signs, is_number, split_row
 from dashpot_formats.stated_sampling import stated_sampling
 from dashpot_formats.time_stamps import is_stamp, seconds
 
@@ -26,10 +26,11 @@ def read_table(lines: list[str], layout: Layout) -> Table:
 
 
 def _with_header(lines: list[str], layout: Layout, header: Header) -> Table:
+    remarks = comment_signs(layout.delimiter)
     kept = [
         index
         for index in range(layout.first, len(lines))
-        if (text := lines[index].lstrip()) and not is_comment(text, layout.delimiter)
+        if (text := lines[index].lstrip()) and not text.startswith(remarks)
     ]
     cells = _split_columns([lines[index] for index in kept], layout.delimiter, kept)
     width = max(layout.width, len(header.names))

@@ -14,7 +14,7 @@ from dashpot.compare.explainable import Explainable, explainable_error
 from dashpot.compare.metrics import metric_rows
 from dashpot.compare.shapes import shapes_of
 from dashpot.compare.signals import measured_signals
-from dashpot.compare.strokes import Seen, cycle_values, see, work
+from dashpot.compare.strokes import Seen, see, work
 from dashpot.contract.metric import Metric
 from dashpot.data.dataset import Dataset
 from dashpot.data.repeats import NotRepeatsError, compare_repeats
@@ -131,7 +131,7 @@ def described(seen: Seen) -> dict[str, Any]:
     with its ends joined, stands alone. ``gives_back`` says that most cycles, or the run, give back work.
     """
     run, force = seen.run, seen.forces["measured"]
-    values = cycle_values(seen, "measured")
+    values = seen.cycle_values["measured"]
     whole = work(seen.displacement[seen.first :], force[seen.first :])
     energy = float(np.median(values.energy)) if values.time.size else None
     return {

@@ -76,8 +76,9 @@ def _stacked(parts: Iterable[Array], samples: int) -> Array:
 
 
 def _gram(columns: Array, force: Array, weights: Array) -> Gram:
-    weighted = columns * weights[:, None]
-    return weighted.T @ columns, weighted.T @ force, float(weights @ force**2)
+    root = np.sqrt(weights)
+    weighted, aim = columns * root[:, None], force * root
+    return weighted.T @ weighted, weighted.T @ aim, float(aim @ aim)
 
 
 def _sum(grams: Sequence[Gram]) -> Gram:
@@ -141,8 +142,10 @@ def _solve(gram: Gram, penalty: Array) -> Array:
 
     kept = np.flatnonzero(np.isfinite(penalty))
     least = ROUNDING * kept.size * float(gram[0].diagonal().max())
-    matrix = gram[0][np.ix_(kept, kept)]
-    matrix[np.diag_indices_from(matrix)] += np.maximum(penalty[kept], least)
+    matrix = gram[0].take(kept, axis=0).take(kept, axis=1)
+    matrix.ravel()[:: kept.size + 1] += np.maximum(penalty[kept], least)
     solved = np.zeros(penalty.size)
-    solved[kept] = cho_solve(cho_factor(matrix, check_finite=False), gram[1][kept], check_finite=False)
+    # symmetric: the transpose is what LAPACK can work on where it lies
+    factor = cho_factor(matrix.T, overwrite_a=True, check_finite=False)
+    solved[kept] = cho_solve(factor, gram[1][kept], check_finite=False)
     return solved

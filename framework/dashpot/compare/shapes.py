@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.compare.residual_map import residual_maps
-from dashpot.compare.strokes import Seen, cycle_values, see
+from dashpot.compare.strokes import Seen, see
 from dashpot.data.loop import mean_loop
 from dashpot.data.run import Run
 
@@ -140,8 +140,7 @@ def conditions_of(seen: Seen) -> list[dict[str, Any]]:
     conditions = {"amplitude": seen.amplitude, "preload": seen.preload} | settings
     conditions["order of tests"] = float(seen.run.order + 1)
     rows = []
-    for label in seen.forces:
-        values = cycle_values(seen, label)
+    for label, values in seen.cycle_values.items():
         if values.time.size:
             medians = {name: float(np.median(getattr(values, name))) for name in ("stiffness", "loss", "energy")}
             rows.append({"run": seen.name, "label": label, "conditions": conditions, **medians})
@@ -151,8 +150,7 @@ def conditions_of(seen: Seen) -> list[dict[str, Any]]:
 def over_time(seen: Seen) -> list[dict[str, Any]]:
     """A curve for each label: the loss in N/m of every closed cycle over time in s."""
     curves = []
-    for label in seen.forces:
-        values = cycle_values(seen, label)
+    for label, values in seen.cycle_values.items():
         if values.time.size > 1:
             curves.append({"run": seen.name, "label": label, "x": values.time, "y": values.loss})
     return curves

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,20 @@ Array = NDArray[np.float64]
 SMALLEST_STROKE = 0.05  # of the range of the deflection: smaller wiggles are no reversals
 FEWEST = 8  # samples of a stroke and of a cycle
 CLOSED = 0.1  # of the stroke: so far apart may the ends of a closed cycle be
+
+
+@dataclass(frozen=True, eq=False)
+class CycleValues:
+    """Of k closed cycles: ``time`` (k,) s of their middle, ``energy`` J taken up, ``stiffness`` and ``loss`` in N/m.
+
+    Stiffness is the slope of the regression of force over deflection, loss that of the ellipse with the same area:
+    energy / (pi amplitude^2).
+    """
+
+    time: Array
+    energy: Array
+    stiffness: Array
+    loss: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,6 +95,17 @@ class Seen:
             if c - a >= FEWEST and abs(x[c] - x[a]) <= CLOSED * abs(x[b] - x[a])
         ]
 
+    @cached_property
+    def cycle_values(self) -> dict[str, CycleValues]:
+        """What the closed cycles say, with each of the forces."""
+        cycles = self.cycles()
+        time = np.array([self.run.sample_time * 0.5 * (a + c) for a, c in cycles])
+        rows = {
+            label: [_cycle(self.displacement[a : c + 1], force[a : c + 1]) for a, c in cycles]
+            for label, force in self.forces.items()
+        }
+        return {label: CycleValues(time, *np.reshape(values, (-1, 3)).T) for label, values in rows.items()}
+
 
 def see(run: Run, simulated: Mapping[str, Mapping[str, Array]] | None = None) -> Seen:
     """The run with its measured force and with those of ``simulated[label][run]`` (n,) N that there are."""
@@ -89,28 +115,6 @@ def see(run: Run, simulated: Mapping[str, Mapping[str, Array]] | None = None) ->
     least = max(noise_threshold(run.displacement), SMALLEST_STROKE * float(np.ptp(run.displacement)))
     edges = stroke_edges(path.displacement, least)
     return Seen(run, path.displacement, path.velocity, forces, warm_up(run), edges)
-
-
-@dataclass(frozen=True, eq=False)
-class CycleValues:
-    """Of k closed cycles: ``time`` (k,) s of their middle, ``energy`` J taken up, ``stiffness`` and ``loss`` in N/m.
-
-    Stiffness is the slope of the regression of force over deflection, loss that of the ellipse with the same area:
-    energy / (pi amplitude^2).
-    """
-
-    time: Array
-    energy: Array
-    stiffness: Array
-    loss: Array
-
-
-def cycle_values(seen: Seen, label: str) -> CycleValues:
-    """What the closed cycles of a run say, with the force of this label."""
-    rows = [_cycle(seen.displacement[a : c + 1], seen.forces[label][a : c + 1]) for a, c in seen.cycles()]
-    values = np.array(rows).reshape(-1, 3)
-    time = np.array([seen.run.sample_time * 0.5 * (a + c) for a, c in seen.cycles()])
-    return CycleValues(time, *values.T)
 
 
 def work(x: Array, force: Array) -> float:

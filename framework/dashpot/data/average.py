@@ -13,13 +13,22 @@ def average_bands(stiffness: DynamicStiffness, edges: np.ndarray) -> DynamicStif
     The confidence counts how many of the overlapping windows are independent.
     """
     bands = np.digitize(stiffness.frequency, edges)
-    members = [np.flatnonzero(bands == band) for band in range(1, len(edges)) if np.any(bands == band)]
-    if not members:
+    order = np.argsort(bands, kind="stable")
+    order = order[(bands[order] > 0) & (bands[order] < len(edges))]
+    if not order.size:
         raise ValueError(
             f"expected bands that hold some of {_span(stiffness.frequency)}, got edges {_span(np.asarray(edges))}; "
             "choose edges inside the tested range"
         )
-    return _joined([_mean(stiffness.select(member)) for member in members])
+    _, first, count = np.unique(bands[order], return_index=True, return_counts=True)
+
+    def mean(values: np.ndarray) -> np.ndarray:
+        return (np.add.reduceat(values[order], first, axis=0).T / count).T
+
+    columns = {name: mean(getattr(stiffness, name)) for name in DynamicStiffness.columns()}
+    columns["noise"] = np.sqrt(mean(stiffness.noise**2))
+    columns["confidence"] = np.sqrt(mean(stiffness.confidence**2) / stiffness.independent(count))
+    return stiffness.with_columns(columns)
 
 
 def average_directions(up: DynamicStiffness, down: DynamicStiffness) -> DynamicStiffness:
@@ -47,17 +56,6 @@ def split_directions(stiffness: DynamicStiffness) -> tuple[DynamicStiffness, Dyn
     """The windows in which the frequency rises and those in which it falls."""
     rising = stiffness.sweep_rate > 0.0
     return stiffness.select(rising), stiffness.select(~rising)
-
-
-def _mean(stiffness: DynamicStiffness) -> DynamicStiffness:
-    columns = {name: np.mean(getattr(stiffness, name), axis=0) for name in DynamicStiffness.columns()}
-    columns["noise"] = np.sqrt(np.mean(stiffness.noise**2))
-    columns["confidence"] = np.sqrt(np.mean(stiffness.confidence**2) / stiffness.independent)
-    return stiffness.with_columns(columns)
-
-
-def _joined(rows: list[DynamicStiffness]) -> DynamicStiffness:
-    return rows[0].with_columns({name: np.stack([getattr(row, name) for row in rows]) for name in rows[0].columns()})
 
 
 def _at(wanted: np.ndarray, frequency: np.ndarray, values: np.ndarray) -> np.ndarray:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .noise_spectrum import NoiseSpectrum, noise_between_orders
-from .orders import TURN, OrderFit, Windows, fit_orders, place_windows
+from .orders import TURN, OrderBasis, OrderFit, Windows, place_windows
 from .phase import NotOscillatingError, phase_of_frequency, track_phase
 from .reversals import noise_threshold, strokes
 from .white_noise import white_noise
@@ -24,14 +24,13 @@ _FEWEST_PERIODS = 2.0
 
 @dataclass(frozen=True)
 class Oscillation:
-    """How a specimen is moved: the phase (n,) rad at every sample, the windows, and the motion in each of m windows.
+    """How a specimen is moved: the orders of its phase in m windows, and the motion in each of them.
 
     time: s, middle of the window; frequency: Hz; sweep_rate: Hz/s; preload: m, mean displacement;
     motion: (m,) complex amplitude X1 of the displacement, m; displacement_noise: m, its white part.
     """
 
-    angle: np.ndarray
-    windows: Windows
+    orders: OrderBasis
     sample_time: float
     time: np.ndarray
     frequency: np.ndarray
@@ -39,6 +38,11 @@ class Oscillation:
     preload: np.ndarray
     motion: np.ndarray
     displacement_noise: float
+
+    @property
+    def angle(self) -> np.ndarray:
+        """The phase (n,) rad at every sample, NaN where the specimen does not oscillate."""
+        return self.orders.angle
 
     @property
     def envelope(self) -> np.ndarray:
@@ -89,10 +93,9 @@ class DynamicStiffness:
         """Phase of K* rad."""
         return np.arctan2(self.loss, self.storage)
 
-    @property
-    def independent(self) -> float:
-        """How many windows without overlap would say as much."""
-        return 1.0 + (len(self) - 1) * 1.5 * self.step / self.periods
+    def independent(self, windows: np.ndarray) -> np.ndarray:
+        """How many windows without overlap would say as much as so many next to one another."""
+        return 1.0 + (windows - 1) * 1.5 * self.step / self.periods
 
     def select(self, chosen: np.ndarray) -> DynamicStiffness:
         """The windows named by a mask or by numbers."""
@@ -136,17 +139,16 @@ def follow(
     angle = track_phase(displacement) if frequency is None else phase_of_frequency(frequency, sample_time)
     windows = _longest_windows(angle, periods)
     turning = np.gradient(np.nan_to_num(angle)) / (TURN * sample_time)
-    fit = fit_orders(angle, windows, np.column_stack([displacement, turning]), ORDERS)
+    orders = OrderBasis.of(angle, windows, ORDERS)
+    fit = orders.fit(np.column_stack([displacement, turning]), ORDERS)
     pure = _purity(fit) >= _PURITY
     if not _covers(pure, np.abs(fit.harmonics[:, 0, 0]), windows, displacement):
         raise NotOscillatingError(
             "expected a sweep or a harmonic motion, got one whose first order carries less than "
             f"{_PURITY:.0%} of it nearly everywhere; leave the run out of order tracking, or give its frequency law"
         )
-    windows = windows.select(pure)
     return Oscillation(
-        angle=angle,
-        windows=windows,
+        orders=orders.select(pure),
         sample_time=sample_time,
         time=fit.middle[pure] * sample_time,
         frequency=fit.mean[pure, 1],
@@ -163,7 +165,7 @@ def harmonics_of(signal: np.ndarray, oscillation: Oscillation, confident: bool =
     For a residual, storage and loss are the missing dK' and dK''. The `confidence`, for which the noise of the whole
     signal is read, is NaN where it is not asked for.
     """
-    fit = fit_orders(oscillation.angle, oscillation.windows, signal[:, None], ORDERS)
+    fit = oscillation.orders.fit(signal[:, None], ORDERS)
     harmonics = fit.harmonics[:, :, 0]
     stiffness = harmonics[:, 0] / oscillation.motion
     lead = np.angle(1j * oscillation.motion)
@@ -182,8 +184,8 @@ def harmonics_of(signal: np.ndarray, oscillation: Oscillation, confident: bool =
         offset=fit.mean[:, 0],
         noise=np.sqrt(fit.variance[:, 0]),
         confidence=_confidence(signal, oscillation, fit, magnitude) if confident else np.full_like(magnitude, np.nan),
-        periods=oscillation.windows.periods,
-        step=oscillation.windows.step,
+        periods=oscillation.orders.windows.periods,
+        step=oscillation.orders.windows.step,
     )
 
 

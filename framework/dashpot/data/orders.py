@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from itertools import accumulate
+from functools import cached_property
+from itertools import accumulate, chain
 
 import numpy as np
 
@@ -33,13 +34,13 @@ class Windows:
     step: float
 
     def sums(self, angle: np.ndarray, columns: Iterable[np.ndarray]) -> np.ndarray:
-        """Hann-weighted sums (m, c) of columns (n,) over every window, by differences of running sums."""
+        """Hann-weighted sums (m, c) of columns (n,) over every window."""
         lean = np.exp(1j * np.nan_to_num(angle) / self.periods)
-        turn = np.exp(-1j * self.centre / self.periods)
+        turn = 0.25 * np.exp(-1j * self.centre / self.periods)
         sums = [
             0.5 * self._plain_sums(column)
-            + 0.25 * turn * self._plain_sums(column * lean)
-            + 0.25 * turn.conj() * self._plain_sums(column * lean.conj())
+            + turn * self._plain_sums(column * lean)
+            + turn.conj() * self._plain_sums(column * lean.conj())
             for column in columns
         ]
         return np.stack(sums, axis=1)
@@ -52,8 +53,17 @@ class Windows:
         return len(self.centre)
 
     def _plain_sums(self, column: np.ndarray) -> np.ndarray:
-        running = np.concatenate([[0.0], np.cumsum(column)])
-        return running[self.stop] - running[self.start]
+        """Differences of running sums, which go from one end of a window to the next."""
+        ends, (start, stop) = self._ends
+        parts = np.add.reduceat(column[: ends[-1]], ends[:-1])
+        running = np.concatenate([[0.0], np.cumsum(parts)])
+        return running[stop] - running[start]
+
+    @cached_property
+    def _ends(self) -> tuple[np.ndarray, np.ndarray]:
+        """The samples where windows start or stop, in order, and the places (2, m) of each window among them."""
+        ends, places = np.unique([self.start, self.stop], return_inverse=True)
+        return ends, places.reshape(2, -1)
 
 
 @dataclass(frozen=True)
@@ -98,31 +108,86 @@ def known_parts(angle: np.ndarray) -> list[tuple[int, int]]:
     return list(zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True))
 
 
-def fit_orders(angle: np.ndarray, windows: Windows, signals: np.ndarray, orders: int) -> OrderFit:
-    """Fit signals (n, s), which share the phase `angle` (n,), in every window."""
-    level = np.mean(signals, axis=0)
-    tones = _tones(angle, 2 * orders)
-    middle, gram = _normal_matrix(angle, windows, tones)
-    right, power = _right_sides(angle, windows, tones[: orders + 1], signals - level, middle)
-    countable = np.minimum(orders, countable_orders(windows))
-    solution, explained = np.full(right.shape, np.nan + 0j), np.empty(power.shape)
-    for count in np.unique(countable):
-        chosen = np.flatnonzero(countable == count)
-        kept = np.r_[orders - count : orders + count + 1, 2 * orders + 1]
-        part = np.linalg.solve(gram[np.ix_(chosen, kept, kept)], right[np.ix_(chosen, kept)])
-        solution[np.ix_(chosen, kept)] = part
-        explained[chosen] = np.sum(part * right[np.ix_(chosen, kept)].conj(), axis=1).real
-    # A Hann window of n samples weighs n / 2 together, its squares 3 n / 8.
-    total = gram[:, 0, 0].real
-    freedom = np.maximum(total - 0.75 * (2 * countable + 2), 1.0)
-    return OrderFit(
-        middle=middle,
-        mean=solution[:, orders].real + level,
-        slope=solution[:, -1].real,
-        harmonics=2.0 * solution[:, orders + 1 : -1],
-        variance=np.maximum(power - explained, 0.0) / freedom[:, None],
-        samples=4.0 / 3.0 * total,
-    )
+@dataclass(frozen=True, eq=False)
+class OrderBasis:
+    """The orders of one phase `angle` (n,) in m windows: what the fits of all signals with this phase have in common.
+
+    Hann-weighted sums over every window, t the sample number: `tones` (m, 2K+1) of exp(j k theta), k = 0 ... 2K,
+    `timed` (m, K+1) of t exp(j k theta), k = 0 ... K, and `squared` (m,) of t^2.
+    """
+
+    angle: np.ndarray
+    windows: Windows
+    tones: np.ndarray
+    timed: np.ndarray
+    squared: np.ndarray
+
+    @classmethod
+    def of(cls, angle: np.ndarray, windows: Windows, orders: int) -> OrderBasis:
+        """The basis for K `orders` of a phase."""
+        time, tones = np.arange(len(angle), dtype=float), _tones(angle, 2 * orders)
+        timed = (time * tone for tone in tones[: orders + 1])
+        sums = windows.sums(angle, chain(tones, timed, [time**2]))
+        return cls(angle, windows, sums[:, : len(tones)], sums[:, len(tones) : -1], sums[:, -1].real)
+
+    def select(self, chosen: np.ndarray) -> OrderBasis:
+        """The windows named by a mask or by numbers."""
+        sums = (self.tones[chosen], self.timed[chosen], self.squared[chosen])
+        return OrderBasis(self.angle, self.windows.select(chosen), *sums)
+
+    def fit(self, signals: np.ndarray, orders: int) -> OrderFit:
+        """Fit signals (n, s), which have this phase, with its lowest `orders`, K or fewer, in every window."""
+        level = np.mean(signals, axis=0)
+        middle, gram = self._normal_matrix(orders)
+        right, power = self._right_sides(signals - level, middle, orders)
+        countable = np.minimum(orders, countable_orders(self.windows))
+        solution, explained = np.full(right.shape, np.nan + 0j), np.empty(power.shape)
+        for count in np.unique(countable):
+            chosen = np.flatnonzero(countable == count)
+            kept = np.r_[orders - count : orders + count + 1, 2 * orders + 1]
+            part = np.linalg.solve(gram[np.ix_(chosen, kept, kept)], right[np.ix_(chosen, kept)])
+            solution[np.ix_(chosen, kept)] = part
+            explained[chosen] = np.sum(part * right[np.ix_(chosen, kept)].conj(), axis=1).real
+        # A Hann window of n samples weighs n / 2 together, its squares 3 n / 8.
+        total = gram[:, 0, 0].real
+        freedom = np.maximum(total - 0.75 * (2 * countable + 2), 1.0)
+        return OrderFit(
+            middle=middle,
+            mean=solution[:, orders].real + level,
+            slope=solution[:, -1].real,
+            harmonics=2.0 * solution[:, orders + 1 : -1],
+            variance=np.maximum(power - explained, 0.0) / freedom[:, None],
+            samples=4.0 / 3.0 * total,
+        )
+
+    def _normal_matrix(self, orders: int) -> tuple[np.ndarray, np.ndarray]:
+        """Middle (m,) and Gram matrices (m, 2K+2, 2K+2) of exp(j k theta), k = -K ... K, and of the local time.
+
+        Products of tones are tones: sum w exp(j (l - k) theta) depends on l - k alone.
+        """
+        plain, total = self.tones[:, : 2 * orders + 1], self.tones[:, 0].real
+        middle = self.timed[:, 0].real / total
+        timed = self.timed[:, : orders + 1] - middle[:, None] * plain[:, : orders + 1]
+        both = np.concatenate([plain[:, :0:-1].conj(), plain], axis=1)
+        numbers = np.arange(2 * orders + 1)
+        gram = np.empty((len(plain), 2 * orders + 2, 2 * orders + 2), complex)
+        gram[:, :-1, :-1] = both[:, 2 * orders + numbers[None, :] - numbers[:, None]]
+        gram[:, -1, :-1] = np.concatenate([timed[:, :0:-1].conj(), timed], axis=1)
+        gram[:, :-1, -1] = gram[:, -1, :-1].conj()
+        gram[:, -1, -1] = self.squared - total * middle**2
+        return middle, gram
+
+    def _right_sides(self, signals: np.ndarray, middle: np.ndarray, orders: int) -> tuple[np.ndarray, np.ndarray]:
+        """Products of the signals with exp(j k theta), k = -K ... K, and with the local time; weighted power (m, s)."""
+        time, tones = np.arange(len(self.angle), dtype=float), _tones(self.angle, orders)
+        right, power = [], []
+        for signal in signals.T:
+            columns = chain((signal * tone for tone in tones), [signal * time, signal**2])
+            sums = self.windows.sums(self.angle, columns)
+            with_tones, timed = sums[:, :-2], sums[:, -2] - middle * sums[:, 0]
+            right.append(np.column_stack([with_tones[:, :0:-1], with_tones.conj(), timed]))
+            power.append(sums[:, -1].real)
+        return np.stack(right, axis=-1), np.stack(power, axis=-1)
 
 
 def countable_orders(windows: Windows) -> np.ndarray:
@@ -135,41 +200,3 @@ def _tones(angle: np.ndarray, highest: int) -> list[np.ndarray]:
     """exp(j k theta), k = 0 ... highest."""
     turns = np.exp(1j * np.nan_to_num(angle))
     return list(accumulate([turns] * highest, np.multiply, initial=np.ones_like(turns)))
-
-
-def _normal_matrix(angle: np.ndarray, windows: Windows, tones: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """Middle (m,) and Gram matrices (m, 2K+2, 2K+2) of exp(j k theta), k = -K ... K, and of the local time.
-
-    Products of tones are tones: sum w exp(j (l - k) theta) depends on l - k alone.
-    """
-    orders = (len(tones) - 1) // 2
-    time = np.arange(len(angle), dtype=float)
-    plain = windows.sums(angle, tones)
-    timed = windows.sums(angle, (time * tone for tone in tones[: orders + 1]))
-    squared = windows.sums(angle, [time**2])[:, 0].real
-    total = plain[:, 0].real
-    middle = timed[:, 0].real / total
-    timed = timed - middle[:, None] * plain[:, : orders + 1]
-    both = np.concatenate([plain[:, :0:-1].conj(), plain], axis=1)
-    numbers = np.arange(2 * orders + 1)
-    gram = np.empty((len(windows), 2 * orders + 2, 2 * orders + 2), complex)
-    gram[:, :-1, :-1] = both[:, 2 * orders + numbers[None, :] - numbers[:, None]]
-    gram[:, -1, :-1] = np.concatenate([timed[:, :0:-1].conj(), timed], axis=1)
-    gram[:, :-1, -1] = gram[:, -1, :-1].conj()
-    gram[:, -1, -1] = squared - total * middle**2
-    return middle, gram
-
-
-def _right_sides(
-    angle: np.ndarray, windows: Windows, tones: list[np.ndarray], signals: np.ndarray, middle: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Products of the signals with exp(j k theta), k = -K ... K, and with the local time; weighted power (m, s)."""
-    time = np.arange(len(angle), dtype=float)
-    right, power = [], []
-    for signal in signals.T:
-        with_tones = windows.sums(angle, (signal * tone for tone in tones))
-        timed, squared = windows.sums(angle, [signal * time, signal**2]).T
-        timed = timed - middle * with_tones[:, 0]
-        right.append(np.column_stack([with_tones[:, :0:-1], with_tones.conj(), timed]))
-        power.append(squared.real)
-    return np.stack(right, axis=-1), np.stack(power, axis=-1)

@@ -111,8 +111,15 @@ def _spectrum(x: Array, window: str | tuple[str, float] = "blackmanharris") -> t
     from scipy.signal import welch
 
     length = min(max(x.size // PIECES, LENGTH), x.size)
-    frequency, power = welch(x, 1.0, window, length, int(OVERLAP * length), detrend="linear")
+    frequency, power = welch(x, 1.0, window, length, int(OVERLAP * length), detrend=_less_line)
     return frequency, np.convolve(power, np.ones(LINES) / LINES, mode="same")[: power.size]
+
+
+def _less_line(piece: Array) -> Array:
+    """A piece (..., n) less the straight line through it; that of scipy asks a general solver."""
+    time = np.arange(piece.shape[-1]) - 0.5 * (piece.shape[-1] - 1)
+    slope = piece @ time / (time @ time)
+    return piece - piece.mean(axis=-1, keepdims=True) - np.multiply.outer(slope, time)
 
 
 def _window(half: int) -> tuple[Array, NDArray[np.floating]]:

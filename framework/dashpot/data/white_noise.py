@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 _LENGTH = 15
@@ -23,11 +25,13 @@ def white_noise(signal: np.ndarray) -> float:
     return float(np.sqrt(np.quantile(np.sum(rest**2, axis=1), _QUANTILE) / _chi_square_quantile()))
 
 
+@cache
 def _rest_of_polynomial() -> np.ndarray:
     polynomial, _ = np.linalg.qr(np.polynomial.legendre.legvander(np.linspace(-1.0, 1.0, _LENGTH), _DEGREE))
     return np.eye(_LENGTH) - polynomial @ polynomial.T
 
 
+@cache
 def _chi_square_quantile() -> float:
     from scipy.special import chdtri
 

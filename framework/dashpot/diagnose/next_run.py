@@ -22,7 +22,7 @@ from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import view_of
 from dashpot.diagnose.whitening import Noise
-from dashpot.fit.linear import linearise
+from dashpot.fit.linear import Held, linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.network import compile_network
@@ -134,8 +134,8 @@ def _force(model: Model, run: ScoredRun) -> Array:
 
 
 def _tangents(model: Model, run: ScoredRun) -> Array:
-    objective = Objective(compile_network(model.fitted), [run])
-    [rows] = linearise(objective, model.coordinates, model.point).each(lambda _, rows: rows[1:].copy())
+    objective = Held(Objective(compile_network(model.fitted), [run]))
+    [rows] = linearise(objective, model.coordinates, model.point).each(lambda _, rows: rows[1:])
     return rows
 
 

@@ -16,7 +16,7 @@ from dashpot.diagnose.term import Model, Term, extended, inherited
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates, with_point
-from dashpot.fit.linear import linearise
+from dashpot.fit.linear import Held, linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import Sizes, natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome, refine
@@ -128,11 +128,11 @@ class Refitter:
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
-        linear = linearise(self._objective(model.fitted, noise), model.coordinates, model.point)
+        linear = linearise(Held(self._objective(model.fitted, noise)), model.coordinates, model.point)
 
         def kept(number: int, rows: Array) -> tuple[str, Array]:
             rows[1:][model.at_bound] = 0.0
-            return self.runs[number].name, rows.copy()
+            return self.runs[number].name, rows
 
         found = dict(linear.each(kept))
         return {name: -rows[0] for name, rows in found.items()}, {name: rows[1:] for name, rows in found.items()}

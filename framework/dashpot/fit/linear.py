@@ -35,6 +35,27 @@ class Loss(Protocol):
         """
 
 
+class Held:
+    """A loss that holds its last rows in memory: asked for the same changes once more, it simulates nothing."""
+
+    def __init__(self, loss: Loss) -> None:
+        self._loss, self._asked = loss, np.zeros((0, 0))
+        self._rows: list[tuple[int, Array]] = []
+
+    def losses(self, values: Array) -> Array:
+        """The loss of every lane (lanes,)."""
+        return self._loss.losses(values)
+
+    def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
+        """As that of the loss; the rows are the caller's to keep."""
+        asked = np.concatenate([values[None], moves])
+        if not np.array_equal(asked, self._asked):
+            self._rows = list(self._loss.linearise(values, moves, lambda number, rows: (number, rows.copy())))
+            self._asked = asked
+        for number, rows in self._rows:
+            yield reduce(number, rows.copy())
+
+
 @dataclass(frozen=True, eq=False)
 class Linear:
     """An objective around ``values`` (slots,): products of its residual r and of the changes J of r, over all runs.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from dashpot.data.orders import fit_orders
 from dashpot.data.run import Run
 from dashpot.data.tracking import track
 
@@ -20,7 +19,7 @@ def actuator_harmonics(run: Run) -> str:
     oscillation = track(run)
     if oscillation is None:
         return ""
-    orders = fit_orders(oscillation.angle, oscillation.windows, run.displacement[:, None], ORDERS)
+    orders = oscillation.orders.fit(run.displacement[:, None], ORDERS)
     shares = np.nanmedian(np.abs(orders.harmonics[:, 1:, 0] / orders.harmonics[:, :1, 0]), axis=0)
     if not np.max(shares) > NOTABLE:
         return ""

@@ -64,7 +64,8 @@ def examine(dataset: Dataset) -> Triage:
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats([kept[run.name] for run in whole if run.name in kept])
-    remarks = [remark for run in runs if (remark := actuator_harmonics(run))]
+    sound = {run.name for run in runs}
+    remarks = [remark for run in left if run.name in sound and (remark := actuator_harmonics(run))]
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")

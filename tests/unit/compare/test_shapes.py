@@ -8,7 +8,7 @@ from unit.compare.specimens import DT, run, slide, sweep
 
 from dashpot.compare.residual_map import residual_maps
 from dashpot.compare.shapes import after_reversals, conditions_of, less_spring, low_speed, mid_stroke, shapes_of
-from dashpot.compare.strokes import cycle_values, see, work
+from dashpot.compare.strokes import see, work
 
 STIFFNESS, DAMPING = 200e3, 900.0
 TIME = DT * np.arange(6000)
@@ -23,7 +23,7 @@ def sine(amplitude: float, frequency: float) -> tuple[np.ndarray, np.ndarray]:
 def test_a_cycle_of_a_viscous_damper_takes_up_pi_c_omega_amplitude_squared():
     amplitude, frequency = 2e-3, 3.0
     x, v = sine(amplitude, frequency)
-    values = cycle_values(see(run("r", x, STIFFNESS * x + DAMPING * v, "harmonic")), "measured")
+    values = see(run("r", x, STIFFNESS * x + DAMPING * v, "harmonic")).cycle_values["measured"]
     expected = np.pi * DAMPING * 2.0 * np.pi * frequency * amplitude**2
     assert values.energy == pytest.approx(np.full(values.energy.size, expected), rel=2e-3)
     assert values.stiffness == pytest.approx(np.full(values.energy.size, STIFFNESS), rel=2e-3)
@@ -34,13 +34,13 @@ def test_a_cycle_of_a_viscous_damper_takes_up_pi_c_omega_amplitude_squared():
 def test_an_ideal_slider_takes_up_four_limits_times_the_slid_way():
     amplitude, limit, travel = 2e-3, 50.0, 0.2e-3
     x, _ = sine(amplitude, 2.0)
-    values = cycle_values(see(run("r", x, slide(x, limit, travel), "harmonic")), "measured")
+    values = see(run("r", x, slide(x, limit, travel), "harmonic")).cycle_values["measured"]
     assert values.energy == pytest.approx(np.full(values.energy.size, 4.0 * limit * (amplitude - travel)), rel=2e-3)
 
 
 def test_a_single_slow_loop_counts_as_a_cycle():
     x = 5e-3 * (1.0 - np.abs(np.linspace(-1.0, 1.0, 2001)))
-    values = cycle_values(see(run("qs", x, slide(x, 40.0, 0.1e-3), "quasi_static")), "measured")
+    values = see(run("qs", x, slide(x, 40.0, 0.1e-3), "quasi_static")).cycle_values["measured"]
     assert values.time.size == 1
     assert values.energy[0] > 0.0
 

@@ -40,20 +40,9 @@ def envelope(series: list[np.ndarray], points: int) -> np.ndarray:
     if size <= points:
         return np.arange(size)
     edges = np.linspace(0, size, points // (2 * len(series)) + 1).astype(int)
-    stretches = list(itertools.pairwise(edges))
-    kept = [a + pick(values[a:b]) for a, b in stretches for values in series for pick in _EXTREMES]
+    lowest_first = [np.where(np.isnan(values), np.inf, sign * values) for values in series for sign in (1.0, -1.0)]
+    kept = [a + int(np.argmin(values[a:b])) for a, b in itertools.pairwise(edges) for values in lowest_first]
     return np.unique(kept)
-
-
-def _lowest(values: np.ndarray) -> int:
-    return int(np.argmin(np.where(np.isnan(values), np.inf, values)))
-
-
-def _highest(values: np.ndarray) -> int:
-    return int(np.argmax(np.where(np.isnan(values), -np.inf, values)))
-
-
-_EXTREMES = (_lowest, _highest)
 
 
 def _cycle_starts(displacement: np.ndarray) -> np.ndarray:
