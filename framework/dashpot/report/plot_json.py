@@ -16,7 +16,7 @@ from dashpot.report.theme import LIGHT
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure as PlotlyFigure
 
-SHORT = "%.6g"
+DIGITS = 6
 
 
 def plot_json(figure: Figure) -> dict[str, Any]:
@@ -57,7 +57,7 @@ def plotly_figure(figure: Figure) -> PlotlyFigure:
 def _short(value: float) -> float | int | None:
     if not math.isfinite(value):
         return None
-    short = float(SHORT % value)
+    short = float(f"{value:.{DIGITS}g}")
     return int(short) if short.is_integer() and abs(short) < 1e15 else short
 
 

@@ -1,4 +1,8 @@
-"""Quantities as people write them: `220 N/mm`, `160 ms`, `5 %`; inside everything is SI."""
+"""Quantities as people write them: `220 N/mm`, `160 ms`, `5 %`; inside everything is SI.
+
+The units are our own short list, on purpose: an angle is a dimension of its own (so rad/s never passes for Hz),
+`rpm` counts revolutions per minute, and a pound is a mass (the force is `lbf`).
+"""
 
 from __future__ import annotations
 
@@ -7,11 +11,68 @@ import re
 from collections.abc import Sequence
 from decimal import Decimal
 from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from dashpot.text.problem import nearest
-from dashpot.text.units import Unit, UnknownUnitError, read_unit
+
+if TYPE_CHECKING:
+    import pint
+
+_PREFIXES = """
+nano- = 1e-9 = n-
+micro- = 1e-6 = µ- = u-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+deci- = 1e-1 = d-
+deca- = 1e1 = da-
+hecto- = 1e2 = h-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+"""
+
+_UNITS = """
+meter = [length] = m
+second = [time] = s
+gram = [mass] = g
+kelvin = [temperature]; offset: 0 = K
+ampere = [current] = A
+radian = [angle] = rad
+percent = 0.01 = %
+minute = 60 * second = min
+hour = 3600 * second = h
+hertz = 1 / second = Hz
+rpm = 1 / minute
+inch = 0.0254 * meter = in
+foot = 12 * inch = ft
+tonne = 1000 * kilogram = t
+pound = 0.45359237 * kilogram = lb
+standard_gravity = 9.80665 * meter / second ** 2 = g0
+newton = kilogram * meter / second ** 2 = N
+kilogram_force = kilogram * standard_gravity = kgf
+ton_force = tonne * standard_gravity = tonf
+pound_force = pound * standard_gravity = lbf
+kip = 1000 * pound_force
+newton_second = newton * second = Ns
+newton_meter = newton * meter = Nm
+newton_millimeter = newton * millimeter = Nmm
+pascal = newton / meter ** 2 = Pa
+bar = 100000 * pascal
+psi = pound_force / inch ** 2
+joule = newton * meter = J
+watt = joule / second = W
+volt = watt / ampere = V
+degree = 0.017453292519943295 * radian = deg
+revolution = 360 * degree = rev
+degree_Celsius = kelvin; offset: 273.15 = degC = celsius
+"""
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?")
+_FACTOR = r"(?:[A-Za-z%][A-Za-z_]*\d?|1)(?:(?:\^|\*\*)(?:-?\d(?:\.\d{1,3})?|\(-?\d(?:\.\d{1,3})?(?:/[1-9])?\)))?"
+_BETWEEN = r"(?: *[*/] *| +)"
+_GROUP = rf"(?:{_FACTOR}|\({_FACTOR}(?:{_BETWEEN}{_FACTOR}){{0,5}}\)(?:(?:\^|\*\*)-?\d(?:\.\d{{1,3}})?)?)"
+_UNIT = re.compile(rf"{_GROUP}(?:{_BETWEEN}{_GROUP}){{0,5}}")
+_SPELLINGS = {"·": "*", "⋅": "*", "²": "^2", "³": "^3", "μ": "u", "µ": "u", "°C": "degC", "°": "deg", "−": "-"}
 _FAMILIAR = (
     "N kN daN mm um m cm s ms us min h Hz kHz rpm kg g t % N/mm N/m kN/mm N*s/mm N*s/m Ns/mm Nm kNm bar mbar Pa kPa "
     "MPa psi K degC rad deg m/s mm/s m/s^2 g0 in ft lb lbf kip kgf tonf J W V mV A"
@@ -45,6 +106,27 @@ _CONFUSED = {
     ("g", "m/s^2"): "multiples of gravity are written g0",
     ("lb", "N"): "a pound of force is written lbf",
     ("rad/s", "Hz"): "frequencies are in Hz: divide by 2*pi",
+}
+
+
+# factors of the units that stand in nearly every file: reading those needs no library of units
+USUAL = {
+    ("N/mm", "N/m"): "1e3",
+    ("kN/mm", "N/m"): "1e6",
+    ("N*s/mm", "N*s/m"): "1e3",
+    ("N*s/m", "N/(m/s)"): "1",
+    ("N*s/mm", "N/(m/s)"): "1e3",
+    ("kN*s/m", "N*s/m"): "1e3",
+    ("kN*s/m", "N/(m/s)"): "1e3",
+    ("kN*s^2/m^2", "N*s^2/m^2"): "1e3",
+    ("MN*s^2/m^2", "N*s^2/m^2"): "1e6",
+    ("t", "kg"): "1e3",
+    ("mm", "m"): "1e-3",
+    ("mm/s", "m/s"): "1e-3",
+    ("um", "m"): "1e-6",
+    ("ms", "s"): "1e-3",
+    ("kN", "N"): "1e3",
+    ("%", "1"): "0.01",
 }
 
 
@@ -164,10 +246,10 @@ def _rig_units(unit: str) -> tuple[tuple[str, Decimal], ...]:
     # what something does per setting: N/m per Pa is a length by its dimension only
     if re.sub(r"\([^)]*\)", "", unit).count("/") > 1:
         return ()
-    measured = _parse(unit).powers
+    dimension = _parse(unit).dimensionality
     for choice in _RIG_UNITS:
         pairs = [pair.split(" from ") for pair in choice.split(", ")]
-        if _parse(pairs[0][0]).powers == measured:
+        if _parse(pairs[0][0]).dimensionality == dimension:
             return tuple((name, Decimal(smallest)) for name, smallest in pairs)
     return ()
 
@@ -195,32 +277,63 @@ def _read(text: str, unit: str) -> float:
 
 @cache
 def _exact_factor(unit_text: str, unit: str) -> tuple[Decimal, Decimal]:
+    known = "1" if unit_text == unit else USUAL.get((unit_text, unit))
+    if known is not None and (unit_text == "1" or _UNIT.fullmatch(unit_text)):
+        return Decimal(known), Decimal(0)
     given, wanted = _parse(unit_text), _parse(unit)
-    if given.powers != wanted.powers:
+    if given.dimensionality != wanted.dimensionality:
         hint = _CONFUSED.get((unit_text.strip(), unit), f"write it in {unit} or a unit of the same kind")
         raise ValueError(f"expected {_wanted(unit)}, got '{unit_text}', which measures {_measures(given)}; {hint}")
-    return given.scale / wanted.scale, (given.offset - wanted.offset) / wanted.scale
+    offset = _convert(0, given, wanted)
+    return _convert(1, given, wanted) - offset, offset
 
 
 def _wanted(unit: str) -> str:
     return "a plain number" if unit == "1" else f"a quantity in {unit}"
 
 
-def _measures(unit: Unit) -> str:
-    powers = [(name.strip("[]"), float(power)) for name, power in sorted(unit.powers.items())]
-    return " * ".join(name if power == 1 else f"{name}^{power:g}" for name, power in powers) or "a ratio"
+def _measures(unit: pint.Unit) -> str:
+    names = {key.strip("[]"): value for key, value in sorted(unit.dimensionality.items())}
+    words = [name if power == 1 else f"{name}^{power:g}" for name, power in names.items()]
+    return " * ".join(words) or "a ratio"
 
 
-def _parse(unit_text: str) -> Unit:
+@cache
+def _parse(unit_text: str) -> pint.Unit:
+    from pint.errors import UndefinedUnitError
+
+    text = unit_text.strip()
+    for written, meant in _SPELLINGS.items():
+        text = text.replace(written, meant)
+    if len(text) > 80 or not _UNIT.fullmatch(text):
+        raise _unknown_unit(unit_text, text)
     try:
-        return read_unit(unit_text)
-    except UnknownUnitError as unknown:
-        hint = nearest(unit_text, _FAMILIAR) or nearest(str(unknown), _FAMILIAR)
-        hint = hint or "units look like N, N/mm, N*s/mm, ms, Hz, %"
-        raise ValueError(f"unknown unit '{unit_text}'; {hint}") from None
+        return _registry().parse_units("" if text == "1" else text.replace("%", "percent"))
+    except UndefinedUnitError as error:
+        names = [error.unit_names] if isinstance(error.unit_names, str) else list(error.unit_names)
+        raise _unknown_unit(unit_text, names[0]) from None
 
 
 @cache
 def powers(unit: str) -> dict[str, float]:
     """The powers of mass, length, time and so on in a unit: `N/m` gives 1 of mass, -2 of time. ValueError for none."""
-    return {name: float(power) for name, power in _parse(unit).powers.items()}
+    dimension: Any = _parse(unit).dimensionality
+    return {name: float(power) for name, power in dimension.items()}
+
+
+def _unknown_unit(unit_text: str, word: str) -> ValueError:
+    hint = nearest(unit_text, _FAMILIAR) or nearest(word, _FAMILIAR) or "units look like N, N/mm, N*s/mm, ms, Hz, %"
+    return ValueError(f"unknown unit '{unit_text}'; {hint}")
+
+
+def _convert(value: int, given: pint.Unit, wanted: pint.Unit) -> Decimal:
+    return Decimal(_registry().Quantity(Decimal(value), given).to(wanted).magnitude)
+
+
+@cache
+def _registry() -> pint.UnitRegistry:
+    import pint
+
+    registry: pint.UnitRegistry = pint.UnitRegistry(None, autoconvert_offset_to_baseunit=True, non_int_type=Decimal)
+    registry.load_definitions((_PREFIXES + _UNITS).strip().splitlines())
+    return registry
