@@ -1,0 +1,178 @@
+"""A step of a network in which masses hit rigid stops: inelastic impacts, without rebound.
+
+A mass that a rigid stop catches within a step is there from the begin of the step on, with the velocity that the impact
+leaves it: that of the stop, or the common one by which two masses keep their momentum. What comes after the impact is
+smooth, and so is the force at the end of the step; the impulse is no force and in none. The centre of the masses moves
+as if the impact had its own instant. Source: Moreau, Unilateral contact and dry friction in finite freedom dynamics
+(1988), with a restitution of zero.
+
+The step of an impact looks back at no acceleration: its own is constant, the velocity that laws see is way over time.
+The impulses are those of least kinetic energy lost for velocities that the stops allow; a stop that was closed before
+and is pulled open by an impact gives way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import reduce
+
+import numpy as np
+
+from dashpot.expr.derive import derive
+from dashpot.expr.node import Node, maximum, minimum, symbol, where
+from dashpot.kernel.compiler.elimination import ZERO, solve_symmetric
+from dashpot.kernel.compiler.mechanics import KEPT, SLOPE, STEP, TOLERANCE, Moving, row_of
+from dashpot.kernel.compiler.trace import TracedBranch
+from dashpot.model.topology import Edge, Topology
+
+HIT = "impact|hit"  # row: 1.0 in a step with an impact
+SHORTEST = 1e-9  # of the tolerance: a way that is rounding
+RIGIDITY = 1e7  # of a stop in an impact, over the masses of the network
+BEGIN, LEFT_WITH = "begin", "left_with"  # rows of a node: place and velocity after an impact at the begin of the step
+
+Stop = tuple[Edge, tuple[Node, Node]]
+
+
+def struck(topology: Topology, laws: Sequence[TracedBranch]) -> list[Stop]:
+    """The rigid stops, with the deflections at which they close, that catch a mass.
+
+    Both of their ends are masses or known to move; a node without a mass gives way to any impulse.
+    """
+    pairs = zip(topology.edges, laws, strict=True)
+    return [(edge, law.stops) for edge, law in pairs if law.stops is not None and _caught(topology, edge)]
+
+
+def _caught(topology: Topology, edge: Edge) -> bool:
+    ends = [topology.joints[name] for name in (edge.lower, edge.upper)]
+    solved = [joint for joint in ends if joint.name in topology.unknown]
+    return bool(solved) and all(joint.masses for joint in solved)
+
+
+class Impacting(Moving):
+    """One step, with the impacts at its begin."""
+
+    slope = where(symbol(HIT) > 0.5, 1.0 / STEP, SLOPE)
+    pull = where(symbol(HIT) > 0.5, 2.0 / STEP, SLOPE)
+
+    def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
+        super().__init__(topology, laws)
+        self.stops = struck(topology, laws)
+        self.free = [name for name in self.unknown if self._heavy(name) and topology.joints[name].mounted is None]
+
+    def rest(self) -> dict[str, Node]:
+        """No stop has caught anything yet."""
+        return {HIT: ZERO} | {_side(edge): ZERO for edge, _ in self.stops}
+
+    def predict(self) -> dict[str, Node]:
+        rows = super().predict()
+        closing = [self._closing(edge, ends) for edge, ends in self.stops]
+        hit = reduce(maximum, (np.absolute(side) for side in closing))
+        sides = [where(side == 0.0, symbol(_side(edge)), side) for (edge, _), side in zip(self.stops, closing, strict=True)]
+        ways, jumps = self._impact(closing, sides)
+        for joint in self.unknown:
+            x, v, _, _, _ = (symbol(row_of(joint, key)) for key in KEPT)
+            begin = x + where(hit > 0.5, ways.get(joint, ZERO), 0.0)
+            left_with = v + where(hit > 0.5, jumps.get(joint, ZERO), 0.0)
+            for key, hitting in (
+                ("drift", -begin / STEP),
+                ("swing", -2.0 / STEP * left_with),
+                ("next", begin + STEP * left_with),
+            ):
+                rows[row_of(joint, key)] = where(hit > 0.5, hitting, rows[row_of(joint, key)])
+            rows |= {row_of(joint, BEGIN): begin, row_of(joint, LEFT_WITH): left_with}
+        rows |= {_side(edge): side for (edge, _), side in zip(self.stops, sides, strict=True)}
+        return rows | {HIT: hit}
+
+    def arrived(self, distance: Node, ways: Mapping[str, Node]) -> Node:
+        # the forces at the end of the last step are told by tangents, which a stop that opens or closes changes
+        opened = [self._beyond(edge, ends, ways) != self._beyond(edge, ends, {}) for edge, ends in self.stops]
+        exact = np.logical_not(reduce(np.logical_or, opened)) | (distance <= SHORTEST * TOLERANCE)
+        return super().arrived(distance, ways) & exact
+
+    def commit(self) -> dict[str, Node]:
+        rows = super().commit()
+        for joint in self.unknown:
+            rows[row_of(joint, "position_before")] = symbol(row_of(joint, BEGIN))
+            rows[row_of(joint, "velocity_before")] = symbol(row_of(joint, LEFT_WITH))
+            if self._heavy(joint):
+                own = rows[row_of(joint, "velocity")]
+                after = 2.0 * own - symbol(row_of(joint, LEFT_WITH))
+                rows[row_of(joint, "velocity")] = where(symbol(HIT) > 0.5, after, own)
+        for edge, ends in self.stops:
+            side = symbol(_side(edge))
+            rows[_side(edge)] = where(self._beyond(edge, ends, {}) == side, side, 0.0)
+        return rows
+
+    def _heavy(self, joint: str) -> bool:
+        return bool(self.topology.joints[joint].masses)
+
+    def _closing(self, edge: Edge, ends: tuple[Node, Node]) -> Node:
+        """1.0 where the compression stop is about to catch a mass, -1.0 where the rebound stop is, 0.0 where none."""
+        (rebound, compression), caught = ends, symbol(_side(edge))
+        old, guessed = self._old(edge), self.difference(edge, self._guessed) + self.offset(edge)
+        up = (maximum(old, guessed) > compression) & np.logical_not(caught > 0.5)
+        down = (minimum(old, guessed) < rebound) & np.logical_not(caught < -0.5)
+        return where(up, 1.0, where(down, -1.0, 0.0))
+
+    def _beyond(self, edge: Edge, ends: tuple[Node, Node], ways: Mapping[str, Node]) -> Node:
+        """On which side a stop is closed after some ways of the nodes; 0.0 where it is open."""
+        place = self.motion(edge)["edge.new"] + self.way(edge, ways)
+        return where(place > ends[1], 1.0, where(place < ends[0], -1.0, 0.0))
+
+    def _guessed(self, joint: str) -> Node:
+        known = self.known(joint, "new")
+        return self.carrier(joint, "new") + self.guess(joint) if known is None else known
+
+    def _old(self, edge: Edge) -> Node:
+        return self.difference(edge, lambda joint: self.before(joint, "old", "position")) + self.offset(edge)
+
+    def _speed(self, edge: Edge) -> Node:
+        return self.difference(edge, lambda joint: self.before(joint, "velocity_old", "velocity"))
+
+    def _impact(self, closing: Sequence[Node], sides: Sequence[Node]) -> tuple[dict[str, Node], dict[str, Node]]:
+        """How far the impacts move the masses to the stops, and by how much they change their velocities."""
+        edges = [edge for edge, _ in self.stops]
+        speeds = [self._speed(edge) for edge in edges]
+        beyond = [
+            self._old(edge) - where(side > 0.0, compression, rebound)
+            for (edge, (rebound, compression)), side in zip(self.stops, sides, strict=True)
+        ]
+        held = [where(side == 0.0, 0.0, 1.0) for side in closing]
+        if len(edges) > 1:
+            first = self._allowed(held, speeds)
+            pressed = [
+                (side != 0.0) & (side * (speed + self.difference(edge, lambda joint: first.get(joint, ZERO))) >= 0.0)
+                for edge, side, speed in zip(edges, sides, speeds, strict=True)
+            ]
+            held = [maximum(own, where(pressing, 1.0, 0.0)) for own, pressing in zip(held, pressed, strict=True)]
+        return self._allowed(held, beyond), self._allowed(held, speeds)
+
+    def _allowed(self, held: Sequence[Node], beyond: Sequence[Node]) -> dict[str, Node]:
+        """The least changes, weighed by the masses, that bring what is ``beyond`` at the ``held`` stops to zero."""
+        rows = {joint: {joint: SLOPE * SLOPE * self.mass(joint)} for joint in self.free}
+        sides = dict.fromkeys(self.free, ZERO)
+        whole = sum((self.mass(joint) for joint in self.free), ZERO)
+        for edge, law in zip(self.topology.edges, self.laws, strict=True):
+            _join(rows, edge, SLOPE * SLOPE * self.along(edge, derive(law.force, "edge.acceleration")))
+        for (edge, _), own, gap in zip(self.stops, held, beyond, strict=True):
+            rigidity = RIGIDITY * SLOPE * SLOPE * whole * own
+            _join(rows, edge, rigidity)
+            for joint, sign in ((edge.lower, -1.0), (edge.upper, 1.0)):
+                if joint in sides:
+                    sides[joint] = sides[joint] + sign * rigidity * gap
+        return solve_symmetric(rows, sides)
+
+
+def _join(rows: dict[str, dict[str, Node]], edge: Edge, stiffness: Node) -> None:
+    """Add the stiffness of an edge to a matrix of some nodes; the others are held."""
+    ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
+    for joint in ends:
+        rows[joint][joint] = rows[joint][joint] + stiffness
+    if len(ends) == 2:
+        for one, other in (ends, ends[::-1]):
+            rows[one][other] = rows[one].get(other, ZERO) - stiffness
+
+
+def _side(edge: Edge) -> str:
+    """The row of the side on which a stop has caught a mass."""
+    return f"stop:{edge.branch.name}|side"
