@@ -26,6 +26,7 @@ from dashpot.kernel.compiler.trace import TracedBranch
 from dashpot.model.topology import Edge, Topology
 
 HIT = "impact|hit"  # row: 1.0 in a step with an impact
+SLOWEST = 1e-300  # m/s: no distance is divided by zero
 SHORTEST = 1e-9  # of the tolerance: a way that is rounding
 RIGIDITY = 1e7  # of a stop in an impact, over the masses of the network
 BEGIN, LEFT_WITH = "begin", "left_with"  # rows of a node: place and velocity after an impact at the begin of the step
@@ -129,14 +130,31 @@ class Impacting(Moving):
     def _speed(self, edge: Edge) -> Node:
         return self.difference(edge, lambda joint: self.before(joint, "velocity_old", "velocity"))
 
+    def _bend(self, edge: Edge) -> Node:
+        return self.difference(edge, self._acceleration)
+
+    def _acceleration(self, joint: str) -> Node:
+        """That of a node at the begin of the step, if nothing catches it; of a driven one, in the step."""
+        known = self.topology.joints[joint].mounted or joint
+        if joint not in self.unknown or known != joint:
+            mean = (self.known(known, "velocity_new") - self.known(known, "velocity_old")) / STEP
+            return mean if known == joint else mean + symbol(row_of(joint, "acceleration"))
+        return symbol(row_of(joint, "acceleration"))
+
+    @staticmethod
+    def _until(distance: Node, speed: Node) -> Node:
+        """The time until a stop is reached, at most that of the step."""
+        return minimum(STEP, maximum(distance, 0.0) / maximum(speed, SLOWEST))
+
     def _impact(self, closing: Sequence[Node], sides: Sequence[Node]) -> tuple[dict[str, Node], dict[str, Node]]:
         """How far the impacts move the masses to the stops, and by how much they change their velocities."""
         edges = [edge for edge, _ in self.stops]
-        speeds = [self._speed(edge) for edge in edges]
-        beyond = [
-            self._old(edge) - where(side > 0.0, compression, rebound)
-            for (edge, (rebound, compression)), side in zip(self.stops, sides, strict=True)
-        ]
+        beyond, speeds = [], []
+        for (edge, (rebound, compression)), side in zip(self.stops, sides, strict=True):
+            way, speed = self._old(edge) - where(side > 0.0, compression, rebound), self._speed(edge)
+            until, back = self._until(-side * way, side * speed), side * minimum(side * self._bend(edge), 0.0)
+            beyond.append(way - 0.5 * until * until * back)
+            speeds.append(speed + until * back)
         held = [where(side == 0.0, 0.0, 1.0) for side in closing]
         if len(edges) > 1:
             first = self._allowed(held, speeds)
