@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 from verification.truth.at_events import EXACT
 
+LOOK = 5e-5  # s, from one look to the next one for ends of a phase
 LATE = 1e-12  # m, by which a stop catches later than it should: not again in the instant in which it let go
 
 
@@ -47,15 +49,24 @@ def followed(phase, y, at):
     while True:
         events = [_event(end) for end, _ in phase.ends]
         run = solve_ivp(phase.rates, (time, at[-1]), y, events=events, **EXACT)
-        inside = (at >= time) & (at <= run.t[-1])
+        ended = [(times[0], number) for number, times in enumerate(run.t_events) if times.size]
+        end, which = min([*ended, *_overlooked(phase, run, time)], default=(run.t[-1], None))
+        inside = (at >= time) & (at <= end)
         if inside.any():
             found[inside] = phase.force(at[inside], run.sol(at[inside]))
-        time, y = run.t[-1], run.y[:, -1]
-        if time >= at[-1]:
+        if which is None:
             return found, count
-        which = next(number for number, times in enumerate(run.t_events) if times.size)
-        phase, y = phase.ends[which][1](time, y)
+        time, (phase, y) = end, phase.ends[which][1](end, run.sol(end))
         count += 1
+
+
+def _overlooked(phase, run, begin):
+    """Ends that come and go within a step of the integrator, as where a mass hardly touches a stop."""
+    times = np.linspace(begin, run.t[-1], 2 + int((run.t[-1] - begin) / LOOK))
+    for number, (end, _) in enumerate(phase.ends):
+        above = np.flatnonzero(end(times, run.sol(times))[:-1] > 0.0)
+        if above.size and above[0] > 0:
+            yield brentq(lambda t, end=end: end(t, run.sol(t)), *times[above[0] - 1 : above[0] + 1], xtol=1e-15), number
 
 
 def _event(end):
@@ -70,7 +81,7 @@ def between_stops(leg, mass, limit, low, high, at):
     """A mass between two places of the floor, on which it rubs with a force ``limit``."""
 
     def slides(way):
-        ends = [(lambda t, y: max(y[0] - high, low - y[0]) - LATE, caught)]
+        ends = [(lambda t, y: np.maximum(y[0] - high, low - y[0]) - LATE, caught)]
         if limit:
             ends.append((lambda t, y: -way * y[1], rests))
         return Phase(lambda t, y: [y[1], (leg.pull(t, y) - way * limit) / mass], leg.pull, ends)
@@ -83,8 +94,8 @@ def between_stops(leg, mass, limit, low, high, at):
         return (slides(np.sign(leg.pull(t, y))) if leaves(t, y) >= 0.0 else still), y
 
     def leaves(t, y):
-        ahead, back = (np.inf if y[0] == high else limit), (np.inf if y[0] == low else limit)
-        return max(leg.pull(t, y) - ahead, -leg.pull(t, y) - back)
+        ahead, back = np.where(y[0] == high, np.inf, limit), np.where(y[0] == low, np.inf, limit)
+        return np.maximum(leg.pull(t, y) - ahead, -leg.pull(t, y) - back)
 
     still = Phase(lambda t, y: [0.0, 0.0], leg.pull, [(leaves, lambda t, y: (slides(np.sign(leg.pull(t, y))), y))])
     return followed(*rests(at[0], [0.0, 0.0]), at)
@@ -100,7 +111,7 @@ def carried(leg, mass, low, high, gravity, at):
 
         def beyond(t, y):
             way = motion.place(t) - y[0]
-            return max(way - high, low - way) - LATE
+            return np.maximum(way - high, low - way) - LATE
 
         return Phase(goes, leg.pull, [(beyond, caught)])
 
