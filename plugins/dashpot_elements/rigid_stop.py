@@ -16,9 +16,9 @@ RIGID = 1e14  # N/m: 1 kN presses it in by 0.01 nm
 class RigidStop(Element):
     """Rigid stops at two places: the deflection stays between ``rebound`` and ``compression``, at any force.
 
-    A mass that hits one stays there, without rebound, until a force pulls it off; the energy is lost at once. The impulse
-    is no force and does not show in any. With ``compression: 0 mm`` it is a rigid contact that may lift off. The rebound
-    stop is out of reach unless it is given. Something else must give way: a spring in series, or a mass.
+    A mass that hits one stays there, without rebound, until a force pulls it off; its energy is lost at once. The
+    impulse is no force and shows in none. With ``compression: 0 mm`` it is a rigid contact that may lift off. The
+    rebound stop is out of reach unless it is given. Something else must give way: a spring in series, or a mass.
     """
 
     picture = Symbol.PLAY

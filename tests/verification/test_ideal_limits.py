@@ -163,7 +163,7 @@ def on_the_base(number, at):
 
 def on_a_table(number, at):
     """A mass that lies on a shaking table, and is tossed and caught."""
-    motion, mass = drawn(f"a table {number}", 6e-3), (0.1, 2.0, 30.0)[number]
+    motion, mass = drawn(f"a table {number}", 15e-3), (0.1, 2.0, 30.0)[number]
     network = system(
         f"{{base: driven, hub: {{mass: {mass} kg}}}}",
         "stop: {element: rigid_stop, compression: 0 mm, between: [base, hub]}",
@@ -229,3 +229,28 @@ def test_an_elastic_stop_throws_a_mass_back_or_the_bound_tells_that_its_steps_ar
     assert missed < found.error[0]
     # 1e7 N/m hold 1 kg for as long as a sample, 1e10 N/m for a thirtieth of it
     assert bound <= 1.01 * TOLERANCE if stiffness <= 1e7 else stiffness < 1e10 or bound > TOLERANCE
+
+
+# a second stop lets the last mass be pushed along, or left behind where the others are pulled away
+ROW = [
+    ("compression: 50 mm, between: [one, two]", "compression: 0 mm, between: [two, three]", "one two three"),
+    ("compression: 1 m, rebound: -50 mm, between: [two, one]", "compression: 0 mm, between: [three, two]", "one two"),
+]
+
+
+@pytest.mark.parametrize(("first", "second", "moved"), ROW, ids=["pushed", "pulled"])
+def test_masses_in_a_row_keep_their_momentum(first, second, moved):
+    at, masses, pushing = times(1.0), {"one": 1e3, "two": 2e3, "three": 500.0}, 5e3
+    push = np.where(at < 0.2, pushing * np.sin(np.pi * at / 0.2) ** 2, 0.0)
+    joints = ", ".join(f"{name}: {{mass: {mass} kg}}" for name, mass in masses.items())
+    springs = [f"of_{name}: {{element: spring, stiffness: 1 N/m, between: [base, {name}]}}" for name in masses]
+    stops = [f"stop_{n}: {{element: rigid_stop, {text}}}" for n, text in enumerate((first, second))]
+    network = system(
+        f"{{base: driven, {joints}}}".replace("kg}", "kg, hold: loaded}", 1), "\n".join([*springs, *stops])
+    )
+    run = excitation(at, {"base": smooth_motion(np.random.default_rng(0), 0.0, 0.0)}, loads={"one": push})
+    found = network.solve(network.prepare(run))
+    speeds = dict(zip(network.topology.unknown, (found.motion[0, :, -1] - found.motion[0, :, -201]) / 0.2, strict=True))
+    common = 0.5 * pushing * 0.2 / sum(masses[name] for name in moved.split())
+    for name, speed in speeds.items():
+        assert speed == pytest.approx(common if name in moved.split() else 0.0, rel=1e-3, abs=1e-5)

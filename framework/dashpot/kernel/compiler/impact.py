@@ -13,7 +13,7 @@ and is pulled open by an impact gives way.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import reduce
 
 import numpy as np
@@ -66,10 +66,13 @@ class Impacting(Moving):
 
     def predict(self) -> dict[str, Node]:
         rows = super().predict()
-        closing = [self._closing(edge, ends) for edge, ends in self.stops]
+        closing = self._closing({}, {})
+        for _ in self.stops[1:]:
+            # what an impact sets in motion may hit the next one
+            after = self._closing(*self._impact(closing))
+            closing = [where(side == 0.0, then, side) for side, then in zip(closing, after, strict=True)]
+        ways, jumps = self._impact(closing)
         hit = reduce(maximum, (np.absolute(side) for side in closing))
-        sides = [where(side == 0.0, symbol(_side(edge)), side) for (edge, _), side in zip(self.stops, closing, strict=True)]
-        ways, jumps = self._impact(closing, sides)
         for joint in self.unknown:
             x, v, _, _, _ = (symbol(row_of(joint, key)) for key in KEPT)
             begin = x + where(hit > 0.5, ways.get(joint, ZERO), 0.0)
@@ -81,8 +84,8 @@ class Impacting(Moving):
             ):
                 rows[row_of(joint, key)] = where(hit > 0.5, hitting, rows[row_of(joint, key)])
             rows |= {row_of(joint, BEGIN): begin, row_of(joint, LEFT_WITH): left_with}
-        rows |= {_side(edge): side for (edge, _), side in zip(self.stops, sides, strict=True)}
-        return rows | {HIT: hit}
+        sides = zip(self.stops, self._sides(closing), strict=True)
+        return rows | {_side(edge): side for (edge, _), side in sides} | {HIT: hit}
 
     def arrived(self, distance: Node, ways: Mapping[str, Node]) -> Node:
         # the forces at the end of the last step are told by tangents, which a stop that opens or closes changes
@@ -107,13 +110,25 @@ class Impacting(Moving):
     def _heavy(self, joint: str) -> bool:
         return bool(self.topology.joints[joint].masses)
 
-    def _closing(self, edge: Edge, ends: tuple[Node, Node]) -> Node:
-        """1.0 where the compression stop is about to catch a mass, -1.0 where the rebound stop is, 0.0 where none."""
-        (rebound, compression), caught = ends, symbol(_side(edge))
-        old, guessed = self._old(edge), self.difference(edge, self._guessed) + self.offset(edge)
-        up = (maximum(old, guessed) > compression) & np.logical_not(caught > 0.5)
-        down = (minimum(old, guessed) < rebound) & np.logical_not(caught < -0.5)
-        return where(up, 1.0, where(down, -1.0, 0.0))
+    def _closing(self, ways: Mapping[str, Node], jumps: Mapping[str, Node]) -> list[Node]:
+        """1.0 for stops that are about to catch a mass in compression, -1.0 in rebound, 0.0 for the others.
+
+        Impacts may have moved the nodes by ``ways`` and changed their velocities by ``jumps``.
+        """
+        found = []
+        for edge, (rebound, compression) in self.stops:
+            old, caught = self._old(edge), symbol(_side(edge))
+            guessed = self.difference(edge, self._guessed) + self.offset(edge)
+            guessed = guessed + self.way(edge, ways) + STEP * self.way(edge, jumps)
+            up = (maximum(old, guessed) > compression) & np.logical_not(caught > 0.5)
+            down = (minimum(old, guessed) < rebound) & np.logical_not(caught < -0.5)
+            found.append(where(up, 1.0, where(down, -1.0, 0.0)))
+        return found
+
+    def _sides(self, closing: Sequence[Node]) -> list[Node]:
+        """The sides on which stops hold: those that are closing, or have caught something before."""
+        pairs = zip(self.stops, closing, strict=True)
+        return [where(side == 0.0, symbol(_side(edge)), side) for (edge, _), side in pairs]
 
     def _beyond(self, edge: Edge, ends: tuple[Node, Node], ways: Mapping[str, Node]) -> Node:
         """On which side a stop is closed after some ways of the nodes; 0.0 where it is open."""
@@ -121,8 +136,8 @@ class Impacting(Moving):
         return where(place > ends[1], 1.0, where(place < ends[0], -1.0, 0.0))
 
     def _guessed(self, joint: str) -> Node:
-        known = self.known(joint, "new")
-        return self.carrier(joint, "new") + self.guess(joint) if known is None else known
+        own = self.guess(joint) if joint in self.unknown else ZERO
+        return self._given(joint, "new") + own
 
     def _old(self, edge: Edge) -> Node:
         return self.difference(edge, lambda joint: self.before(joint, "old", "position")) + self.offset(edge)
@@ -135,20 +150,23 @@ class Impacting(Moving):
 
     def _acceleration(self, joint: str) -> Node:
         """That of a node at the begin of the step, if nothing catches it; of a driven one, in the step."""
-        known = self.topology.joints[joint].mounted or joint
-        if joint not in self.unknown or known != joint:
-            mean = (self.known(known, "velocity_new") - self.known(known, "velocity_old")) / STEP
-            return mean if known == joint else mean + symbol(row_of(joint, "acceleration"))
-        return symbol(row_of(joint, "acceleration"))
+        new, old = (self._given(joint, key) for key in ("velocity_new", "velocity_old"))
+        own = symbol(row_of(joint, "acceleration")) if joint in self.unknown else ZERO
+        return own + (new - old) / STEP
+
+    def _given(self, joint: str, key: str) -> Node:
+        """The part of the motion of a node that the drive gives."""
+        known = self.known(joint, key)
+        return self.carrier(joint, key) if known is None else known
 
     @staticmethod
     def _until(distance: Node, speed: Node) -> Node:
         """The time until a stop is reached, at most that of the step."""
         return minimum(STEP, maximum(distance, 0.0) / maximum(speed, SLOWEST))
 
-    def _impact(self, closing: Sequence[Node], sides: Sequence[Node]) -> tuple[dict[str, Node], dict[str, Node]]:
+    def _impact(self, closing: Sequence[Node]) -> tuple[dict[str, Node], dict[str, Node]]:
         """How far the impacts move the masses to the stops, and by how much they change their velocities."""
-        edges = [edge for edge, _ in self.stops]
+        edges, sides = [edge for edge, _ in self.stops], self._sides(closing)
         beyond, speeds = [], []
         for (edge, (rebound, compression)), side in zip(self.stops, sides, strict=True):
             way, speed = self._old(edge) - where(side > 0.0, compression, rebound), self._speed(edge)
@@ -159,7 +177,7 @@ class Impacting(Moving):
         if len(edges) > 1:
             first = self._allowed(held, speeds)
             pressed = [
-                (side != 0.0) & (side * (speed + self.difference(edge, lambda joint: first.get(joint, ZERO))) >= 0.0)
+                (side != 0.0) & (side * (speed + self.way(edge, first)) >= 0.0)
                 for edge, side, speed in zip(edges, sides, speeds, strict=True)
             ]
             held = [maximum(own, where(pressing, 1.0, 0.0)) for own, pressing in zip(held, pressed, strict=True)]
