@@ -14,7 +14,7 @@ RIGID = 1e14  # N/m: 1 kN presses it in by 0.01 nm
 
 
 class RigidStop(Element):
-    """Rigid stops at two places: F = 0 between ``rebound`` and ``compression``, any force at them, and nothing beyond.
+    """Rigid stops at two places that hold any force: F = 0 for rebound < x < compression.
 
     A mass that hits one stays there, without rebound, until a force pulls it off; its energy is lost at once. The
     impulse is no force and shows in none. With ``compression: 0 mm`` it is a rigid contact that may lift off. The
