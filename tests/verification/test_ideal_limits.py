@@ -13,6 +13,7 @@ from verification.truth.motion import smooth_motion
 
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
+from dashpot.kernel.energy import EnergyCounter
 from dashpot.kernel.solution import Status
 from dashpot.kernel.within import TOLERANCE, solve_within
 
@@ -254,3 +255,20 @@ def test_masses_in_a_row_keep_their_momentum(first, second, moved):
     common = 0.5 * pushing * 0.2 / sum(masses[name] for name in moved.split())
     for name, speed in speeds.items():
         assert speed == pytest.approx(common if name in moved.split() else 0.0, rel=1e-3, abs=1e-5)
+
+
+def test_what_impacts_take_is_missing_in_the_balance_of_energy():
+    # pushed by a load alone, a mass hits the floor with the energy that it was given, and once only
+    at, mass, pushing = times(0.6), 2.0, 10.0
+    push = np.where(at < 0.2, pushing * np.sin(np.pi * at / 0.2) ** 2, 0.0)
+    network = system(
+        f"{{base: driven, floor: ground, hub: {{mass: {mass} kg, hold: loaded}}}}",
+        "soft: {element: spring, stiffness: 1 N/m, between: [base, hub]}\n"
+        "stop: {element: rigid_stop, compression: 80 mm, between: [hub, floor]}",
+    )
+    run = excitation(at, {"base": smooth_motion(np.random.default_rng(0), 0.0, 0.0)}, loads={"hub": push})
+    balance = EnergyCounter.of(network.spec).balance(run, pairs=16)
+    given = (0.5 * pushing * 0.2) ** 2 / (2.0 * mass)
+    assert balance.put_in == pytest.approx(given, rel=1e-2)
+    assert balance.stored == pytest.approx(0.5 * 0.08**2, rel=1e-3)
+    assert balance.missing == pytest.approx(balance.put_in - balance.stored, rel=1e-6)

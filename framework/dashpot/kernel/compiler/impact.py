@@ -29,7 +29,7 @@ HIT = "impact|hit"  # row: 1.0 in a step with an impact
 SLOWEST = 1e-300  # m/s: no distance is divided by zero
 SHORTEST = 1e-9  # of the tolerance: a way that is rounding
 RIGIDITY = 1e7  # of a stop in an impact, over the masses of the network
-BEGIN, LEFT_WITH = "begin", "left_with"  # rows of a node: place and velocity after an impact at the begin of the step
+PLACE, SPEED = "place_after_impact", "velocity_after_impact"  # rows of a node, at the begin of a step
 
 Stop = tuple[Edge, tuple[Node, Node]]
 
@@ -83,7 +83,7 @@ class Impacting(Moving):
                 ("next", begin + STEP * left_with),
             ):
                 rows[row_of(joint, key)] = where(hit > 0.5, hitting, rows[row_of(joint, key)])
-            rows |= {row_of(joint, BEGIN): begin, row_of(joint, LEFT_WITH): left_with}
+            rows |= {row_of(joint, PLACE): begin, row_of(joint, SPEED): left_with}
         sides = zip(self.stops, self._sides(closing), strict=True)
         return rows | {_side(edge): side for (edge, _), side in sides} | {HIT: hit}
 
@@ -96,11 +96,11 @@ class Impacting(Moving):
     def commit(self) -> dict[str, Node]:
         rows = super().commit()
         for joint in self.unknown:
-            rows[row_of(joint, "position_before")] = symbol(row_of(joint, BEGIN))
-            rows[row_of(joint, "velocity_before")] = symbol(row_of(joint, LEFT_WITH))
+            rows[row_of(joint, "position_before")] = symbol(row_of(joint, PLACE))
+            rows[row_of(joint, "velocity_before")] = symbol(row_of(joint, SPEED))
             if self._heavy(joint):
                 own = rows[row_of(joint, "velocity")]
-                after = 2.0 * own - symbol(row_of(joint, LEFT_WITH))
+                after = 2.0 * own - symbol(row_of(joint, SPEED))
                 rows[row_of(joint, "velocity")] = where(symbol(HIT) > 0.5, after, own)
         for edge, ends in self.stops:
             side = symbol(_side(edge))
