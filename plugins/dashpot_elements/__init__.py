@@ -16,6 +16,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "signed_spring",
         "contact",
         "end_stop",
+        "rigid_stop",
         "clearance",
         "backlash",
         "gas_spring",

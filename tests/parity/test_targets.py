@@ -196,6 +196,34 @@ def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
     assert error(on_numba(monkeypatch, network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
 
 
+def test_every_target_catches_masses_at_rigid_stops(tmp_path, monkeypatch):
+    network = system(
+        "{base: driven, hub: {mass: 1 kg}, other: {mass: 0.4 kg}, wall: ground}",
+        """
+        leg: {element: maxwell, stiffness: 6 N/mm, relaxation_time: 5 ms, between: [base, hub]}
+        back: {element: spring, stiffness: 9 N/mm, between: [other, wall]}
+        rub: {element: ideal_coulomb, limit: 3 N, between: [hub, wall]}
+        one: {element: rigid_stop, compression: 1 mm, between: [hub, other]}
+        two: {element: rigid_stop, compression: 2 mm, rebound: -2 mm, between: [base, hub]}
+        """,
+    )
+    spec, values = network.spec, network.start
+    drive = along_cubics(
+        random_drive(np.random.default_rng(seed_of("rigid stops")), "multisine", 6e-3, 0.02, 300, 1e-3)
+    )
+    excitation = Excitation({"base": drive}, {}, {}, drive.dt, drive.samples, "run")
+    expected = network.solve(network.prepare(excitation))
+    assert expected.status == (Status.GOOD,)
+    # a stop of 1e14 N/m makes forces of the rounding of places
+    outputs, status = Library.build(spec, tmp_path).along([drive], values)
+    assert status == 0 and error(outputs[:, 0], expected.force[0, 0]) <= 1e-7
+    assert error(walked(spec, excitation, values)[:, 0], expected.force[0, 0]) <= 1e-7
+    monkeypatch.setenv("DASHPOT_BACKEND", "numba")
+    other = compile_network(spec)
+    found = other.solve(other.prepare(excitation), np.tile(values, (3, 1)))
+    assert error(found.force[:, 0], np.tile(expected.force[0, 0], (3, 1))) <= 1e-7
+
+
 WITHOUT_MEMORY = """
 format: dashpot-network/1
 name: plain

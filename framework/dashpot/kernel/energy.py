@@ -65,7 +65,9 @@ class EnergyBalance:
 
     @property
     def missing(self) -> float:
-        """The work put in that was done on no branch and no mass: what the time steps take away."""
+        """The work put in that was done on no branch and no mass: what the time steps take away, and impacts at rigid
+        stops; the work of an impulse that a driven node gives is not in ``put_in``.
+        """
         return self.put_in - sum(share.work for share in (*self.branches, *self.masses))
 
 

@@ -190,3 +190,10 @@ class Element(ABC):
         rates alone nothing; of other laws it is then not known.
         """
         return None
+
+    def stops(self, p: Any) -> tuple[Any, Any] | None:
+        """The deflections in m, rebound and compression, at which a rigid law stops a mass without any rebound.
+
+        None, the default: the law is not rigid. What stops a mass with a stiffness throws it back.
+        """
+        return None

@@ -356,3 +356,9 @@ def test_a_factor_that_makes_a_law_give_work():
 def test_a_factor_on_a_law_that_loses_work_at_every_instant(element):
     for factors in ("[3, 0.3]", "[0.3, 3]"):
         assert not weak(f"it: {{element: {element}, {FALLING.replace('[3, 0.3]', factors)}}}")
+
+
+def test_a_rigid_stop_is_depended_on_however_little_its_force_matters():
+    stop = "stop: {element: rigid_stop, compression: 2 mm, rebound: -2 mm, between: [b, c]}"
+    spring = "it: {element: spring, stiffness: 3 N/mm, between: [a, b]}"
+    assert not weak(f"{spring}\n{stop}", "{a: driven, b: {mass: 1 kg}, c: ground}")

@@ -167,4 +167,4 @@ def _traced(branch: Branch) -> str:
 @lru_cache(KEPT)
 def _law_text(build: _Build) -> str:
     traced = trace_along(build.parts, "path")
-    return f"{traced.name}: {write_graphs((traced.force, dict(traced.states)))}"
+    return f"{traced.name}: {write_graphs((traced.force, dict(traced.states), traced.stops or ()))}"

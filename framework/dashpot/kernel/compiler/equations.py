@@ -19,6 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dashpot.kernel.compiler.equilibrium import Still
+from dashpot.kernel.compiler.impact import Impacting, struck
 from dashpot.kernel.compiler.launch import Launch
 from dashpot.kernel.compiler.line_search import search
 from dashpot.kernel.compiler.mechanics import MOVED, NOTHING, RULE, Meter, Moving, Rows, driven_symbol
@@ -49,7 +50,8 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     still, launch = Still(topology, laws), Launch(topology, laws)
     # a meter adds up the work of steps whose ends tell all of it
     quick = multistep_fits(topology) and meter is None
-    moving = Multistep(topology, laws) if quick else Moving(topology, laws)
+    rule = Impacting if struck(topology, laws) else Multistep if quick else Moving
+    moving = rule(topology, laws)
     passes = {
         "start": still.start(),
         "settle": still.improve(),
@@ -63,8 +65,8 @@ def write_equations(topology: Topology, meter: Meter | None = None) -> Equations
     }
     if isinstance(moving, Multistep):
         known |= set(QUICK_RULE)
-        passes["rest"] |= moving.rest()
         passes |= {"turn": moving.turn(), "correct": moving.correct()}
+    passes["rest"] |= moving.rest()
     if meter:
         passes["rest"] |= meter.rest(still)
         passes["commit"] |= meter.commit(moving)

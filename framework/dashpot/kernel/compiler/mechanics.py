@@ -148,7 +148,7 @@ class Balance(ABC):
         # the last step, short where it was damped or the way far, should have come nearer by a part of its own length
         stalled = distance > before - NEARER * minimum(damping * before, FARTHEST)
         damped = where(stalled, maximum(0.5 * damping, SMALLEST_DAMPING), minimum(2.0 * damping, 1.0))
-        near = self.arrived(distance)
+        near = self.arrived(distance, ways)
         share = where(near, 1.0, minimum(damped, FARTHEST / maximum(distance, FARTHEST)))
         moves = {joint: where(done, 0.0, share * way) for joint, way in ways.items()}
         after = {row_of(joint, "next"): self._next(joint) + move for joint, move in moves.items()}
@@ -178,8 +178,8 @@ class Balance(ABC):
         """How a fixture holds what it carries."""
         return Mount(GIVES_WAY, -self._next(inner))
 
-    def arrived(self, distance: Node) -> Node:
-        """Whether Newton's method ends with a step of this distance.
+    def arrived(self, distance: Node, ways: Mapping[str, Node]) -> Node:
+        """Whether Newton's method ends with a step of this distance, the longest of the ``ways``.
 
         What is not a number is not far: such a lane is finished, and its forces tell.
         """
@@ -249,7 +249,12 @@ class Balance(ABC):
 class Moving(Balance):
     """One step."""
 
-    bend = SLOPE * SLOPE  # the change of an acceleration with the new position
+    slope, pull = SLOPE, SLOPE  # the change of a velocity with the new position, of an acceleration with the velocity
+
+    @property
+    def bend(self) -> Node:
+        """The change of an acceleration with the new position."""
+        return self.pull * self.slope
 
     def velocity(self, joint: str) -> Node:
         known = self.known(joint, "velocity_new")
@@ -257,10 +262,10 @@ class Moving(Balance):
 
     def _own_velocity(self, joint: str) -> Node:
         """That of an unknown node, against what carries it."""
-        return SLOPE * self._next(joint) + symbol(row_of(joint, "drift"))
+        return self.slope * self._next(joint) + symbol(row_of(joint, "drift"))
 
     def _own_acceleration(self, joint: str) -> Node:
-        return SLOPE * self._own_velocity(joint) + symbol(row_of(joint, "swing"))
+        return self.pull * self._own_velocity(joint) + symbol(row_of(joint, "swing"))
 
     def acceleration(self, joint: str) -> Node:
         """The acceleration of a node at the end of the step."""
@@ -283,11 +288,15 @@ class Moving(Balance):
         }
 
     def tangent(self, force: Node) -> Node:
-        rates = SLOPE * derive(force, "edge.velocity_new") + self.bend * derive(force, "edge.acceleration")
+        rates = self.slope * derive(force, "edge.velocity_new") + self.bend * derive(force, "edge.acceleration")
         return derive(force, "edge.new") + rates
 
     def inertia(self, joint: str) -> tuple[Node, Node]:
         return self.acceleration(joint), self.bend
+
+    def rest(self) -> dict[str, Node]:
+        """What else is known before the first step."""
+        return {}
 
     def predict(self) -> dict[str, Node]:
         """What the rule adds to the new velocity and acceleration, and where the nodes go with what they have."""
@@ -305,9 +314,9 @@ class Moving(Balance):
         bend = 0.5 * STEP * a if self.topology.joints[joint].masses else ZERO
         return x + STEP * (v + bend)
 
-    def arrived(self, distance: Node) -> Node:
+    def arrived(self, distance: Node, ways: Mapping[str, Node]) -> Node:
         # a search begins anew where steps led to what is no number, unless the first guess was none
-        return where(symbol(DISTANCE) >= NEVER, super().arrived(distance), distance <= TOLERANCE)
+        return where(symbol(DISTANCE) >= NEVER, super().arrived(distance, ways), distance <= TOLERANCE)
 
     def reached(self, moves: Mapping[str, Node]) -> dict[str, Node]:
         """Memories and measured forces at the end of the last move, by their tangents: it is within the tolerance.

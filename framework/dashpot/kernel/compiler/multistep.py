@@ -41,7 +41,7 @@ def multistep_fits(topology: Topology) -> bool:
 class Multistep(Moving):
     """One step by either rule."""
 
-    bend = PULL * SLOPE
+    pull = PULL
 
     def __init__(self, topology: Topology, laws: list[TracedBranch]) -> None:
         self.turning = {law.name for law in laws if law.states and rate_independent(law)}
@@ -50,9 +50,6 @@ class Multistep(Moving):
     def along(self, edge: Edge, law: Node) -> Node:
         since = {"edge.old": symbol(_since(edge)) + self.offset(edge)} if edge.branch.name in self.turning else {}
         return replaced(law, {**self.motion(edge), **since})
-
-    def _own_acceleration(self, joint: str) -> Node:
-        return PULL * self._own_velocity(joint) + symbol(row_of(joint, "swing"))
 
     def predict(self) -> dict[str, Node]:
         rows = super().predict()

@@ -23,12 +23,16 @@ RATES = ("velocity_old", "velocity_new", "acceleration")
 
 @dataclass(frozen=True)
 class TracedBranch:
-    """The law of one branch as graph nodes. ``states`` maps the symbol of a state to its new value."""
+    """The law of one branch as graph nodes. ``states`` maps the symbol of a state to its new value.
+
+    ``stops`` are the two deflections between which a rigid law is free to move; None for the others.
+    """
 
     name: str
     sight: Sight
     force: Node
     states: Mapping[str, Node]
+    stops: tuple[Node, Node] | None = None
 
     @property
     def roots(self) -> list[Node]:
@@ -106,9 +110,11 @@ def trace_along(branch: Branch, sight: Sight) -> TracedBranch:
         response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
         check_states(branch, response)
         force, answered = as_node(response.force), {states[k]: as_node(v) for k, v in response.states.items()}
+        stops = branch.element().stops(_parameters(branch))
     if branch.scale:
         force = force * _scale(branch, motion)
-    return TracedBranch(branch.name, sight, force, answered)
+    held = None if stops is None else (as_node(stops[0]), as_node(stops[1]))
+    return TracedBranch(branch.name, sight, force, answered, held)
 
 
 def trace_stored(branch: Branch, sight: Sight) -> Node | None:

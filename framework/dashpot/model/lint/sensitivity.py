@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from dashpot.model.element import Element
 from dashpot.model.lint.law import Array, Law, stand_in
 from dashpot.model.lint.outputs import Outputs
 from dashpot.model.lint.response import draw_trials
@@ -28,7 +29,7 @@ def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Pr
     idle = [
         edge.branch
         for k, edge in enumerate(topology.edges)
-        if np.any(outputs.answers[k].stiffness) and not _is_felt(outputs.share(k))
+        if np.any(outputs.answers[k].stiffness) and not _is_rigid(edge.branch) and not _is_felt(outputs.share(k))
     ]
     for branch in idle:
         yield Problem(
@@ -89,6 +90,11 @@ def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
         for slot in (*own, *bent)
         if slot.value.searched and slot.of is None and not slot.path.startswith(NOT_TRIED)
     )
+
+
+def _is_rigid(branch: Branch) -> bool:
+    """Whether a share more or less of the force changes nothing, as what is held does not move."""
+    return branch.element.stops is not Element.stops
 
 
 def _numbers(spec: NetworkSpec) -> dict[str, float]:
