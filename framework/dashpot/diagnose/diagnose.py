@@ -12,10 +12,8 @@ import numpy as np
 from dashpot.contract.cause import Cause
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
-from dashpot.data.correction import corrected_run
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
-from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
@@ -27,14 +25,13 @@ from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
-from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
-from dashpot.diagnose.single_runs import corrected, correction_of, faults_beside, names_of, put_right
+from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
+from dashpot.diagnose.single_runs import corrected, faults_beside, floor_of_corrected, names_of, put_right
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
-from dashpot.fit.floor import noise_floor
 from dashpot.fit.grounding import free_curves
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
@@ -86,13 +83,13 @@ def diagnose(
     groups = {run.name: run.cluster for run in triage.dataset.runs}
     sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
     searched = setting.train if spec.joints else subsampled(setting.train)
-    refitter = Refitter(searched, registry.elements, sensors, jobs)
+    refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     sound = {one.name: corrected(one, accused) for one in setting.train}
     runs = list(sound.values())
     if accused:
-        setting = replace(setting, floor=_floor_of_corrected(setting, accused))
+        setting = replace(setting, floor=floor_of_corrected(setting, accused))
     model = pursuit.best.model
     together = groups_of(runs, groups)
     final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)
@@ -165,16 +162,6 @@ def find_causes(
         if names_of(before) == names_of(accused):
             break
     return pursuit, accused
-
-
-def _floor_of_corrected(setting: Setting, accused: Sequence[Accused]) -> NoiseFloor:
-    """The noise floor of the training runs as the corrected dataset has them."""
-    dataset = setting.dataset.select(setting.split.train)
-    runs = [
-        corrected_run(run, correction) if (correction := correction_of(run.name, accused)) else run
-        for run in dataset.runs
-    ]
-    return noise_floor(replace(dataset, runs=tuple(runs)))
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:

@@ -25,6 +25,7 @@ from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursuit import Pursuit
+from dashpot.diagnose.single_runs import floor_of_corrected
 from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
@@ -244,7 +245,10 @@ class Findings:
 
     @property
     def _at_floor(self) -> bool:
-        return self._trained <= (1.0 + self.relevance) * (self.setting.floor.value or 0.0)
+        """Whether the error is no more than noise: what runs differ by beside one that stands alone."""
+        alone = self.leftover.run
+        floor = floor_of_corrected(self.setting, self.accused, alone) if alone else self.setting.floor
+        return self._trained <= (1.0 + self.relevance) * (floor.value or 0.0)
 
     @cached_property
     def explainable(self) -> Explainable:

@@ -35,9 +35,9 @@ class Leftover:
     """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
 
     ``what`` says how it shows, ``share`` how much of the square of the residual it is; of the residual in newtons where
-    it comes again in repeated runs or is a line, else of the whitened one. ``line`` says whether there is a notable
-    line in the spectrum. Repeated runs differ by it, so that a noise floor that comes from them holds it, but it is no
-    noise.
+    it comes again in repeated runs or is a line, else of the whitened one. ``run`` is the single run that it follows,
+    if it does. ``line`` says whether there is a notable line in the spectrum. Repeated runs differ by both, so that a
+    noise floor that comes from them holds these, but they are no noise.
     """
 
     score: float
@@ -45,6 +45,7 @@ class Leftover:
     what: str
     share: float = 0.0
     line: bool = False
+    run: str = ""
 
     def notable(self) -> bool:
         """Whether something is left that is both certain and not negligible beside the noise."""
@@ -120,21 +121,20 @@ def _inverse(gram: Array) -> Array:
 
 def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
     """Whether single runs have a gain, an offset or a drift of their own."""
-    found, count, samples = {}, 0, 0
+    alone, whole, count, samples = dict[tuple[str, str], float](), 0.0, 0, 0
     for run in records(refitter.runs):
         functions = single_functions(look.view, run.name)
         rows = look.measured_noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
         for name, row in zip(functions, rows, strict=True):
-            found[name] = float((row @ residual[run.name]) ** 2 / max(float(row @ row), 1e-300))
+            alone[name, run.name] = float((row @ residual[run.name]) ** 2 / max(float(row @ row), 1e-300))
         directions = np.linalg.svd(rows, full_matrices=False)[2]
-        found[f"run '{run.name}' alone"] = float(np.sum((directions @ residual[run.name]) ** 2))
+        whole += float(np.sum((directions @ residual[run.name]) ** 2))
         count, samples = count + len(rows), samples + residual[run.name].size
-    excess = sum(value for name, value in found.items() if name.startswith("run '")) - count
-    alone = {name: value for name, value in found.items() if not name.startswith("run '")}
-    if not found:
+    if not alone:
         return Leftover(0.0, 0.0, "is of no single run")
-    score = excess / float(np.sqrt(2.0 * count))
-    return Leftover(score, float(np.sqrt(max(excess, 0.0) / samples)), f"follows {max(alone, key=lambda k: alone[k])}")
+    excess, (name, at) = whole - count, max(alone, key=lambda key: alone[key])
+    score, size = excess / float(np.sqrt(2.0 * count)), float(np.sqrt(max(excess, 0.0) / samples))
+    return Leftover(score, size, f"follows {name}", run=at)
 
 
 def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> Leftover:

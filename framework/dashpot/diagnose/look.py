@@ -96,11 +96,13 @@ def look_at(
     rows = Rows(columns, refitter.jobs)
     alone, rich = noise, 0.0
     if noise is None:
-        lines = _shown_at_rest(causes, view, runs, plain)
-        left = {run.name: _beside_lines(columns.residual[run.name], lines[run.name]) for run in runs}
+        kinds = [fault for cause in causes for fault in cause().channel_faults(view)]
+        lines = _shapes([fault for fault in kinds if fault.evidence_of == "at_rest"], view, runs, plain)
+        left = {run.name: _beside_shapes(columns.residual[run.name], lines[run.name]) for run in runs}
         noise = weighed(searched_noise(left, plain, runs), columns.residual, runs)
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
-        alone, rich = recorded_noise(rows, grams.sum(axis=0), first, plain, runs, lines)
+        faults = _shapes(kinds, view, runs, plain)
+        alone, rich = recorded_noise(rows, grams.sum(axis=0), first, plain, runs, faults)
         alone = stated(alone, refitter.sensors, runs)
     else:
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
@@ -147,12 +149,11 @@ def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
     return np.concatenate([np.zeros(free), *(each * runs)])
 
 
-def _shown_at_rest(
-    causes: Sequence[type[Cause]], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
+def _shapes(
+    faults: Sequence[ChannelFault], view: ModelView, runs: Sequence[ScoredRun], noise: Noise
 ) -> dict[str, Array]:
-    """What faults that need no motion would add to each run (k, kept)."""
-    still = [fault for cause in causes for fault in cause().channel_faults(view) if fault.evidence_of == "at_rest"]
-    return {run.name: shapes_of(still, view, run, noise) for run in runs}
+    """What faults of the force channel would add to each run (k, kept) by itself."""
+    return {run.name: shapes_of(faults, view, run, noise) for run in runs}
 
 
 def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds, jobs: int) -> tuple[Array, Array, Array]:
@@ -180,7 +181,7 @@ def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds, jobs: int) -> 
     return grams, samples, squares
 
 
-def _beside_lines(signal: Array, shapes: Array) -> Array:
+def _beside_shapes(signal: Array, shapes: Array) -> Array:
     """A signal (kept,) less the shapes (k, kept) in it."""
     return signal - np.linalg.lstsq(shapes.T, signal, rcond=1e-9)[0] @ shapes
 
@@ -211,11 +212,11 @@ def recorded_noise(
     first: int,
     plain: Noise,
     runs: Sequence[ScoredRun],
-    lines: Mapping[str, Array],
+    faults: Mapping[str, Array],
 ) -> tuple[Noise, float]:
     """The noise of the records alone, an autoregressive model of what all columns together leave, and its RMS in N.
 
-    The residual is row ``first``, ``gram`` (c, c) that of all runs; the ``lines`` (k, kept) that a run may show at rest
+    The residual is row ``first``, ``gram`` (c, c) that of all runs; ``faults`` (k, kept) that a run may have by itself
     are no noise. What the columns take up of the noise itself is made up for by the degrees of freedom, where more than
     half of them are left.
     """
@@ -234,6 +235,6 @@ def recorded_noise(
         rests[run.name], residuals[run.name] = found[first] - strengths @ found, found[first].copy()
     left = 1.0 - used / sum(rest.size for rest in rests.values())
     freed = {run: rest / np.sqrt(left) for run, rest in rests.items()} if left > LEFT else residuals
-    noise = {run.name: _beside_lines(freed[run.name], lines[run.name]) for run in runs}
+    noise = {run.name: _beside_shapes(freed[run.name], faults[run.name]) for run in runs}
     filters = {run.name: learn_filter(noise[run.name], _smallest(run)) for run in runs}
     return replace(plain, filters=filters), float(np.sqrt(np.mean([np.mean(rest**2) for rest in noise.values()])))

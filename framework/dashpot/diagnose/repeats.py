@@ -6,7 +6,7 @@ A specimen answers the same motion alike but for a scatter from test to test, or
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds
 from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
 from dashpot.fit import alike
+from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -86,6 +87,18 @@ def repeats_of(refitter: Refitter, groups: Mapping[str, str]) -> list[Pair]:
                 if np.std(difference) < SAME_MOTION * np.std(one.drive.displacement):
                     found.append((one.name, other.name))
     return found
+
+
+def begun_together(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> list[ScoredRun]:
+    """The runs, of which repeats count from the same sample on: they are compared value by value.
+
+    The warm-up ends with a cycle, which noise tells to a few samples.
+    """
+    first: dict[tuple[str, str, int], int] = {}
+    for run in runs:
+        key = groups[run.name], run.end, run.force.size
+        first[key] = max(first.get(key, 0), run.first)
+    return [replace(run, first=first[groups[run.name], run.end, run.force.size]) for run in runs]
 
 
 def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, price: float, free: int = 0) -> list[Pair]:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from dashpot.data.correction import Correction
+from dashpot.data.correction import Correction, corrected_run
+from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import Kind
+from dashpot.fit.api import Setting
+from dashpot.fit.floor import noise_floor
 from dashpot.fit.scored import ScoredRun
 
 ROUNDS = 3  # of faults and fits; the same faults come back in the second one
@@ -64,3 +67,14 @@ def correction_of(run: str, accused: Sequence[Accused]) -> Correction | None:
     for one in (one for one in accused if one.run == run):
         found = found.then(one.correction) if found else one.correction
     return found
+
+
+def floor_of_corrected(setting: Setting, accused: Sequence[Accused], without: str = "") -> NoiseFloor:
+    """The noise floor of the training runs as the corrected dataset has them; one run may stay out."""
+    dataset = setting.dataset.select(setting.split.train)
+    runs = [
+        corrected_run(run, correction) if (correction := correction_of(run.name, accused)) else run
+        for run in dataset.runs
+        if run.name != without
+    ]
+    return noise_floor(replace(dataset, runs=tuple(runs)))

@@ -1,6 +1,7 @@
 """Faults of single runs: found where repeats or neighbours show them, never where a law could do the same."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +11,11 @@ from dashpot.contract.registry import load_registry
 from dashpot.data.run import Run
 from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
+from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.folds import folds_of
+from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.look import look_at
-from dashpot.diagnose.repeats import doubts, kinds_of, repeats_of
+from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
 from dashpot.diagnose.whitening import reduction
 from dashpot.fit.thinned import highest_frequency
 
@@ -97,6 +100,31 @@ def test_a_repeat_is_accused_where_it_stands_out_from_the_scatter_of_all_repeats
     found = set(examined(dataset(repeats=repeats, fault=fault)))
     assert {key for key in found if key[1] == "offset"} == accused
     assert not [key for key in found if key[1] == "drift"], "nothing moves during a run"
+
+
+def test_repeats_count_from_the_same_sample_on():
+    """Noise tells the end of a first cycle to a few samples; a run of another length is no repeat."""
+    made = bench(dataset(repeats=AGAIN))
+    runs = {run.name: run for run in made.refitter.runs}
+    runs |= {"again": replace(runs["again"], first=runs["a3_p8"].first + 3)}
+    runs |= {"a1_p5": replace(runs["a1_p5"], first=runs["a1_p5"].first + 1)}
+    found = {run.name: run for run in begun_together(list(runs.values()), made.groups)}
+    assert found["a3_p8"].first == found["again"].first == runs["again"].first
+    assert all(found[name].first == run.first for name, run in runs.items() if name not in {"a3_p8", "again"})
+    refitter = replace(made.refitter, runs=list(runs.values()))
+    assert not repeats_of(refitter, made.groups)
+    assert repeats_of(replace(refitter, runs=list(found.values())), made.groups) == [("a3_p8", "again")]
+
+
+@pytest.mark.parametrize(("alone", "at_floor"), [("", True), ("a1_p8", True), ("once_more", False)])
+def test_a_run_that_stands_alone_is_no_noise_though_its_repeat_differs(alone, at_floor):
+    """The floor of all repeats holds 15 % of the force of one run, by which the other two do not differ."""
+    repeats = {"again": "a1_p5", "once_more": "a3_p11"}
+    made = bench(dataset(repeats=repeats, fault={"once_more": lambda force: 1.15 * force}))
+    assert made.setting.floor.value > 5.0 * NOISE
+    left = Leftover(20.0, 0.5, "", run=alone)
+    found = SimpleNamespace(leftover=left, setting=made.setting, accused=(), relevance=0.0015, _trained=3.0 * NOISE)
+    assert Findings._at_floor.fget(found) == at_floor
 
 
 def test_a_difference_of_two_repeats_accuses_one_of_them():
