@@ -10,7 +10,6 @@ from dashpot.model.element import Element, Motion, Parameter, Response
 from dashpot.model.picture import Symbol
 
 OUT_OF_REACH = 1e3
-RIGID = 1e14  # N/m: 1 kN presses it in by 0.01 nm
 
 
 class RigidStop(Element):
@@ -40,9 +39,17 @@ class RigidStop(Element):
         default=-OUT_OF_REACH,
     )
 
+    rigidity = Parameter(
+        "N/m",
+        "force over how far it gives way: with 1e14 N/m 1 kN presses it in by 0.01 nm",
+        bounds=(1e12, 1e16),
+        symbol="k_r",
+        default=1e14,
+    )
+
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """What it takes to hold the ends at the stop that they are beyond."""
-        return Response(RIGID * (np.maximum(x.new - p.compression, 0.0) - np.maximum(p.rebound - x.new, 0.0)))
+        return Response(p.rigidity * (np.maximum(x.new - p.compression, 0.0) - np.maximum(p.rebound - x.new, 0.0)))
 
     def stops(self, p: Any) -> tuple[Any, Any]:
         """The two places."""
