@@ -38,7 +38,6 @@ class RigidStop(Element):
         symbol="x_r",
         default=-OUT_OF_REACH,
     )
-
     rigidity = Parameter(
         "N/m",
         "force over how far it gives way: with 1e14 N/m 1 kN presses it in by 0.01 nm",

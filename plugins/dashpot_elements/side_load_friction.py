@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from dashpot.model.element import Element, Motion, Parameter, Response, State
-from dashpot.model.picture import Symbol
+from dashpot.model.picture import Picture, Symbol
 
 SMALL = 1e-5
 
@@ -22,7 +22,7 @@ class SideLoadFriction(Element):
     limit that goes one way over the whole reach, give `dahl` a `scale`.
     """
 
-    picture = Symbol.SLIDER
+    picture: ClassVar[Picture] = Symbol.SLIDER
     source = "Dahl, AIAA J. 14 (1976) 1675, for the slider"
 
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
@@ -47,26 +47,25 @@ class SideLoadFriction(Element):
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Up to the middle, where the way crosses it, and on to the end."""
         turn = np.minimum(np.maximum(p.middle, np.minimum(x.old, x.new)), np.maximum(x.old, x.new))
-        force = _slide(z.force, x.old, turn, p)
-        force = _slide(force, turn, x.new, p)
+        force = self.slide(self.slide(z.force, x.old, turn, p), turn, x.new, p)
         return Response(force, force=force)
+
+    def slide(self, force: Any, old: Any, new: Any, p: Any) -> Any:
+        """The force after a way on one side of the middle, along which the limit is a straight line.
+
+        With y = ln(L_new/L_old)/(L_new - L_old) the mean of 1/L, what is left of the old force is
+        exp(-stiffness way y).
+        """
+        side = np.where(new < old, -1.0, 1.0)
+        way = np.abs(new - old)
+        before, after = (p.limit + p.growth * np.abs(place - p.middle) for place in (old, new))
+        rise = (after - before) / before
+        stretched = p.stiffness * way / before * _log1p_over(rise)
+        return np.exp(-stretched) * force + side * p.stiffness * way * after / before * _mean_fading(stretched, rise)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of the bristles, which bend as springs of the stiffness and slip for the rest of the way."""
         return 0.5 * z.force * z.force / p.stiffness
-
-
-def _slide(force: Any, old: Any, new: Any, p: Any) -> Any:
-    """The force after a way on one side of the middle, along which the limit is a straight line.
-
-    With y = ln(L_new/L_old)/(L_new - L_old) the mean of 1/L, what is left of the old force is exp(-stiffness way y).
-    """
-    side = np.where(new < old, -1.0, 1.0)
-    way = np.abs(new - old)
-    before, after = (p.limit + p.growth * np.abs(place - p.middle) for place in (old, new))
-    rise = (after - before) / before
-    stretched = p.stiffness * way / before * _log1p_over(rise)
-    return np.exp(-stretched) * force + side * p.stiffness * way * after / before * _mean_fading(stretched, rise)
 
 
 def _mean_fading(stretched: Any, rise: Any) -> Any:

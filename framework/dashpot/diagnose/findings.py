@@ -245,7 +245,7 @@ class Findings:
 
     @property
     def _at_floor(self) -> bool:
-        """Whether the error is no more than noise: what runs differ by beside one that stands alone."""
+        """Whether the error is within the noise floor; of the other runs, where what is left follows a single one."""
         alone = self.leftover.run
         floor = floor_of_corrected(self.setting, self.accused, alone) if alone else self.setting.floor
         return self._trained <= (1.0 + self.relevance) * (floor.value or 0.0)

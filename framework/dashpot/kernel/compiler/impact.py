@@ -21,7 +21,7 @@ import numpy as np
 from dashpot.expr.derive import derive
 from dashpot.expr.node import Node, maximum, minimum, symbol, where
 from dashpot.kernel.compiler.elimination import ZERO, solve_symmetric
-from dashpot.kernel.compiler.mechanics import KEPT, SLOPE, STEP, TOLERANCE, Moving, row_of
+from dashpot.kernel.compiler.mechanics import KEPT, SLOPE, STEP, TOLERANCE, Moving, join, row_of
 from dashpot.kernel.compiler.trace import TracedBranch
 from dashpot.model.topology import Edge, Topology
 
@@ -189,24 +189,14 @@ class Impacting(Moving):
         sides = dict.fromkeys(self.free, ZERO)
         whole = sum((self.mass(joint) for joint in self.free), ZERO)
         for edge, law in zip(self.topology.edges, self.laws, strict=True):
-            _join(rows, edge, SLOPE * SLOPE * self.along(edge, derive(law.force, "edge.acceleration")))
+            join(rows, edge, SLOPE * SLOPE * self.along(edge, derive(law.force, "edge.acceleration")))
         for (edge, _), own, gap in zip(self.stops, held, beyond, strict=True):
             rigidity = RIGIDITY * SLOPE * SLOPE * whole * own
-            _join(rows, edge, rigidity)
+            join(rows, edge, rigidity)
             for joint, sign in ((edge.lower, -1.0), (edge.upper, 1.0)):
                 if joint in sides:
                     sides[joint] = sides[joint] + sign * rigidity * gap
         return solve_symmetric(rows, sides)
-
-
-def _join(rows: dict[str, dict[str, Node]], edge: Edge, stiffness: Node) -> None:
-    """Add the stiffness of an edge to a matrix of some nodes; the others are held."""
-    ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
-    for joint in ends:
-        rows[joint][joint] = rows[joint][joint] + stiffness
-    if len(ends) == 2:
-        for one, other in (ends, ends[::-1]):
-            rows[one][other] = rows[one].get(other, ZERO) - stiffness
 
 
 def _side(edge: Edge) -> str:

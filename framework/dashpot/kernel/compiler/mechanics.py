@@ -210,12 +210,7 @@ class Balance(ABC):
             mass = self.mass(joint)
             rows[joint][joint] = ZERO if mass is ZERO else mass * self.inertia(joint)[1]
         for edge, tangent in zip(self.topology.edges, tangents, strict=True):
-            ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
-            for joint in ends:
-                rows[joint][joint] = rows[joint][joint] + tangent
-            if len(ends) == 2:
-                for one, other in (ends, ends[::-1]):
-                    rows[one][other] = rows[one].get(other, ZERO) - tangent
+            join(rows, edge, tangent)
         return rows
 
     def difference(self, edge: Edge, of: Callable[[str], Node]) -> Node:
@@ -349,3 +344,13 @@ class Moving(Balance):
                 row_of(joint, "velocity_before"): symbol(row_of(joint, "velocity")),
             }
         return rows
+
+
+def join(rows: dict[str, dict[str, Node]], edge: Edge, stiffness: Node) -> None:
+    """Add the stiffness of an edge to a matrix of some nodes; the others are held."""
+    ends = [joint for joint in (edge.lower, edge.upper) if joint in rows]
+    for joint in ends:
+        rows[joint][joint] = rows[joint][joint] + stiffness
+    if len(ends) == 2:
+        for one, other in (ends, ends[::-1]):
+            rows[one][other] = rows[one].get(other, ZERO) - stiffness
