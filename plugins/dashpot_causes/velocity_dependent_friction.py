@@ -16,6 +16,7 @@ UNITS = {
     "creep_velocity": "m/s",
     "decay": "1",
     "exponent": "1",
+    "bristle_damping": "N*s/m",
 }
 TRAVELS = (1e-3, 8e-3, 6e-2, 0.3)  # of the stroke
 SPEEDS = (8e-3, 4e-2, 0.2)  # of the largest speed
@@ -40,15 +41,19 @@ class VelocityDependentFriction(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A slider whose breakaway force is a multiple of its sliding force, over Stribeck speeds.
 
-        It yields over travels, or, without pre-sliding, over creep velocities.
+        It yields over travels, with damped bristles as well (LuGre), or, without pre-sliding, over creep velocities.
         """
         yields = [(t * view.stroke, s * view.speed) for t, s in product(TRAVELS, SPEEDS)]
-        yield _falling(
-            "stribeck",
-            yields,
-            lambda limit, travel: {"stiffness": RATIO * limit / travel, "decay": 2.0, "exponent": 1.0},
-            unknowns=5,
-        )
+
+        def bristles(limit: float, travel: float) -> dict[str, float]:
+            return {"stiffness": RATIO * limit / travel, "decay": 2.0, "exponent": 1.0}
+
+        def damped(limit: float, travel: float) -> dict[str, float]:
+            # at the largest speed unbent bristles resist as much as sliding does at none
+            return {**bristles(limit, travel), "bristle_damping": RATIO * limit / view.speed}
+
+        yield _falling("stribeck", yields, bristles, unknowns=5)
+        yield _falling("stribeck", yields, damped, unknowns=6, form="LuGre")
         creeps = [(c * view.speed, s * view.speed) for c, s in product(CREEPS, SPEEDS)]
         yield _falling(
             "stribeck_curve",
@@ -65,6 +70,7 @@ def _falling(
     rest: Callable[[float, float], Mapping[str, float]],
     unknowns: int,
     bounds: Mapping[str, Pair] = NOTHING,
+    form: str = "",
 ) -> Suspect:
     return added_branch(
         element,
@@ -80,4 +86,5 @@ def _falling(
         unknowns=unknowns,
         bounds=bounds,
         admits=lambda found: found["breakaway"] > FALLS * found["limit"],
+        form=form,
     )

@@ -20,14 +20,15 @@ class Stribeck(Element):
     """A Dahl slider whose limit L falls with speed: dF/dx = stiffness |u|^exponent sgn(u), u = 1 - F/L sgn(v),
     L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
 
-    A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent.
+    A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent. With bristle_damping,
+    which adds bristle_damping u^exponent v while F is below the limit, this is the LuGre model.
 
     The limit is frozen over a step at the mean speed; within the step the path may turn once or twice. Second order in
     the step.
     """
 
     picture = Symbol.SLIDER
-    source = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, for the limit"
+    source = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419"
     exact = False
 
     stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
@@ -38,7 +39,15 @@ class Stribeck(Element):
     exponent = Parameter(
         "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
     )
-    force = State("N", "friction force")
+    bristle_damping = Parameter(
+        "N*s/m",
+        "damping of bristles that bend",
+        bounds=(0.0, 1e6),
+        scale="linear",
+        symbol="sigma_1",
+        default=0.0,
+    )
+    force = State("N", "force of the bent bristles")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Piece by piece between the places where the path turns."""
@@ -48,7 +57,7 @@ class Stribeck(Element):
         force = z.force
         for travel in travels:
             force = _slide(force, dt * travel, limit, p)
-        return Response(force, force=force)
+        return Response(force + _damped(force, x.velocity_new, p), force=force)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of the bristles, which bend as springs of the stiffness and slip for the rest of the way."""
@@ -66,6 +75,12 @@ def _slide(force: Any, travel: Any, limit: Any, p: Any) -> Any:
     distance = 1.0 - side * force / limit
     left = np.where(distance < 0.0, distance * np.exp(-way), approach(distance, way, p.exponent))
     return side * limit * (1.0 - left)
+
+
+def _damped(force: Any, velocity: Any, p: Any) -> Any:
+    """What the bristles resist while they bend; nothing from those that a limit which fell lets go."""
+    distance = 1.0 - np.where(velocity < 0.0, -force, force) / _limit(np.abs(velocity), p)
+    return p.bristle_damping * velocity * np.exp(p.exponent * np.log(np.maximum(distance, TINY)))
 
 
 @dataclass(frozen=True)

@@ -126,6 +126,18 @@ def lip_seal(motion: Motion, state: State) -> Array:
     return np.where(motion.velocity > 0.0, 55.0, 20.0) * np.tanh(motion.velocity / 1e-3)
 
 
+def rod_seal(motion: Motion, state: State) -> Array:
+    """Bristles of 250 N/mm and 100 N s/m that bend up to 60 N at rest and 35 N at speed (Canudas de Wit et al. 1995)."""
+    bent, found, part = 0.0, [], STEP / 8.0
+    for velocity in motion.velocity:
+        level = 35.0 + 25.0 * np.exp(-((velocity / 0.03) ** 2))
+        for _ in range(8):
+            before = bent
+            bent = (before + part * velocity) / (1.0 + part * 250e3 * abs(velocity) / level)
+        found.append(250e3 * bent + 100.0 * (bent - before) / part)
+    return np.array(found)
+
+
 def side_load(motion: Motion, state: State) -> Array:
     """Friction of a rod that is bent to both sides of the middle."""
     return (10.0 + 9e3 * np.abs(motion.displacement - 10e-3)) * np.tanh(motion.velocity / 1e-3)
@@ -224,6 +236,7 @@ CASES = [
     Case("end_stop", limit_strap),
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("friction", lip_seal),
+    Case("velocity_dependent_friction", rod_seal),
     Case("load_dependent_friction", side_load),
     Case("load_dependent_friction", leaves),
     Case("preload_dependent_damping", growing_contact),

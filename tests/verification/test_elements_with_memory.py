@@ -10,6 +10,7 @@ from verification.truth.elements import (
     absorber_pull,
     absorber_rate,
     bouc_wen_rate,
+    bristles,
     hydro_rate,
     integrate,
     stribeck_rate,
@@ -137,6 +138,20 @@ def test_a_stribeck_slider_is_of_second_order_in_the_step(state):
         expected = integrate(stribeck_rate(speed, *numbers.values()), [0.0], time, TURNS)[0]
         errors.append(relative(found, expected))
     state(f"stribeck at 1, 0.5, 0.25 ms: {', '.join(f'{error:.1e}' for error in errors)} of the largest force")
+    assert np.all(orders(errors) > 1.7)
+    assert errors[0] < 2e-3
+
+
+def test_damped_bristles_are_those_of_the_lugre_model(state):
+    numbers, errors = {"stiffness": 6e4, "limit": 10.0, "breakaway": 25.0, "stribeck_velocity": 0.02}, []
+    for dt in (1e-3, 0.5e-3, 0.25e-3):
+        time, found = march("stribeck", dt, **numbers, bristle_damping=200.0)
+        rate = stribeck_rate(speed, *numbers.values())
+        bent = integrate(rate, [0.0], time, TURNS)[0]
+        expected = bristles(rate, time, bent, numbers["stiffness"], 200.0, speed(time))
+        assert np.max(expected - bent) > 0.2 * np.max(bent)
+        errors.append(relative(found, expected))
+    state(f"LuGre at 1, 0.5, 0.25 ms: {', '.join(f'{error:.1e}' for error in errors)} of the largest force")
     assert np.all(orders(errors) > 1.7)
     assert errors[0] < 2e-3
 

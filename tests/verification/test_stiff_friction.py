@@ -71,10 +71,11 @@ def test_random_networks_are_solved(draw):
         assert network.solve(run).status == (Status.GOOD,), f"{nodes}\n{branches}"
 
 
-def test_the_force_of_friction_that_falls_with_speed_has_no_jump_where_the_path_begins_to_turn():
+@pytest.mark.parametrize("damping", [0.0, 500.0])
+def test_the_force_of_friction_that_falls_with_speed_has_no_jump_where_the_path_begins_to_turn(damping):
     # a step over which the path may turn once, twice or not at all, as its last velocity says
     law, numbers = Stribeck(), {"stiffness": 2e5, "limit": 40.0, "breakaway": 60.0, "stribeck_velocity": 0.01}
-    parameters = SimpleNamespace(**numbers, decay=2.0, exponent=1.0)
+    parameters = SimpleNamespace(**numbers, decay=2.0, exponent=1.0, bristle_damping=damping)
     rng, widest = np.random.default_rng(seed_of("paths that turn")), {}
     begins, rises = rng.uniform(-0.05, 0.05, (2, 50, 1))
     for count in (1_000, 16_000):

@@ -121,9 +121,8 @@ def linearised(
     inside: Inside | None,
     candidates: Sequence[Candidate],
     faults: Sequence[ChannelFault],
-    with_forces: bool,
 ) -> Columns:
-    """The columns of a model and of candidates beside it; what each term adds only ``with_forces``."""
+    """The columns of a model and of candidates beside it; what each term adds only where there are candidates."""
     runs = refitter.runs
     steps = {run.name: step_of(run, view.highest_frequency) for run in runs}
     plain = Noise(steps).with_white({run.name: 1.0 for run in runs})
@@ -139,7 +138,7 @@ def linearised(
         base=base,
         bends=bends_of_tables(runs, view, model.fitted),
         faults=faults,
-        forces=refitter.term_forces(model) if with_forces else [],
+        forces=refitter.term_forces(model) if candidates else [],
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
         unseen=not_shown(candidates, view, runs),

@@ -19,7 +19,7 @@ from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import Look, look_settled
+from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import known, polished
 from dashpot.diagnose.pursue import Pursuer
@@ -138,14 +138,12 @@ def find_causes(
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
     folds = folds_with_rows(refitter.runs, groups)
-    first = look_settled(refitter, model, causes, folds)
-    kinds = kinds_of(causes, first)
     recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
-    doubted = doubts(recorded, first, kinds, groups) if recorded.runs else []
+    seen = look_at(refitter, model, (), folds)
+    kinds = kinds_of(causes, seen)
+    doubted = doubts(recorded, seen, kinds, groups) if recorded.runs else []
     pairs = repeats_of(refitter, groups)
-    pursuer = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted, None if doubted else first)
-    del first  # a look is large
-    pursuit = pursuer.run(model)
+    pursuit = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted).run(model)
     if not recorded.runs:
         return pursuit, []
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}

@@ -69,7 +69,8 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
     if found.score <= SIGNIFICANT:
         return found
     if found.what == AGAIN:
-        return replace(found, share=_repeated(plain, pairs))
+        recorded = {run.name: plain[run.name] for run in records(refitter.runs)}
+        return replace(found, share=_structured(recorded, pairs))
     if found.what == line.what:
         return replace(found, share=found.size**2 / (1.0 + found.size**2))
     whole = np.concatenate(list(residual.values()))
@@ -145,11 +146,20 @@ def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> 
     return Leftover(total / np.sqrt(samples), float(np.sqrt(max(total, 0.0) / samples)), AGAIN)
 
 
-def _repeated(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> float:
-    """The share of the square of the residual (kept,) of repeated runs that is the same in both: its covariance."""
+def _structured(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> float:
+    """The share of the square of residuals (kept,) by run that is structure, where repeats agree about some.
+
+    Of repeated runs it is what is the same in both, their covariance, of the others what is more than the noise by
+    which repeats differ.
+    """
     both = [(residual[one], residual[other]) for one, other in pairs]
+    noise = 0.5 * float(np.mean(np.concatenate([one - other for one, other in both]) ** 2))
     squares = sum(0.5 * float(one @ one + other @ other) for one, other in both)
-    return float(np.clip(sum(float(one @ other) for one, other in both) / squares, 0.0, 1.0))
+    again = max(sum(float(one @ other) for one, other in both) / squares, 0.0)
+    repeated = {run for pair in pairs for run in pair}
+    whole = {run: float(found @ found) for run, found in residual.items()}
+    beyond = {run: max(whole[run] - noise * found.size, 0.0) for run, found in residual.items()}
+    return sum(again * whole[run] if run in repeated else beyond[run] for run in residual) / sum(whole.values())
 
 
 def _line(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:

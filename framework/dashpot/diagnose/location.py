@@ -82,10 +82,10 @@ def gather_candidates(
     return found, tuple(dict.fromkeys(unavailable))
 
 
-def renumbered(candidates: Sequence[Candidate], causes: Sequence[type[Cause]]) -> list[Candidate]:
-    """The candidates of some of the causes, their columns one behind the other."""
+def of_names(candidates: Sequence[Candidate], names: Collection[tuple[str, str]]) -> list[Candidate]:
+    """The candidates of some causes where they are, their columns one behind the other."""
     found, first = [], 0
-    for candidate in (candidate for candidate in candidates if candidate.cause in causes):
+    for candidate in (candidate for candidate in candidates if candidate.name in names):
         found.append(replace(candidate, columns=slice(first, first + len(candidate.suspect.grid))))
         first = found[-1].columns.stop
     return found

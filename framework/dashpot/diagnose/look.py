@@ -18,7 +18,7 @@ from dashpot.diagnose.columns import Layout, Rows, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
-from dashpot.diagnose.location import gather_candidates, locations_of, renumbered
+from dashpot.diagnose.location import gather_candidates, locations_of
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import moved, records, stated, weighed
 from dashpot.diagnose.term import Model
@@ -80,16 +80,16 @@ def look_at(
     """Linearise a model on the training runs; without a ``noise`` that of each run is learnt.
 
     ``folds`` say which parts of the runs are left out together. Without ``causes`` only the model itself is seen. Each
-    run may have the ``doubted`` faults, as large as repeats differ. The candidates may be ``known`` from an earlier
-    look.
+    run may have the ``doubted`` faults, as large as repeats differ. In place of all candidates of the causes some may
+    be ``known``.
     """
     runs, view = refitter.runs, view_of(model.fitted, moved(refitter.runs), refitter.elements, refitter.jobs)
     inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
     if known is None:
         candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside), refitter.sheet)
     else:
-        candidates, unavailable = renumbered(known, causes), ()
-    columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted], bool(causes))
+        candidates, unavailable = list(known), ()
+    columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted])
     layout, free, plain = columns.layout, columns.free, columns.plain
     precision = _known_beforehand(free, doubted, len(runs))
     first = precision.size  # columns in front, which are projected out
@@ -133,14 +133,20 @@ def look_at(
 
 
 def look_settled(
-    refitter: Refitter, model: Model, causes: Sequence[type[Cause]], folds: Folds, doubted: Sequence[Doubt] = ()
+    refitter: Refitter,
+    model: Model,
+    causes: Sequence[type[Cause]],
+    folds: Folds,
+    doubted: Sequence[Doubt] = (),
+    known: Sequence[Candidate] | None = None,
 ) -> Look:
     """Linearise a model after a refit under the noise that it leaves.
 
     Structures are compared at their own optimum only: beside it the linear step promises what a refit does not keep.
     """
     noise = look_at(refitter, model, (), folds, doubted=doubted).noise
-    return look_at(refitter, refitter.refit(model, model.terms, noise), causes, folds, doubted=doubted)
+    settled = refitter.refit(model, model.terms, noise)
+    return look_at(refitter, settled, causes, folds, doubted=doubted, known=known)
 
 
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:

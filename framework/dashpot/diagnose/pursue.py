@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
+from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Doubt, Look, look_at, look_settled
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.refit import Refitter
@@ -36,8 +37,8 @@ DRAWS = 200
 class Pursuer:
     """What the steps of a pursuit share.
 
-    ``looked`` is the first look where there is one, let go when it is used; ``looks`` counts them, and ``ended`` says
-    whether the search came to its end.
+    ``looked`` is the look to go on from, let go when it is used; ``looks`` counts them, and ``ended`` says whether the
+    search came to its end.
     """
 
     refitter: Refitter
@@ -47,14 +48,14 @@ class Pursuer:
     seed: int
     watch: Callable[[int, int], None] = lambda looks, terms: None
     doubted: Sequence[Doubt] = ()
-    looked: Look | None = None
-    refused: list[tuple[Term, str]] = field(default_factory=list)
-    looks: int = 0
-    ended: bool = False
+    looked: Look | None = field(default=None, init=False)
+    refused: list[tuple[Term, str]] = field(default_factory=list, init=False)
+    looks: int = field(default=0, init=False)
+    ended: bool = field(default=False, init=False)
 
     def run(self, model: Model) -> Pursuit:
         """Search from a fitted model until no refitted structure scores better, then let go what is not needed."""
-        self.looked = self.looked or self.look(model)
+        self.looked = self.look(model)
         seen: set[frozenset[object]] = set()
         while True:
             look, present, without, others = self.local_optimum(seen)
@@ -63,7 +64,7 @@ class Pursuer:
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
-            self.looked = self._next_look(fresh, present) if self.ended else None
+            self.looked = self._next_look(look, fresh, present) if self.ended else None
             if self.looked is None:
                 weights = self.weights(len(look.folds.names))
                 found = (present, look, model, without, rivals, tuple(others), weights)
@@ -101,23 +102,25 @@ class Pursuer:
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
             del scores
-            onward = self._next_look(trials, present)
+            onward = self._next_look(look, trials, present)
             self.ended, look = onward is None, onward or look
         return look, trials
 
-    def _next_look(self, trials: Iterable[Scored], present: Scored) -> Look | None:
-        """The look at the best of some structures than the present one, under the noise of the look at either.
+    def _next_look(self, look: Look, trials: Iterable[Scored], present: Scored) -> Look | None:
+        """The look at the best of some structures than the present one, under the noise that either leaves.
 
         Under each of them both are refitted, and the terms keep their evidence.
         """
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
-                scores = Scores(self.look(trial.model))
+                known = of_names(look.candidates, (*trial.model.names, *present.model.names))
+                settled = look_settled(self.refitter, trial.model, self.causes, self.folds, self.doubted, known)
+                scores, odds = Scores(settled), Odds(look.layout.bank)
                 if any(self._lacking(scores)):
                     continue
-                before = self.scored(scores.look, self.refitted_under(scores.look, present.model), scores.odds)
-                if self._better(scored_by(scores, scores.odds), before):
-                    return scores.look
+                before = self.scored(settled, self.refitted_under(settled, present.model), odds)
+                if self._better(scored_by(scores, odds), before):
+                    return look_at(self.refitter, settled.model, self.causes, self.folds, doubted=self.doubted)
         return None
 
     def look(self, model: Model) -> Look:
@@ -138,10 +141,9 @@ class Pursuer:
         return scored_by(self.scores_of(look, model), odds)
 
     def scores_of(self, look: Look, model: Model) -> Scores:
-        """A fitted model under the noise of a look, with the forms of its own causes only."""
-        causes = list(dict.fromkeys(term.cause for term in model.terms))
-        known = look.candidates
-        return Scores(look_at(self.refitter, model, causes, self.folds, look.noise, self.doubted, known))
+        """A fitted model under the noise of a look, with the forms of its own causes where they are."""
+        known = of_names(look.candidates, model.names)
+        return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
 
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted.

@@ -66,6 +66,12 @@ def stribeck_rate(speed, stiffness, limit, breakaway, stribeck_velocity) -> Rate
     return rate
 
 
+def bristles(rate: Rate, time, bent, stiffness, damping, speeds) -> np.ndarray:
+    """The force (n,) of ``bent`` bristles with damping, sigma_0 z + sigma_1 dz/dt; none while they are let go."""
+    bending = np.array([rate(t, force) for t, force in zip(time, bent, strict=True)]) / stiffness
+    return bent + damping * np.where(bending * speeds > 0.0, bending, 0.0)
+
+
 def bouc_wen_rate(speed, a, beta, gamma, exponent) -> Rate:
     """z' = A x' - beta |x'| |z|^(n - 1) z - gamma x' |z|^n."""
 
