@@ -127,7 +127,7 @@ def lip_seal(motion: Motion, state: State) -> Array:
 
 
 def rod_seal(motion: Motion, state: State) -> Array:
-    """Bristles of 250 N/mm and 100 N s/m that bend up to 60 N at rest and 35 N at speed (Canudas de Wit et al. 1995)."""
+    """Bristles of 250 N/mm and 100 N s/m that bend up to 60 N at rest and 35 N at speed (LuGre)."""
     bent, found, part = 0.0, [], STEP / 8.0
     for velocity in motion.velocity:
         level = 35.0 + 25.0 * np.exp(-((velocity / 0.03) ** 2))

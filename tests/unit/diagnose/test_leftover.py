@@ -45,6 +45,26 @@ def test_the_share_of_a_structure_that_comes_again_is_that_of_the_squares_in_new
     assert found.share == pytest.approx(alike, abs=0.1)  # noises of two runs are alike by chance, too
 
 
+def test_structure_is_told_of_all_runs_and_not_of_the_repeated_ones_alone():
+    """Most of it is in runs that were not repeated; the noise is the same in all of them."""
+    names = [*MOTIONS, *AGAIN]
+    structure = {name: coloured(7 + k, 2.0 * STRUCTURE, 0.8) for k, name in enumerate(names)}
+    structure |= {new: structure[old] / 2.0 for new, old in AGAIN.items()}
+    structure |= {old: structure[new] for new, old in AGAIN.items()}
+    noise = {name: coloured(100 + k, NOISE, 0.0) for k, name in enumerate(names)}
+    fault = {name: lambda force, name=name: force + structure[name] + noise[name] for name in names}
+    made = bench(dataset(repeats=AGAIN, fault=fault, noise=0.01))
+    look = look_at(made.refitter, made.model, causes("friction"), folds_of(made.refitter.runs, made.groups))
+    found = look_for_leftover(made.refitter, look, repeats_of(made.refitter, made.groups))
+    step = reduction(STEP, highest_frequency(made.refitter.runs))
+    squares = [
+        sum(float(np.sum(_means(signal, step) ** 2)) for signal in signals)
+        for signals in (structure.values(), (structure[name] + noise[name] for name in names))
+    ]
+    assert found.what == "comes again in repeated runs"
+    assert found.share == pytest.approx(squares[0] / squares[1], abs=0.1)
+
+
 def test_an_undriven_line_is_no_noise_though_repeats_differ_by_it():
     """A pump at 37 Hz, of its own phase in every run: the noise floor from repeats holds it."""
     phases = {name: 1.0 + number for number, name in enumerate([*MOTIONS, *AGAIN])}
