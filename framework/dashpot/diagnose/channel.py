@@ -26,6 +26,7 @@ from dashpot.diagnose.faults_beside import FaultsBeside
 from dashpot.diagnose.look import Doubt, Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import (
+    SAME_MOTION,
     Key,
     Kind,
     Pair,
@@ -42,7 +43,6 @@ from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]
 
-SLACK = 0.02  # of the range of a condition, or of its size where that is larger: alike, as repeats are
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 
 
@@ -313,7 +313,7 @@ def covers(others: Sequence[Run], run: Run) -> bool:
     table = np.array([[one[word] for word in words] for one in known])
     aim = np.array([asked[word] for word in words])
     sizes = np.array([asked["stroke"] if word == "mean deflection" else abs(asked[word]) for word in words])
-    slack = SLACK * np.maximum(np.ptp(table, axis=0), sizes)
+    slack = SAME_MOTION * np.maximum(np.ptp(table, axis=0), sizes)
     slack[slack == 0.0] = 1.0
     rows = (table / slack).T
     within = np.concatenate([rows, -rows])

@@ -16,6 +16,7 @@ from dashpot.compare.signals import signal_evidence
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import told
 from dashpot.diagnose.findings import Findings
+from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
 from dashpot.diagnose.named import STANDINGS, NamedCause, slots_of
@@ -23,8 +24,6 @@ from dashpot.diagnose.next_run import measurement_between
 from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
 from dashpot.triage.fault import Fault
-
-FAR_ABOVE = 1.1  # times the error that another model comes to: a model is not explained
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +127,7 @@ class Diagnosis(Findings):
 
     @property
     def _far_above_attainable(self) -> bool:
-        return self._unseen > FAR_ABOVE * self._attainable
+        return self._unseen > (1.0 + FORM_ERROR) * self._attainable
 
     # the result
 

@@ -19,7 +19,6 @@ AGREE = 1.0 / 3.0  # of a strength: how far those of single runs may scatter abo
 FADED = 0.1  # of a record at each end, of which its Hilbert transform knows one side only
 FLAT = 0.5  # of the rise of the force: beyond its range a channel rises by less
 DECADES, INTERVAL = 2.0, 1.96  # of a number that nothing tells; of a normal distribution, 95 %
-ZERO = 2.0  # standard errors
 FEWEST_PEAKS = 2  # excursions that end at the same value: it comes again
 
 
@@ -153,7 +152,7 @@ def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     rest = [other for other in model.terms if other is not term]
     free = refitter.forces(refitter.without(model, rest))
     noise = np.sqrt(np.mean([np.mean((run.force - free[run.name]) ** 2) for run in refitter.runs]))
-    if any(abs(level) < ZERO * noise for level in limits.values()):
+    if any(abs(level) < INTERVAL * noise for level in limits.values()):
         return False
     found, peaks = [], 0
     for word, level in limits.items():

@@ -19,7 +19,6 @@ from dashpot.diagnose.term import Model
 Array = NDArray[np.float64]
 
 RIDGE = 1e-9
-REACH = 1.0  # natural sizes (a factor of e) by which the linear step may move a number
 ROOM = 100e6  # bytes of what is known beside structures of which terms are gone
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
@@ -55,7 +54,7 @@ class Beside:
     def unlikely(self, strengths: Array) -> float:
         """How unlikely a combination (c,) of the columns is beforehand, in nats."""
         in_front = self.precision @ (self.moves @ strengths) ** 2
-        numbers = np.sum((strengths[1 : 1 + self.tangents] / REACH) ** 2)
+        numbers = np.sum(strengths[1 : 1 + self.tangents] ** 2)  # one natural size is their standard deviation
         return 0.5 * float(in_front + numbers) + self.occam
 
 
@@ -97,7 +96,7 @@ class Front:
         squares = np.diag(gram).copy()
         gram += moves.T @ (precision[:, None] * moves)
         numbers = range(1, 1 + self.tangents)
-        gram[numbers, numbers] += REACH**-2.0
+        gram[numbers, numbers] += 1.0
         scale = np.sqrt(np.maximum(self.beside().squares if gone else squares, 1e-300))
         gram /= np.outer(scale, scale)
         base = self.base_moves[:, first:] - self.base_moves[:, kept] @ moves

@@ -16,19 +16,18 @@ from dashpot.diagnose.term import Term
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.sites import Site
 
-MORE_LIKELY = 0.5  # than not: probability from which on a cause is probable
 STANDINGS = ("accepted", "probable", "resembles")
 
 
 def standing_of(presence: float) -> str:
     """What is said of a cause: ``accepted``, ``probable``, or that the force ``resembles`` it.
 
-    Accepted is what has a probability of NAMED and more: of ten names nine are to be right. What resembles a cause
-    describes a part of the force, and its cause is open.
+    Accepted is what has a probability of NAMED and more: of ten names nine are to be right. Probable is what is more
+    likely than not. What resembles a cause describes a part of the force, and its cause is open.
     """
     if presence >= NAMED:
         return "accepted"
-    return "probable" if presence > MORE_LIKELY else "resembles"
+    return "probable" if presence > 1.0 - presence else "resembles"
 
 
 @dataclass(frozen=True, eq=False)

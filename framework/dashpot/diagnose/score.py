@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.front import NONE, REACH
+from dashpot.diagnose.front import NONE
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.term import Model
 
@@ -168,7 +168,7 @@ class Scores:
         scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
         unit = np.outer(scale, scale)
-        known = np.diag(np.append(0.0, np.full(scale.size - 1, REACH**-2)))
+        known = np.diag(np.append(0.0, np.ones(scale.size - 1)))
         target = np.eye(scale.size)[0]
         combined = _scaled(scale, alive, target)
         left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target, foreseen=False)
