@@ -23,6 +23,8 @@ LAWS = (
     "element: asymmetric_damper, compression: {damping} N*s/m, rebound: {other} N*s/m, compression_digression: 3 s/m",
     "element: stribeck, stiffness: {stiffness} N/m, limit: {force} N, breakaway: {higher} N, "
     "stribeck_velocity: {slow} m/s",
+    "element: stribeck, stiffness: {stiffness} N/m, limit: {force} N, breakaway: {higher} N, "
+    "stribeck_velocity: {slow} m/s, bristle_damping: {damping} N*s/m",
 )
 
 
