@@ -59,7 +59,7 @@ class Columns:
     numbers and ``base`` (p - t,) those of the base, ``bends`` (b, n) the functions by which its tables may bend,
     ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes, ``unseen`` the columns of
     candidates that these runs cannot show. In front of the columns of
-    the ``layout`` stand those of the base, and a column of each run for each of the ``faults``.
+    the ``layout`` stand those of the base, and of each run the ``doubted`` columns of the ``faults``.
     """
 
     refitter: Refitter
@@ -71,6 +71,7 @@ class Columns:
     base: NDArray[np.intp]
     bends: Mapping[str, Array]
     faults: Sequence[ChannelFault]
+    doubted: int
     forces: Sequence[Mapping[str, Array]]
     candidates: Sequence[Candidate]
     inner: Mapping[str, tuple[NDArray[np.intp], Array]] | None
@@ -86,23 +87,40 @@ class Columns:
         """How many columns in front are of the base."""
         return self.base.size + len(next(iter(self.bends.values())))
 
+    @property
+    def _first(self) -> int:
+        """How many columns there are in front."""
+        return self.free + self.doubted * len(self.refitter.runs)
+
     def of(self, run: ScoredRun) -> Array:
         """All columns of a run, as rows (c, kept)."""
         name, layout = run.name, self.layout
         faults = shapes_of(self.faults, self.view, run, self.plain)
-        runs = [one.name for one in self.refitter.runs]
-        first = self.free + len(faults) * len(runs)
+        runs, first = [one.name for one in self.refitter.runs], self._first
         rows = np.zeros((first + layout.size, self.plain.kept(name, run.samples)))
         rows[: self.base.size] = self.tangents[name][self.base]
         rows[self.base.size : self.free] = self.plain.reduce(name, self.bends[name])
-        at = self.free + len(faults) * runs.index(name)
-        rows[at : at + len(faults)] = faults
+        at = self.free + self.doubted * runs.index(name)
+        rows[at : at + self.doubted] = faults
         rows[first] = self.residual[name]
         rows[first + 1 : first + 1 + self.own.size] = self.tangents[name][self.own]
         for number, force in enumerate(self.forces):
             rows[first + layout.term(number)] = self.plain.reduce(name, force[name][run.first :])
         self._fill(rows[first + layout.first_candidate :], run)
         return rows
+
+    def kept(self, run: ScoredRun) -> tuple[NDArray[np.intp], list[NDArray[np.float32]]]:
+        """The rows of a run that its refitter keeps in memory anyway: their places (k,), and they themselves."""
+        places, found = [np.arange(0)], []
+        for candidate in (candidate for candidate in self.candidates if candidate.site is None):
+            at, rows = (
+                np.arange(candidate.columns.start, candidate.columns.stop),
+                self.refitter.kept_columns(candidate, run),
+            )
+            if rows is not None and not np.isin(at, self.unseen).any():
+                places.append(self._first + self.layout.first_candidate + at)
+                found.append(rows)
+        return np.concatenate(places), found
 
     def _fill(self, bank: Array, run: ScoredRun) -> None:
         """Write the columns of the candidates."""
@@ -138,6 +156,7 @@ def linearised(
         base=base,
         bends=bends_of_tables(runs, view, model.fitted),
         faults=faults,
+        doubted=len(shapes_of(faults, view, runs[0], plain)),
         forces=refitter.term_forces(model) if candidates else [],
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
@@ -145,25 +164,47 @@ def linearised(
     )
 
 
+@dataclass(frozen=True, eq=False)
+class _Parted:
+    """Rows in two parts: ``rows`` (c - k, kept) of their own, and at ``places`` (k,) others that are ``kept``."""
+
+    rows: NDArray[np.float32]
+    places: NDArray[np.intp]
+    kept: Sequence[NDArray[np.float32]]
+
+    def whole(self) -> Array:
+        """All of them (c, kept)."""
+        found = np.empty((len(self.rows) + self.places.size, self.rows.shape[1]))
+        found[np.delete(np.arange(len(found)), self.places)] = self.rows
+        if self.kept:
+            found[self.places] = np.concatenate(self.kept)
+        return found
+
+
 class Rows(Mapping[str, Array]):
     """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time.
 
-    Their values have single precision, to save memory; sums over them are to be double.
+    Their values have single precision, to save memory; sums over them are to be double. What the refitter keeps is not
+    held twice.
     """
 
     def __init__(self, columns: Columns, jobs: int) -> None:
         runs = columns.refitter.runs
-        self._runs, self._make = {run.name: run for run in runs}, columns.of
-        width = columns.free + len(columns.faults) * len(runs) + columns.layout.size
+        self._runs, self._columns = {run.name: run for run in runs}, columns
+        width = columns.free + columns.doubted * len(runs) + columns.layout.size
         ends = np.cumsum([4 * width * columns.plain.kept(run.name, run.samples) for run in runs])
         held = [run for run, end in zip(runs, ends, strict=True) if end < HELD_BYTES]
-        self._held = dict(zip((run.name for run in held), spread(self._single, held, jobs=jobs), strict=True))
+        self._held = dict(zip((run.name for run in held), spread(self._parted, held, jobs=jobs), strict=True))
 
     def _single(self, run: ScoredRun) -> NDArray[np.float32]:
-        return self._make(run).astype(np.float32)
+        return self._columns.of(run).astype(np.float32)
+
+    def _parted(self, run: ScoredRun) -> _Parted:
+        whole, (places, kept) = self._single(run), self._columns.kept(run)
+        return _Parted(np.delete(whole, places, axis=0), places, kept)
 
     def __getitem__(self, name: str) -> Array:
-        return (self._held[name] if name in self._held else self._single(self._runs[name])).astype(float)
+        return self._held[name].whole() if name in self._held else self._single(self._runs[name]).astype(float)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._runs)

@@ -64,12 +64,13 @@ class Pursuer:
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
-            self.looked = self._next_look(look, fresh, present) if self.ended else None
-            if self.looked is None:
+            onward = self._onward(look, fresh, present) if self.ended else None
+            if onward is None:
                 weights = self.weights(len(look.folds.names))
                 found = (present, look, model, without, rivals, tuple(others), weights)
                 return Pursuit(*found, self.looks, self.ended, tuple(self.refused))
             del look  # a look is large
+            self.looked = self._all_candidates(onward)
 
     def local_optimum(self, seen: set[frozenset[object]]) -> tuple[Look, Scored, tuple[Without, ...], list[Scored]]:
         """The look at the best structure, all terms of which are worth their place, and what was refitted beside it.
@@ -81,6 +82,7 @@ class Pursuer:
             present, without = self.pruned(look)
             if present.model.terms == look.model.terms:
                 return look, present, without, others
+            del look  # a look is large
             self.looked = self.look(present.model)
             fresh = present.model.forms not in seen
             seen.add(present.model.forms)
@@ -102,12 +104,15 @@ class Pursuer:
             present = scored_by(scores, scores.odds)
             trials = list(self.trials(scores, search(scores)))
             del scores
-            onward = self._next_look(look, trials, present)
-            self.ended, look = onward is None, onward or look
+            onward = self._onward(look, trials, present)
+            self.ended = onward is None
+            if onward is not None:
+                del look  # a look is large
+                look = self._all_candidates(onward)
         return look, trials
 
-    def _next_look(self, look: Look, trials: Iterable[Scored], present: Scored) -> Look | None:
-        """The look at the best of some structures than the present one, under the noise that either leaves.
+    def _onward(self, look: Look, trials: Iterable[Scored], present: Scored) -> Model | None:
+        """The best of some structures that is better than the present one, under the noise that either leaves.
 
         Under each of them both are refitted, and the terms keep their evidence.
         """
@@ -120,11 +125,15 @@ class Pursuer:
                     continue
                 before = self.scored(settled, self.refitted_under(settled, present.model), odds)
                 if self._better(scored_by(scores, odds), before):
-                    return look_at(self.refitter, settled.model, self.causes, self.folds, doubted=self.doubted)
+                    return settled.model
         return None
 
+    def _all_candidates(self, model: Model) -> Look:
+        """All candidates beside a model that was fitted under the noise that it leaves."""
+        return look_at(self.refitter, model, self.causes, self.folds, doubted=self.doubted)
+
     def look(self, model: Model) -> Look:
-        """All candidates beside a model."""
+        """All candidates beside a model, refitted under the noise that it leaves."""
         return look_settled(self.refitter, model, self.causes, self.folds, self.doubted)
 
     def refitted_under(self, look: Look, model: Model) -> Model:

@@ -145,14 +145,16 @@ class Refitter:
 
     def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> NDArray[np.floating]:
         """The columns (places, kept) of a candidate on a run, reduced; those of the motion alone are kept in memory."""
-        suspect = candidate.suspect
-        key = candidate.cause, suspect.form, suspect.grid, candidate.twin, run.name
-        if (known := self.reduced.columns.get(key)) is not None:
+        if (known := self.kept_columns(candidate, run)) is not None:
             return known
-        found = noise.reduce(run.name, shown(run, np.atleast_2d(suspect.columns(view, run.name))))
-        if suspect.of_motion:
-            self.reduced.keep(key, found)
+        found = noise.reduce(run.name, shown(run, np.atleast_2d(candidate.suspect.columns(view, run.name))))
+        if candidate.suspect.of_motion:
+            self.reduced.keep(_key(candidate, run), found)
         return found
+
+    def kept_columns(self, candidate: Candidate, run: ScoredRun) -> NDArray[np.float32] | None:
+        """The columns of a candidate on a run that are kept in memory; None for others."""
+        return self.reduced.columns.get(_key(candidate, run))
 
     def term_forces(self, model: Model) -> list[dict[str, Array]]:
         """For each term what it adds to the force (n,) by run, all other numbers as they are."""
@@ -226,3 +228,7 @@ class Refitter:
         found = refine(objective, coordinates, coordinates.start, steps, tolerance, thorough=False)
         fitted = with_point(start, coordinates, found.point)
         return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)
+
+
+def _key(candidate: Candidate, run: ScoredRun) -> tuple[object, ...]:
+    return candidate.cause, candidate.suspect.form, candidate.suspect.grid, candidate.twin, run.name
