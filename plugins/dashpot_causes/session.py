@@ -11,6 +11,9 @@ from dashpot.contract.cause import View
 
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
+# the integral of the squared velocity, of the run before and of all runs before that one
+MOVED, EARLIER = "moved", "moved_earlier"
+HISTORY = {ORDER, REACHED, MOVED, EARLIER}
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
 CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs
@@ -32,7 +35,7 @@ def order_of(view: View) -> Mapping[str, float]:
 
 def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
     """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
-    common = sorted(set.intersection(*(set(each) for each in settings.values())) - {ORDER, REACHED})
+    common = sorted(set.intersection(*(set(each) for each in settings.values())) - HISTORY)
     moved = [
         [np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))] for run in settings
     ]

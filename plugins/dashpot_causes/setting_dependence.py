@@ -14,11 +14,11 @@ from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
 from dashpot_causes.factors import at_all_places, factors_of
-from dashpot_causes.session import ORDER, REACHED
+from dashpot_causes.session import HISTORY
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
-OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", ORDER, REACHED}
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", *HISTORY}
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10

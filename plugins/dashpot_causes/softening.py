@@ -5,12 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
-from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.contract.cause import NOTHING, Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
+from dashpot_causes.session import EARLIER, MOVED
 
-UNITS = {"stiffness": "N/m", "speed": "m/s", "time": "s", "exponent": "1"}
+UNITS = {
+    "stiffness": "N/m",
+    "speed": "m/s",
+    "time": "s",
+    "exponent": "1",
+    "kept": "1",
+    "before": "m^2/s",
+    "earlier": "m^2/s",
+}
 SPEEDS = (0.3, 3.0)  # of the largest speed
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
+KEPT = 0.5  # of the warmth at the next run
 
 
 class Softening(Cause):
@@ -28,13 +38,16 @@ class Softening(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth.
+        """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth; one
+        that is still warm of the runs before.
 
         Another one softens with time, however it moves.
         """
         places = [(speed * view.speed, time * view.duration) for speed, time in product(SPEEDS, TIMES)]
         yield _softening(places)
         yield _softening(places, {"exponent": 1.0}, "softening with a free law of warmth")
+        if any(view.settings(run).get(MOVED, 0.0) > 0.0 for run in view.runs):
+            yield _softening(places, {"kept": KEPT}, "softening from run to run", {"before": MOVED, "earlier": EARLIER})
         yield added_branch(
             "fading_spring",
             "softening",
@@ -45,14 +58,18 @@ class Softening(Cause):
 
 
 def _softening(
-    places: Sequence[tuple[float, float]], law: Mapping[str, float] | None = None, form: str = ""
+    places: Sequence[tuple[float, float]],
+    law: Mapping[str, float] = NOTHING,
+    form: str = "",
+    given: Mapping[str, str] = NOTHING,
 ) -> Suspect:
     return added_branch(
         "softening",
         "softening",
         tuple(float(number) for number in range(len(places))),
-        lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1], **(law or {})},
+        lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1], **law},
         UNITS,
-        unknowns=2 + len(law or {}),
+        unknowns=2 + len(law),
         form=form,
+        given=given,
     )

@@ -15,8 +15,13 @@ class Softening(Element):
 
     A warmth of one halves the stiffness, c = 2^(1/exponent) - 1: with an exponent of one F = stiffness x/(1 + warmth),
     with a large one it falls exponentially. At rest it cools again. The warmth gained in a step is that of its mean
-    squared velocity along the cubic path. Every record begins cold. Beside a spring it is the part of the stiffness
-    that warmth takes away. Not passive by itself, as a spring that cools under load takes up energy as heat.
+    squared velocity along the cubic path. Beside a spring it is the part of the stiffness that warmth takes away. Not
+    passive by itself, as a spring that cools under load takes up energy as heat.
+
+    Every record begins cold, or with what is ``kept`` of the warmth of the runs before: kept (before + kept earlier)
+    / (speed^2 time), as of runs that are short beside the time. `before: {setting: moved, value: 0 m^2/s}` and
+    `earlier: {setting: moved_earlier, value: 0 m^2/s}` are the integrals of the squared velocity of the last run and of
+    all runs before that one.
     """
 
     picture = Symbol.SPRING
@@ -27,21 +32,44 @@ class Softening(Element):
     speed = Parameter("m/s", "r.m.s. velocity that halves the stiffness in the end", bounds=(1e-5, 100.0), symbol="v_h")
     time = Parameter("s", "time constant of warming and cooling", bounds=(1e-2, 1e5), symbol="T")
     exponent = Parameter("1", "how the stiffness falls with warmth", bounds=(0.3, 10.0), symbol="p", default=1.0)
-    warmth = State("1", "rise of temperature over that which halves the stiffness")
+    before = Parameter(
+        "m^2/s",
+        "squared velocity over the time of the run before",
+        bounds=(0.0, 1e6),
+        scale="linear",
+        symbol="E_1",
+        default=0.0,
+    )
+    earlier = Parameter(
+        "m^2/s", "the same of all runs before that one", bounds=(0.0, 1e6), scale="linear", symbol="E_2", default=0.0
+    )
+    kept = Parameter(
+        "1",
+        "share of the warmth that a run leaves to the next",
+        bounds=(0.0, 1.0),
+        scale="linear",
+        symbol="q",
+        default=0.0,
+    )
+    warmth = State("1", "rise of temperature over that which halves the stiffness, of this record")
+    cooled = State("1", "share of the warmth of the runs before that is gone")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The old warmth fades towards that of the step."""
         gained = -np.expm1(-dt / p.time)
         warmth = z.warmth + gained * (mean_square(x, dt) / (p.speed * p.speed) - z.warmth)
-        return Response(p.stiffness * x.new * _left(warmth, p), warmth=warmth)
+        cooled = z.cooled + gained * (1.0 - z.cooled)
+        return Response(p.stiffness * x.new * _left(warmth, cooled, p), warmth=warmth, cooled=cooled)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of the softened spring, without the warmth."""
-        return 0.5 * p.stiffness * x.new * x.new * _left(z.warmth, p)
+        return 0.5 * p.stiffness * x.new * x.new * _left(z.warmth, z.cooled, p)
 
 
-def _left(warmth: Any, p: Any) -> Any:
-    return np.exp(-p.exponent * np.log(1.0 + np.expm1(np.log(2.0) / p.exponent) * warmth))
+def _left(warmth: Any, cooled: Any, p: Any) -> Any:
+    inherited = p.kept * (p.before + p.kept * p.earlier) / (p.speed * p.speed * p.time)
+    whole = warmth + inherited * (1.0 - cooled)
+    return np.exp(-p.exponent * np.log(1.0 + np.expm1(np.log(2.0) / p.exponent) * whole))
 
 
 def mean_square(x: Motion, dt: Any) -> Any:

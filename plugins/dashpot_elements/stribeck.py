@@ -21,7 +21,7 @@ class Stribeck(Element):
     L = limit + (breakaway - limit) exp(-|v/stribeck_velocity|^decay).
 
     A force above a limit that fell comes down with dF/dx = stiffness u, whatever the exponent. With bristle_damping,
-    which adds bristle_damping u^exponent v while F is below the limit, this is the LuGre model.
+    which adds bristle_damping u v while F is below the limit, and an exponent of one this is the LuGre model.
 
     The limit is frozen over a step at the mean speed; within the step the path may turn once or twice. Second order in
     the step.
@@ -80,7 +80,7 @@ def _slide(force: Any, travel: Any, limit: Any, p: Any) -> Any:
 def _damped(force: Any, velocity: Any, p: Any) -> Any:
     """What the bristles resist while they bend; nothing from those that a limit which fell lets go."""
     distance = 1.0 - np.where(velocity < 0.0, -force, force) / _limit(np.abs(velocity), p)
-    return p.bristle_damping * velocity * np.exp(p.exponent * np.log(np.maximum(distance, TINY)))
+    return p.bristle_damping * velocity * np.maximum(distance, 0.0)
 
 
 @dataclass(frozen=True)

@@ -61,10 +61,18 @@ def test_the_stated_force_of_bedding_in_is_what_the_class_computes(rng):
 
 def test_the_stated_force_of_softening_is_what_the_class_computes(rng):
     x, warmth = rng.normal(size=100), rng.uniform(0.0, 3.0, size=100)
-    numbers = {"stiffness": 3.0, "speed": 0.7, "time": 20.0, "exponent": 2.5}
+    numbers = {
+        "stiffness": 3.0,
+        "speed": 0.7,
+        "time": 20.0,
+        "exponent": 2.5,
+        "before": 9.0,
+        "earlier": 4.0,
+        "kept": 0.0,
+    }
     # a step that is short beside the time constant leaves the warmth as it is
     still = Motion(x, x, np.zeros(100), np.zeros(100), np.zeros(100))
-    found = ELEMENTS["softening"]().step(still, SimpleNamespace(warmth=warmth), numbers_of(numbers), 1e-12)
+    found = ELEMENTS["softening"]().step(still, SimpleNamespace(warmth=warmth, cooled=0.0), numbers_of(numbers), 1e-12)
     names = numbers | {"x": x, "warmth": warmth, "c": 2 ** (1 / 2.5) - 1}
     assert found.force == pytest.approx(evaluate(equations(ELEMENTS["softening"])[0].parts[1], names), rel=1e-12)
 

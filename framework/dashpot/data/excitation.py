@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.drive import Drive, drive_from_samples
-from dashpot.data.history import REACHED
+from dashpot.data.history import NOTHING
 from dashpot.data.run import Run
 from dashpot.text.problem import InputError, Place
 
@@ -95,15 +95,13 @@ class Excitation:
 
 
 def settings_of(run: Run) -> dict[str, float]:
-    """The settings of a run, its ``order`` in the dataset, what was ``reached`` before, and the means of its further
-    channels.
-    """
+    """The settings of a run, its ``order`` in the dataset, its history, and the means of its further channels."""
     means = {
         mean_of(name): float(np.mean(samples))
         for name, samples in run.channels.items()
         if name.partition("@")[0] not in MOVING
     }
-    return {ORDER: float(run.order), REACHED: run.reached, **run.settings, **means}
+    return {ORDER: float(run.order), **NOTHING, **run.history, **run.settings, **means}
 
 
 def mean_of(channel: str) -> str:

@@ -9,19 +9,23 @@ import numpy as np
 
 from dashpot.data.run import Run
 
-# the setting that every run of a dataset with one displacement has: the largest deflection before it, in m
-REACHED = "reached"
+# settings that every run of a dataset with one displacement has: the largest deflection before it in m, and the
+# integral of the squared velocity in m^2/s, over the run before it and over all runs before that one
+REACHED, MOVED, EARLIER = "reached", "moved", "moved_earlier"
+NOTHING = {REACHED: 0.0, MOVED: 0.0, EARLIER: 0.0}
 
 
 def with_history(made: Iterable[tuple[Run, bool]]) -> Iterator[Run]:
-    """The runs that count, of (run, whether it counts), knowing how far the specimen was deflected in all before them.
+    """The runs that count, of (run, whether it counts), knowing how far and how fast the specimen was moved before.
 
     What a run itself states as the setting ``reached`` counts from there on.
     """
-    reached = 0.0
+    reached = moved = earlier = 0.0
     for run, counts in made:
         reached = max(reached, run.settings.get(REACHED, 0.0))
         if counts:
-            yield replace(run, reached=reached)
+            yield replace(run, history={REACHED: reached, MOVED: moved, EARLIER: earlier})
         if "displacement" in run.channels:
             reached = max(reached, float(np.max(np.abs(run.displacement))))
+            earlier += moved
+            moved = float(np.sum(np.gradient(run.displacement) ** 2)) / run.sample_time

@@ -20,8 +20,8 @@ class Run:
     group: the name of the original; all repeats of a run share it. repeats: the original, None for an original.
     held_out: what the dataset says about it, None when it says nothing.
     sensors: channel -> its specification in SI (gain, zero, delay, noise).
-    source: the file it came from; order: its number in the dataset, from 0, as it was measured; reached: how far, in m,
-    the specimen was deflected in the runs before.
+    source: the file it came from; order: its number in the dataset, from 0, as it was measured; history: what the
+    specimen has gone through in the runs before, in SI (`dashpot.data.history`).
     uneven: whether the clock was not, and the samples were laid on the even grid.
     end: the node whose force it is about, where a run with several forces was taken apart.
 
@@ -46,7 +46,7 @@ class Run:
     sensors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     source: str = ""
     order: int = 0
-    reached: float = 0.0
+    history: Mapping[str, float] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
     uneven: bool = False
     end: str = ""

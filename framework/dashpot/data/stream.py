@@ -11,7 +11,7 @@ from dashpot.data.declaration import RunDeclaration
 from dashpot.data.description import Description, read_description
 from dashpot.data.excitation import ORDER, mean_of, settings_of
 from dashpot.data.groups import resolve_repeats
-from dashpot.data.history import REACHED, with_history
+from dashpot.data.history import NOTHING, with_history
 from dashpot.data.measured import read_run
 from dashpot.data.run import Run
 from dashpot.data.source import Source, choose_reader, find_file, locate, measured_folder
@@ -71,13 +71,13 @@ class RunStream:
     def conditions(self) -> dict[str, dict[str, float]]:
         """The settings of every run in SI before its file is read, named as by `settings_of`.
 
-        What was reached before and the means of further channels are not known yet: NaN.
+        The history and the means of further channels are not known yet: NaN.
         """
         resolved, _ = resolve_repeats(self._description.declarations, self._description.names)
         return {
             each.name: {
                 ORDER: float(each.order),
-                REACHED: math.nan,
+                **dict.fromkeys(NOTHING, math.nan),
                 **each.settings,
                 **{mean_of(channel.name): math.nan for channel in each.channels},
             }

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.dataset import Dataset
 from dashpot.data.excitation import ORDER
-from dashpot.data.history import REACHED
+from dashpot.data.history import NOTHING
 from dashpot.data.steady import STEADY
 from dashpot.diagnose.folds import FEWEST, MOST, Folds, folds_of
 from dashpot.diagnose.whitening import ROW, Noise, independent_share, reduction
@@ -111,7 +111,8 @@ def _frequency(run: ScoredRun) -> float:
 
 
 def _conditions(run: ScoredRun) -> tuple[object, ...]:
-    kept = {key: value for key, value in run.excitation.settings.items() if key not in ("frequency", ORDER, REACHED)}
+    settings = run.excitation.settings
+    kept = {key: value for key, value in settings.items() if key not in {"frequency", ORDER, *NOTHING}}
     return table_of(run), *sorted(kept.items())
 
 

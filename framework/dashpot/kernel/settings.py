@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import ORDER, mean_of
+from dashpot.data.history import NOTHING
 from dashpot.model.network import NetworkSpec, Over, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -88,8 +89,8 @@ def require_settings(spec: NetworkSpec, runs: Mapping[str, Mapping[str, float]])
 
 
 def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iterator[Problem]:
-    # outside of a dataset, on a rig or in another program, nothing is first or last
-    told = {ORDER}
+    # outside of a dataset, on a rig or in another program, nothing is first or last, and nothing was before
+    told = {ORDER, *NOTHING}
     for slot in spec.slots():
         over = slot.value.over
         if over and key_of(over) not in settings and key_of(over) not in told:
