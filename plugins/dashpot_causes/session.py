@@ -11,9 +11,8 @@ from dashpot.contract.cause import View
 
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
-# the integral of the squared velocity, of the run before and of all runs before that one
-MOVED, EARLIER = "moved", "moved_earlier"
-HISTORY = {ORDER, REACHED, MOVED, EARLIER}
+MOVED = "moved"  # the integral of the squared velocity over the run before
+HISTORY = {ORDER, REACHED, MOVED}
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
 CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs

@@ -7,7 +7,7 @@ from itertools import product
 
 from dashpot.contract.cause import NOTHING, Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.session import EARLIER, MOVED
+from dashpot_causes.session import MOVED
 
 UNITS = {
     "stiffness": "N/m",
@@ -16,7 +16,6 @@ UNITS = {
     "exponent": "1",
     "kept": "1",
     "before": "m^2/s",
-    "earlier": "m^2/s",
 }
 SPEEDS = (0.3, 3.0)  # of the largest speed
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
@@ -39,7 +38,7 @@ class Softening(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A spring that its own motion softens, over speeds and times of warming; one with a free law of warmth; one
-        that is still warm of the runs before.
+        that is still warm of the run before.
 
         Another one softens with time, however it moves.
         """
@@ -47,7 +46,7 @@ class Softening(Cause):
         yield _softening(places)
         yield _softening(places, {"exponent": 1.0}, "softening with a free law of warmth")
         if any(view.settings(run).get(MOVED, 0.0) > 0.0 for run in view.runs):
-            yield _softening(places, {"kept": KEPT}, "softening from run to run", {"before": MOVED, "earlier": EARLIER})
+            yield _softening(places, {"kept": KEPT}, "softening from run to run", {"before": MOVED})
         yield added_branch(
             "fading_spring",
             "softening",

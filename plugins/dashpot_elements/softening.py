@@ -18,10 +18,8 @@ class Softening(Element):
     squared velocity along the cubic path. Beside a spring it is the part of the stiffness that warmth takes away. Not
     passive by itself, as a spring that cools under load takes up energy as heat.
 
-    Every record begins cold, or with what is ``kept`` of the warmth of the runs before: kept (before + kept earlier)
-    / (speed^2 time), as of runs that are short beside the time. `before: {setting: moved, value: 0 m^2/s}` and
-    `earlier: {setting: moved_earlier, value: 0 m^2/s}` are the integrals of the squared velocity of the last run and of
-    all runs before that one.
+    Every record begins cold, or with a warmth of kept before/(speed^2 time). With `before: {setting: moved, value: 0
+    m^2/s}`, the integral of the squared velocity over the run before, that is a share of what this run gained.
     """
 
     picture = Symbol.SPRING
@@ -34,14 +32,11 @@ class Softening(Element):
     exponent = Parameter("1", "how the stiffness falls with warmth", bounds=(0.3, 10.0), symbol="p", default=1.0)
     before = Parameter(
         "m^2/s",
-        "squared velocity over the time of the run before",
+        "squared velocity, over the time of the run before",
         bounds=(0.0, 1e6),
         scale="linear",
         symbol="E_1",
         default=0.0,
-    )
-    earlier = Parameter(
-        "m^2/s", "the same of all runs before that one", bounds=(0.0, 1e6), scale="linear", symbol="E_2", default=0.0
     )
     kept = Parameter(
         "1",
@@ -52,7 +47,7 @@ class Softening(Element):
         default=0.0,
     )
     warmth = State("1", "rise of temperature over that which halves the stiffness, of this record")
-    cooled = State("1", "share of the warmth of the runs before that is gone")
+    cooled = State("1", "share of the warmth of the run before that is gone")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The old warmth fades towards that of the step."""
@@ -67,7 +62,7 @@ class Softening(Element):
 
 
 def _left(warmth: Any, cooled: Any, p: Any) -> Any:
-    inherited = p.kept * (p.before + p.kept * p.earlier) / (p.speed * p.speed * p.time)
+    inherited = p.kept * p.before / (p.speed * p.speed * p.time)
     whole = warmth + inherited * (1.0 - cooled)
     return np.exp(-p.exponent * np.log(1.0 + np.expm1(np.log(2.0) / p.exponent) * whole))
 

@@ -67,7 +67,6 @@ def test_the_stated_force_of_softening_is_what_the_class_computes(rng):
         "time": 20.0,
         "exponent": 2.5,
         "before": 9.0,
-        "earlier": 4.0,
         "kept": 0.0,
     }
     # a step that is short beside the time constant leaves the warmth as it is

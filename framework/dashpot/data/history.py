@@ -10,9 +10,9 @@ import numpy as np
 from dashpot.data.run import Run
 
 # settings that every run of a dataset with one displacement has: the largest deflection before it in m, and the
-# integral of the squared velocity in m^2/s, over the run before it and over all runs before that one
-REACHED, MOVED, EARLIER = "reached", "moved", "moved_earlier"
-NOTHING = {REACHED: 0.0, MOVED: 0.0, EARLIER: 0.0}
+# integral of the squared velocity over the last run before it in m^2/s
+REACHED, MOVED = "reached", "moved"
+NOTHING = {REACHED: 0.0, MOVED: 0.0}
 
 
 def with_history(made: Iterable[tuple[Run, bool]]) -> Iterator[Run]:
@@ -20,12 +20,11 @@ def with_history(made: Iterable[tuple[Run, bool]]) -> Iterator[Run]:
 
     What a run itself states as the setting ``reached`` counts from there on.
     """
-    reached = moved = earlier = 0.0
+    reached = moved = 0.0
     for run, counts in made:
         reached = max(reached, run.settings.get(REACHED, 0.0))
         if counts:
-            yield replace(run, history={REACHED: reached, MOVED: moved, EARLIER: earlier})
+            yield replace(run, history={REACHED: reached, MOVED: moved})
         if "displacement" in run.channels:
             reached = max(reached, float(np.max(np.abs(run.displacement))))
-            earlier += moved
             moved = float(np.sum(np.gradient(run.displacement) ** 2)) / run.sample_time
