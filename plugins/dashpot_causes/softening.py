@@ -19,7 +19,7 @@ UNITS = {
 }
 SPEEDS = (0.3, 3.0)  # of the largest speed
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
-KEPT = 0.5  # of the warmth at the next run
+KEPT = (0.1, 0.3, 0.9)  # of the warmth at the next run
 
 
 class Softening(Cause):
@@ -42,11 +42,12 @@ class Softening(Cause):
 
         Another one softens with time, however it moves.
         """
-        places = [(speed * view.speed, time * view.duration) for speed, time in product(SPEEDS, TIMES)]
+        places = [{"speed": speed * view.speed, "time": time * view.duration} for speed, time in product(SPEEDS, TIMES)]
         yield _softening(places)
-        yield _softening(places, {"exponent": 1.0}, "softening with a free law of warmth")
+        yield _softening([place | {"exponent": 1.0} for place in places], "softening with a free law of warmth")
         if any(view.settings(run).get(MOVED, 0.0) > 0.0 for run in view.runs):
-            yield _softening(places, {"kept": KEPT}, "softening from run to run", {"before": MOVED})
+            warm = [place | {"kept": kept} for place, kept in product(places, KEPT)]
+            yield _softening(warm, "softening from run to run", {"before": MOVED})
         yield added_branch(
             "fading_spring",
             "softening",
@@ -56,19 +57,14 @@ class Softening(Cause):
         )
 
 
-def _softening(
-    places: Sequence[tuple[float, float]],
-    law: Mapping[str, float] = NOTHING,
-    form: str = "",
-    given: Mapping[str, str] = NOTHING,
-) -> Suspect:
+def _softening(places: Sequence[Mapping[str, float]], form: str = "", given: Mapping[str, str] = NOTHING) -> Suspect:
     return added_branch(
         "softening",
         "softening",
         tuple(float(number) for number in range(len(places))),
-        lambda k, place: {"stiffness": k, "speed": places[int(place)][0], "time": places[int(place)][1], **law},
+        lambda k, number: {"stiffness": k, **places[int(number)]},
         UNITS,
-        unknowns=2 + len(law),
+        unknowns=len(places[0]),
         form=form,
         given=given,
     )

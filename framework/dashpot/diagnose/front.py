@@ -122,11 +122,13 @@ def front_of(
     The residual is that of the base as it is, unless faults of each run are ``known``, to which no fit has adapted it.
     """
     first = free + known.size
-    errors, precision, owners = form_errors(np.einsum("gii->i", grams), first, layout, model, candidates)
+    whole = grams.sum(axis=0)
+    squares = np.diag(whole)[free:] - np.sum(whole[:free, free:] * in_front(whole, np.zeros(free)), axis=0)
+    errors, precision, owners = form_errors(np.append(np.zeros(free), squares), first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
     at = np.ix_(order, order)
-    total = grams.sum(axis=0)[at]
+    total = whole[at]
     moves = in_front(total, np.zeros(free))
     moves[:, first - free + len(errors)] *= known.size > 0
     left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
@@ -141,7 +143,8 @@ def form_errors(
     """Columns that are errors of the forms of terms, how precisely each is known to be none, and of which term it is.
 
     The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
-    cause, normal, together ``FORM_ERROR`` of the force of the term. ``total`` are the squares of the columns.
+    cause, normal, together ``FORM_ERROR`` of the force of the term. ``total`` are the squares of what the base leaves
+    of the columns: a spring that softens beside another one is as strong as what it changes.
     """
     places: list[int] = []
     precision: list[float] = []
