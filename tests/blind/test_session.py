@@ -1,9 +1,9 @@
 """What changes over a session of runs one after the other: a zero, a specimen that warms up, and one that beds in.
 
 The zero follows an exponential of the clock, within and between runs; the warmth of the specimen its dissipated power
-and its cooling, sample by sample and in the rests; neither is a straight line over the order of the runs, which is what
-the causes are made of. What beds in loses stiffness by an exponential of the largest deflection of the session, which
-no element has.
+or its motion, and its cooling, sample by sample and in the rests; neither is a straight line over the order of the
+runs, nor a share of the run before, which is what the causes are made of. What beds in loses stiffness by an
+exponential of the largest deflection of the session, which no element has.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ STIFFNESS, DAMPING, NOISE = 190e3, 280.0, 8.0
 DURATION, REST = 4.0, 6.0
 TOTAL = 60.0  # N, of the zero by the end
 HEATING, COOLING = 1.0 / 1000.0, 200.0  # 1/J and s
+BRIEFLY = 6.0  # s, in which a small specimen cools
 LOST, LENGTH = 0.3, 8e-3  # share of the stiffness, and the deflection in m that takes 63 % of it
 CONDITIONS = [(a, p) for a in (1.0, 2.0, 4.0) for p in (6.0, 9.0, 12.0)]
 MIXED = [CONDITIONS[k] for k in (3, 0, 7, 1, 8, 4, 2, 6, 5)]
@@ -45,6 +46,16 @@ def warming(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.
         state = heat * state + STEP * power
         course[number] = state
     return np.zeros(course.size), np.exp([-0.5 * course, -course]), state * np.exp(-REST / COOLING)
+
+
+def resting(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """The same for a specimen whose spring is heated by the squared velocity, and nearly cold after two rests."""
+    heat = np.exp(-STEP / BRIEFLY)
+    course = np.empty(motion.velocity.size)
+    for number, square in enumerate((motion.velocity**2).tolist()):
+        state = heat * state + STEP * square
+        course[number] = state
+    return np.zeros(course.size), np.array([np.exp(-course), np.ones(course.size)]), state * np.exp(-REST / BRIEFLY)
 
 
 def bedding(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
@@ -74,7 +85,14 @@ def measured(folder: Path, seed: int, change) -> Path:
 
 
 @pytest.mark.parametrize(
-    "change, expected", [(drifting, ["drift"]), (warming, ["heating"]), (bedding, ["bedding_in"]), (steady, [])]
+    "change, expected",
+    [
+        (drifting, ["drift"]),
+        (warming, ["heating"]),
+        pytest.param(resting, ["softening"], marks=pytest.mark.slow),
+        (bedding, ["bedding_in"]),
+        (steady, []),
+    ],
 )
 def test_what_changes_from_run_to_run_is_one_cause(tmp_path, seed, change, expected):
     registry = load_registry()
