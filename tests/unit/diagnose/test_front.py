@@ -1,11 +1,14 @@
 """What is refitted beside structures of which terms are gone."""
 
 from itertools import combinations
+from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from dashpot.diagnose import front
-from dashpot.diagnose.front import Front
+from dashpot.diagnose.columns import Layout
+from dashpot.diagnose.front import FORM_ERROR, Front, front_of
 
 
 def test_what_is_known_beside_structures_keeps_to_its_room_and_comes_out_the_same(monkeypatch):
@@ -23,3 +26,21 @@ def test_what_is_known_beside_structures_keeps_to_its_room_and_comes_out_the_sam
         assert np.array_equal(much.beside(gone).gram, made().beside(gone).gram)
         assert sum(one.nbytes for one in much._known.values()) <= room
     assert len(much._known) == 5
+
+
+def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
+    """As much as before where the force of the term, and of its other forms, holds any amount of the base as well."""
+    base, term, forms = 2, 3, slice(4, 6)  # the residual stands between base and term
+    rows = np.random.default_rng(2).standard_normal((4, 6, 50))
+    also = rows + np.einsum("cb,gbn->gcn", np.array([[0, 0]] * 3 + [[30, -20], [5, 0], [0, 40]]), rows[:, :base])
+    model = SimpleNamespace(terms=[SimpleNamespace(name=("word", ""))])
+    candidates = [SimpleNamespace(name=("word", ""), columns=slice(0, 2))]
+    made, same = (
+        front_of(each @ each.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
+        for each in (rows, also)
+    )
+    assert same.precision == pytest.approx(made.precision, rel=1e-9)
+    flat = np.concatenate(rows, axis=1)
+    left = flat - flat @ np.linalg.pinv(flat[:base]) @ flat[:base]
+    squares = np.sum(left**2, axis=1)
+    assert made.precision == pytest.approx(2.0 * squares[forms] / (FORM_ERROR**2 * squares[term]), rel=1e-9)
