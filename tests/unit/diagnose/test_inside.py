@@ -106,6 +106,7 @@ def test_where_nothing_is_missing_nothing_is_named(rng):
     assert len(list(islice(silent, 2))) == 2
 
 
+@pytest.mark.slow
 def test_friction_of_an_anti_roll_bar_and_the_gain_of_one_of_its_forces(rng):
     moves = [machines.sweep(amplitude) for amplitude in (3e-3, 3e-3, 4e-3)]
     sides = np.array([[1.0, 1.0, 1.0], [-1.0, 1.0, -0.3]])
