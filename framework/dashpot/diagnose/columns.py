@@ -113,10 +113,8 @@ class Columns:
         """The rows of a run that its refitter keeps in memory anyway: their places (k,), and they themselves."""
         places, found = [np.arange(0)], []
         for candidate in (candidate for candidate in self.candidates if candidate.site is None):
-            at, rows = (
-                np.arange(candidate.columns.start, candidate.columns.stop),
-                self.refitter.kept_columns(candidate, run),
-            )
+            at = np.arange(candidate.columns.start, candidate.columns.stop)
+            rows = self.refitter.kept_columns(candidate, run)
             if rows is not None and not np.isin(at, self.unseen).any():
                 places.append(self._first + self.layout.first_candidate + at)
                 found.append(rows)

@@ -123,13 +123,14 @@ def front_of(
     """
     first = free + known.size
     whole = grams.sum(axis=0)
-    squares = np.diag(whole)[free:] - np.sum(whole[:free, free:] * in_front(whole, np.zeros(free)), axis=0)
-    errors, precision, owners = form_errors(np.append(np.zeros(free), squares), first, layout, model, candidates)
+    moves, squares = in_front(whole, np.zeros(free)), np.diag(whole).copy()
+    squares[free:] -= np.sum(whole[:free, free:] * moves, axis=0)
+    errors, precision, owners = form_errors(squares, first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
     at = np.ix_(order, order)
     total = whole[at]
-    moves = in_front(total, np.zeros(free))
+    moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
     left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
     for number, gram in enumerate(grams):
