@@ -125,6 +125,7 @@ def front_of(
     whole = grams.sum(axis=0)
     moves, squares = in_front(whole, np.zeros(free)), np.diag(whole).copy()
     squares[free:] -= np.sum(whole[:free, free:] * moves, axis=0)
+    squares[squares < RIDGE * np.diag(whole)] = 0.0  # what the base makes up for has no error of a form
     errors, precision, owners = form_errors(squares, first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
