@@ -165,15 +165,17 @@ def _structured(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]])
 def _line(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
     """The strongest line in what no function of the motion or the time explains of each run: a specimen scatters so.
 
-    Not whitened, since a filter that makes noise white takes lines for noise.
+    Not whitened, since a filter that makes noise white takes lines for noise. A run of fewer samples than there are
+    functions has nothing left but rounding, and shows none.
     """
     noise, rests, steps = look.noise, dict[str, Array](), dict[str, float]()
     for run in records(refitter.runs):
         functions = general_functions(look.view, run.name) | single_functions(look.view, run.name)
         rows = noise.whiten(run.name, np.array([*functions.values()])[:, run.first :])
         directions = np.linalg.svd(rows, full_matrices=False)[2]
-        rests[run.name] = residual[run.name] - (directions @ residual[run.name]) @ directions
-        steps[run.name] = run.drive.dt * noise.steps[run.name]
+        if len(directions) < directions.shape[1]:
+            rests[run.name] = residual[run.name] - (directions @ residual[run.name]) @ directions
+            steps[run.name] = run.drive.dt * noise.steps[run.name]
     if not steps:
         return Leftover(0.0, 0.0, "is no line")
     found = strongest_line(rests, steps)
