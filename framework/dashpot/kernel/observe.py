@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,9 +79,9 @@ class Observation:
         if self.plain:
             return rows
         force, changes = rows[0], rows[1:]
-        at = np.arange(force.size) - self.delay[0] / dt
-        held = smoothed(np.where(force > self.least[0], changes, 0.0), self.lag, dt)
-        late = np.array([np.interp(at, np.arange(force.size), row) for row in held]).reshape(changes.shape)
+        if self.least[0] > -np.inf:
+            changes = np.where(force > self.least[0], changes, 0.0)
+        late = _late(smoothed(changes, self.lag, dt), float(self.delay[0]) / dt, _straight)
         shown = self._unlimited(force[None], dt)[0]
         inside = shown < self.largest[0]
         return np.vstack([np.where(inside, shown, self.largest[0]), np.where(inside, self.gain[0] * late, 0.0)])
@@ -109,15 +112,40 @@ def _shifted(forces: Array, samples: Array) -> Array:
     late = np.flatnonzero((samples != 0.0) & np.isfinite(samples) & np.isfinite(forces).all(axis=1))
     if late.size:
         for number, slope in zip(late, slopes(forces[late]), strict=True):
-            found[number] = _along(forces[number], slope, samples[number])
+            found[number] = _late(forces[number], float(samples[number]), partial(_cubic, slope))
     return found
 
 
-def _along(force: Array, slope: Array, samples: float) -> Array:
-    # Hermite's cubic between the samples before and after each place
-    place = np.clip(np.arange(force.size) - samples, 0.0, force.size - 1.0)
-    begin = np.minimum(place.astype(int), force.size - 2)
-    part = place - begin
-    rise = force[begin + 1] - force[begin]
-    bow = slope[begin] - rise, rise - slope[begin + 1]
-    return force[begin] + part * (rise + (1.0 - part) * ((1.0 - part) * bow[0] + part * bow[1]))
+def _late(values: Array, samples: float, along: Callable[[Array, float, slice], Array]) -> Array:
+    """Values (..., n) late by so many samples, held before the first and after the last one.
+
+    Every place is the same ``part`` of a step behind the sample so many ``whole`` ones away: ``along`` gives the values
+    there, for a slice of samples at the beginning of their steps.
+    """
+    count, whole = values.shape[-1], math.floor(-samples)
+    first = min(max(-whole, 0), count)
+    stop = max(min(count - 1 - whole, count), first)
+    found = np.empty_like(values)
+    found[..., :first], found[..., stop:] = values[..., :1], values[..., -1:]
+    found[..., first:stop] = along(values, -samples - whole, slice(first + whole, stop + whole))
+    return found
+
+
+def _straight(values: Array, part: float, begin: slice) -> Array:
+    """Along the straight line between two samples."""
+    return (1.0 - part) * values[..., begin] + part * values[..., _next(begin)]
+
+
+def _cubic(slope: Array, force: Array, part: float, begin: slice) -> Array:
+    """Along Hermite's cubic through two samples with these slopes."""
+    square, cube = part**2, part**3
+    return (
+        (1.0 - 3.0 * square + 2.0 * cube) * force[begin]
+        + (3.0 * square - 2.0 * cube) * force[_next(begin)]
+        + (part - 2.0 * square + cube) * slope[begin]
+        + (cube - square) * slope[_next(begin)]
+    )
+
+
+def _next(begin: slice) -> slice:
+    return slice(begin.start + 1, begin.stop + 1)
