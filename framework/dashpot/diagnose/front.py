@@ -122,12 +122,12 @@ def front_of(
     layout: Layout,
     model: Model,
     candidates: Sequence[Candidate],
-    held: Sequence[int] | NDArray[np.intp] = (),
+    held: NDArray[np.intp],
 ) -> Front:
     """From Gram matrices (groups, f + c, f + c) behind ``free`` columns of the base and ``known`` (f - free,) ones.
 
     The residual is that of the base as it is, unless faults of each run are ``known``, to which no fit has adapted it.
-    Numbers of the base that may be ``held`` get a column.
+    The numbers (h,) of the base that may be ``held`` get a column each.
     """
     first = free + known.size
     whole = grams.sum(axis=0)
@@ -140,11 +140,12 @@ def front_of(
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
     moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
-    moves = np.hstack([moves, -inverse[:, held]])  # of columns that are nothing but moves of the base
+    # of columns that are nothing but moves of the base, of unit size
+    moves = np.hstack([moves, -inverse[:, held] / np.sqrt(np.maximum(np.diag(inverse)[held], 1e-300))])
     left = np.empty((len(grams), moves.shape[1], moves.shape[1]), np.float32)
     for number, gram in enumerate(grams):
-        left[number] = beside(_widened(gram, order, len(held)), moves)
-    total = beside(_widened(whole, order, len(held)), moves)
+        left[number] = beside(_widened(gram, order, held.size), moves)
+    total = beside(_widened(whole, order, held.size), moves)
     return Front(left, total, moves, np.append(known, precision), owned, layout.tangents)
 
 

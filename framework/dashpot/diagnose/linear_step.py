@@ -158,7 +158,7 @@ class LinearStep:
         places = sorted(held.base)
         numbers, columns = self.look.positive[places], self.look.layout.size + np.array(places, dtype=np.intp)
         moves = self.look.front.beside(gone).base_moves[numbers]
-        each = np.linalg.pinv(-moves[:, columns], hermitian=True) * (self.scale[columns] / self.scale[0])[:, None]
+        each = np.linalg.pinv(-moves[:, columns]) * (self.scale[columns] / self.scale[0])[:, None]
         return columns, each @ (moves * (self.scale[0] / self.scale)), each.sum(axis=1)
 
     def _at_zero(self, structure: Structure, fit: Fit, held: Held) -> Held:

@@ -36,7 +36,7 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     model = SimpleNamespace(terms=(), coordinates=numbers, owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
-    front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates)
+    front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates, np.arange(0))
     return Look(
         model,
         None,
