@@ -1,7 +1,8 @@
-"""The linear step from a fitted model to a structure: its strengths on all runs, with no positive number below zero.
+"""The linear step from a fitted model to a structure: its numbers on all runs, with no strength below zero.
 
-A refit cannot go where the force of a damper has the wrong sign, whatever that would explain. So a number whose
-logarithm is searched loses no more than all of itself in the step: it is held at zero, and the others are fitted again.
+A refit cannot go where the force of a damper has the wrong sign, whatever that would explain. So a number to which the
+force of its branch is proportional loses no more than all of itself in the step: it is held at zero, and the others are
+fitted again. Of other numbers, as a relaxation time, a long linear step says only which way they go.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class Structure(NamedTuple):
 
 
 class Held(NamedTuple):
-    """Positive numbers that stay at zero: those of terms, by column, and of the base, by place."""
+    """Strengths that stay at zero: those of terms, by column, and of the base, by place."""
 
     own: frozenset[int] = frozenset()
     base: frozenset[int] = frozenset()
@@ -112,10 +113,9 @@ class LinearStep:
         return target
 
     def fit(self, structure: Structure) -> Fit:
-        """The structure fitted to all runs, with no positive number below zero.
+        """The structure fitted to all runs, with no strength below zero.
 
-        A number that would fall below it in the linear step is held there, and let go where it would rise again: a
-        refit cannot go where the force of a damper has the wrong sign, whatever that would explain.
+        One that would fall below it in the linear step is held there, and let go where it would rise again.
         """
         held, tried = self.held.get(structure, Held()), set[Held]()
         fit = self._fit(structure, held)
@@ -162,13 +162,13 @@ class LinearStep:
         return columns, each @ (moves * (self.scale[0] / self.scale)), each.sum(axis=1)
 
     def _at_zero(self, structure: Structure, fit: Fit, held: Held) -> Held:
-        """The numbers that would lose more than all of themselves, and those held so far that would not rise again."""
-        look, log = self.look, self.look.model.coordinates.log
+        """The strengths that would lose more than all of themselves, and those held that would not rise again."""
+        look, positive = self.look, self.look.model.strengths
         strengths = fit.solution * self.scale[0] / self.scale[fit.at]
         own = {
             int(column)
             for column, strength in zip(fit.at, strengths, strict=True)
-            if column <= look.layout.tangents and strength < -1.0 and log[look.own[column - 1]]
+            if column <= look.layout.tangents and strength < -1.0 and positive[look.own[column - 1]]
         }
         at_zero = self._combined(np.array(sorted(held.own), dtype=np.intp), fit.rest, structure.dropped, held)
         pull = at_zero[:, :-1].T @ self.gram(structure.dropped) @ fit.rest

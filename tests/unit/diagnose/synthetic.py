@@ -32,8 +32,8 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     """A look at a model without numbers; ``rows`` (1 + bank, n) by group hold the residual, then the bank."""
     grams = np.array([each @ each.T for each in rows.values()])
     bank = grams.shape[1] - 1
-    numbers = SimpleNamespace(paths=(), log=np.zeros(0, bool))
-    model = SimpleNamespace(terms=(), coordinates=numbers, owned=(), point=np.zeros(0))
+    numbers = SimpleNamespace(paths=())
+    model = SimpleNamespace(terms=(), coordinates=numbers, owned=(), point=np.zeros(0), strengths=np.zeros(0, bool))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
     front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates, np.arange(0))

@@ -38,7 +38,8 @@ def bounded_look(groups):
         each[3] -= best @ each[:3]
     model = SimpleNamespace(
         terms=(),
-        coordinates=SimpleNamespace(paths=("own", "a", "b", "c"), log=np.ones(4, bool)),
+        coordinates=SimpleNamespace(paths=("own", "a", "b", "c")),
+        strengths=np.ones(4, bool),
         owned=(),
         point=np.zeros(4),
     )
