@@ -73,6 +73,54 @@ def test_random_networks_are_solved(draw):
         assert network.solve(run).status == (Status.GOOD,), f"{nodes}\n{branches}"
 
 
+BENDS = {
+    "play and friction": """
+        play: {element: backlash, stiffness: 10 N/mm, gap: 0.32 mm, between: [n0, base]}
+        friction: {element: coulomb, limit: 22 N, creep_velocity: 0.4 mm/s, between: [n0, wall]}
+        """,
+    "a slider that holds a node by itself": """
+        ideal: {element: ideal_coulomb, limit: 316 N, between: [base, n0]}
+        spring: {element: spring, stiffness: 100 N/mm, between: [base, wall]}
+        """,
+    "sliders of one limit behind springs": """
+        upper: {element: spring, stiffness: 2000 N/mm, between: [base, n2]}
+        ideal: {element: ideal_coulomb, limit: 316 N, between: [n2, n0]}
+        friction: {element: coulomb, limit: 316 N, creep_velocity: 1 mm/s, between: [n0, n1]}
+        lower: {element: spring, stiffness: 2000 N/mm, between: [n1, wall]}
+        """,
+}
+
+
+@pytest.mark.parametrize("pairs", [1, 4, 16, 64])
+@pytest.mark.parametrize("bends", BENDS)
+def test_steps_are_solved_where_one_law_is_flat_and_another_one_bends(bends, pairs):
+    """Where nothing but the bend of a stiff law holds a node, its place lies between two neighbouring numbers."""
+    free = {word for word in ("n0", "n1", "n2") if word in BENDS[bends]}
+    nodes = ", ".join(["base: driven", "wall: ground", *(f"{word}: free" for word in sorted(free))])
+    network = system("{" + nodes + "}", BENDS[bends])
+    sweep = Cosines(0.0, np.full(3, 1e-3), 2.0 * np.pi * np.array([1.0, 7.3, 20.0]))
+    run = network.prepare(excitation(times(0.5), {"base": sweep}), pairs)
+    assert network.solve(run).status == (Status.GOOD,)
+
+
+def test_two_equal_sliders_creep_like_one_of_twice_the_velocity(state):
+    """Each of them slips half of the way, whatever the force."""
+    network = system(
+        "{base: driven, wall: ground, m: free, n: free}",
+        """
+        spring: {element: spring, stiffness: 200 N/mm, between: [base, m]}
+        upper: {element: coulomb, limit: 100 N, creep_velocity: 1 mm/s, between: [m, n]}
+        lower: {element: coulomb, limit: 100 N, creep_velocity: 1 mm/s, between: [n, wall]}
+        """,
+    )
+    motion, at = smooth_motion(np.random.default_rng(seed_of("two equal sliders")), 0.0, 3e-3), times(0.3)
+    exact = slipping_force(motion.place, at.size, at[1], 2e5, 100.0, 2e-3)
+    found = network.solve(network.prepare(excitation(at, {"base": motion}), 16))
+    error = rms(found.force[0, 0] - exact) / rms(exact)
+    state(f"two equal sliders behind a spring, at 1/16 ms: {error:.1e}")
+    assert found.status == (Status.GOOD,) and error < 2e-3
+
+
 @pytest.mark.parametrize("damping", [0.0, 500.0])
 def test_the_force_of_friction_that_falls_with_speed_has_no_jump_where_the_path_begins_to_turn(damping):
     # a step over which the path may turn once, twice or not at all, as its last velocity says

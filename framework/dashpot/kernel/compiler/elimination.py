@@ -29,12 +29,16 @@ class Mount:
 
 
 def solve_symmetric(
-    matrix: Matrix, right: Mapping[str, Node], mounts: Mapping[str, Mount] = MappingProxyType({})
+    matrix: Matrix,
+    right: Mapping[str, Node],
+    mounts: Mapping[str, Mount] = MappingProxyType({}),
+    farthest: Node | None = None,
 ) -> dict[str, Node]:
     """The unknowns by name of ``matrix x = right``, a sparse symmetric and positive matrix without its zeros.
 
     The unknown with the fewest neighbours goes first. No pivot gets smaller than a floor, so that a joint that only
-    slides does not blow up.
+    slides does not blow up. With a ``farthest`` way each pivot is at least so large that its unknown alone goes no
+    farther: the matrix stays symmetric and positive, whatever is added to its diagonal.
     """
     rows = {name: dict(row) for name, row in matrix.items()}
     sides = dict(right)
@@ -43,7 +47,8 @@ def solve_symmetric(
     while rows:
         name = min(rows, key=lambda candidate: len(rows[candidate]))
         row = rows.pop(name)
-        pivot, alone = _pivot(row.pop(name), floors[name], sides[name], mounts.get(name))
+        floor = floors[name] if farthest is None else maximum(floors[name], np.absolute(sides[name]) / farthest)
+        pivot, alone = _pivot(row.pop(name), floor, sides[name], mounts.get(name))
         for other, entry in row.items():
             factor = entry * pivot
             sides[other] = sides[other] - entry * alone

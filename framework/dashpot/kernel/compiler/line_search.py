@@ -6,6 +6,10 @@ its first value through zero, and Newton's method in one variable between two bo
 is left. There the next line begins. So every line comes down, however sharp the bend; with a single unknown it is the
 bracketed Newton method. Source: Nocedal and Wright, Numerical Optimization, 2006, chapter 3.
 
+The search ends where the next step of Newton's method is short, or where the forces balance to rounding: where nothing
+holds a node, as in a clearance, such a step has any length. Where a stiff force bends, the place of balance may lie
+between two neighbouring numbers: either is right.
+
 Every pass evaluates the forces once, at a share of the line: it either goes on along it or begins a new one. The first
 pass of a step goes back to the first guess.
 """
@@ -31,9 +35,12 @@ from dashpot.kernel.compiler.mechanics import (
 
 LEFT = 0.1  # share of the first pull that may be left where the next line begins
 FARTHER = 4.0  # times the share, where the pull has not turned yet
-FINEST = 1e-15  # of a line: closer bounds are one number
+LONGEST = 1e6  # times the farthest way: where the pull has not turned there, nothing holds a node
+FINEST = 1e-15  # of a share: closer bounds are one number; of the tolerance: a line that short is none
 STIFFEST = 1e-18  # m/N, of a fixture that does not give way
 SOFTEST = 1e-300  # of a way that has not begun: no target divides by zero
+ROUNDING = 1e-14  # of the forces at a node, and of what its stiffnesses make of its place
+LAST_DIGIT, BALANCED = 1e-15, 1e-9  # of the places; of the forces at a node, where no digit is left to balance them by
 SHARE, BELOW, BEYOND, PULL = (f"line|{key}" for key in ("share", "below", "beyond", "pull"))
 
 
@@ -45,9 +52,15 @@ def search(balance: Balance) -> dict[str, Node]:
     done, fresh = symbol(DONE) > 0.5, symbol(LINES) < 0.5
     along = {joint: symbol(row_of(joint, "way")) for joint in unknown}
     pull = _pull(balance, missing, along)
-    share, below, beyond, ended = _next_share(pull, _stiffness(balance, along))
-    ways = balance.newton(missing, [maximum(tangent, 0.0) for tangent in balance.tangents])
-    distance = reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
+    length = _longest(along)
+    share, below, beyond, ended = _next_share(pull, _stiffness(balance, along), length)
+    # where a force bends, the places of two sides are neighbours
+    places = _longest({joint: symbol(row_of(joint, "next")) for joint in unknown})
+    exact = ended & (beyond * length <= LAST_DIGIT * places)
+    balanced = _balanced(balance, missing, where(exact, BALANCED, ROUNDING))
+    newton = balance.newton(missing, [maximum(tangent, 0.0) for tangent in balance.tangents], FARTHEST)
+    ways, ended = {joint: where(balanced, 0.0, way) for joint, way in newton.items()}, ended | balanced
+    distance = _longest(ways)
     # as in Newton's steps alone, what is not a number is not far
     near = ended & np.logical_not(distance > TOLERANCE)
     first = minimum(1.0, FARTHEST / maximum(distance, FARTHEST))
@@ -58,33 +71,61 @@ def search(balance: Balance) -> dict[str, Node]:
         BEYOND: where(ended, NEVER, beyond),
         PULL: where(ended, _pull(balance, missing, ways), symbol(PULL)),
     }
-    places: dict[str, Node] = {}
+    moved: dict[str, Node] = {}
     for joint in unknown:
         here, base = symbol(row_of(joint, "next")), symbol(row_of(joint, "base"))
         begin, way = where(ended, here, base), where(ended, ways[joint], along[joint])
         guess = balance.guess(joint)
-        places[row_of(joint, "base")] = where(fresh, guess, begin)
-        places[row_of(joint, "way")] = where(fresh, 0.0, way)
-        places[row_of(joint, "next")] = where(fresh, guess, begin + rows[SHARE] * way)
+        moved[row_of(joint, "base")] = where(fresh, guess, begin)
+        moved[row_of(joint, "way")] = where(fresh, 0.0, way)
+        moved[row_of(joint, "next")] = where(fresh, guess, begin + rows[SHARE] * way)
     begun: dict[str, Node | float] = {LINES: 1.0, SHARE: 0.0, BELOW: 0.0, BEYOND: NEVER, PULL: 0.0}
-    rows = places | {name: where(fresh, begun[name], row) for name, row in rows.items()}
+    rows = moved | {name: where(fresh, begun[name], row) for name, row in rows.items()}
     rows[DONE] = where(near & np.logical_not(fresh), 1.0, 0.0)
     kept = {name: where(done, symbol(name), row) for name, row in rows.items()}
     return kept | balance.reached(ways)
 
 
-def _next_share(pull: Node, stiffness: Node) -> tuple[Node, Node, Node, Node]:
-    """The next share of the line to look at, the bounds of where the pull ends, and whether the line has ended."""
+def _longest(ways: Mapping[str, Node]) -> Node:
+    return reduce(maximum, (np.absolute(way) for way in ways.values()), ZERO)
+
+
+def _next_share(pull: Node, stiffness: Node, length: Node) -> tuple[Node, Node, Node, Node]:
+    """The next share of the line to look at, the bounds of where the pull ends, and whether the line has ended.
+
+    A line may be far longer than the place that is looked for, as where nothing but rounding holds a node: its share is
+    found to all digits. Where the bounds are one number the forces bend there: it ends on the far side, where they are
+    stiff, so that the next line does not run into the same bend.
+    """
     share, pulling = symbol(SHARE), pull > 0.0
     below, beyond = where(pulling, share, symbol(BELOW)), where(pulling, symbol(BEYOND), share)
     # where the bounds came together by less than half, Newton's method is slow
     slow = beyond - below > 0.5 * (symbol(BEYOND) - symbol(BELOW))
-    newton, farther = share + pull / maximum(stiffness, SOFTEST), FARTHER * share
+    newton = share + pull / maximum(stiffness, SOFTEST)
+    farther = minimum(FARTHER * share, LONGEST * FARTHEST / maximum(length, SOFTEST))
     within = (newton > below) & (newton < beyond) & np.logical_not(slow)
     between = where(within, newton, 0.5 * (below + beyond))
-    ended = (pull >= 0.0) & (pull <= LEFT * symbol(PULL)) | (beyond - below < FINEST)
+    one = (beyond - below < FINEST * beyond) | (beyond * length < FINEST * TOLERANCE)
+    ended = (pull >= 0.0) & (pull <= LEFT * symbol(PULL)) | one & np.logical_not(pulling)
     ahead = where((newton > share) & (newton < farther), newton, farther)
-    return where(beyond < NEVER, between, ahead), below, beyond, ended
+    return where(one, beyond, where(beyond < NEVER, between, ahead)), below, beyond, ended
+
+
+def _balanced(balance: Balance, missing: Mapping[str, Node], share: Node) -> Node:
+    """Whether no node lacks more than a share of its forces, and of what its stiffnesses make of its place."""
+    sizes = {joint: _inertia(balance, joint) for joint in missing}
+    for edge, force, tangent in zip(balance.topology.edges, balance.forces, balance.tangents, strict=True):
+        places = np.absolute(balance.position(edge.lower)) + np.absolute(balance.position(edge.upper))
+        size = np.absolute(force) + np.absolute(tangent) * places
+        sizes |= {joint: sizes[joint] + size for joint in (edge.lower, edge.upper) if joint in sizes}
+    lacks = [np.absolute(force) <= share * sizes[joint] for joint, force in missing.items()]
+    return reduce(lambda one, other: one & other, lacks)
+
+
+def _inertia(balance: Balance, joint: str) -> Node:
+    """The force that moves the mass of a node, and what a step makes of its place."""
+    acceleration, bend = balance.inertia(joint)
+    return balance.mass(joint) * (np.absolute(acceleration) + bend * np.absolute(balance.position(joint)))
 
 
 def _pull(balance: Balance, missing: Mapping[str, Node], ways: Mapping[str, Node]) -> Node:

@@ -169,10 +169,12 @@ class Balance(ABC):
         """The force upwards that every unknown node still lacks to move as it does."""
         return {joint: self.load(joint) - self.carried(joint) for joint in self.unknown}
 
-    def newton(self, missing: Mapping[str, Node], tangents: Sequence[Node]) -> dict[str, Node]:
-        """Newton's way of every unknown node, by the ``tangents`` of all edges."""
+    def newton(
+        self, missing: Mapping[str, Node], tangents: Sequence[Node], farthest: Node | None = None
+    ) -> dict[str, Node]:
+        """Newton's way of every unknown node, by the ``tangents`` of all edges; see ``solve_symmetric``."""
         mounts = {inner: self.mount(inner) for inner in self.mounted}
-        return solve_symmetric(self._matrix(tangents), missing, mounts)
+        return solve_symmetric(self._matrix(tangents), missing, mounts, farthest)
 
     def mount(self, inner: str) -> Mount:
         """How a fixture holds what it carries."""
