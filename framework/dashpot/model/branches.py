@@ -12,6 +12,7 @@ from dashpot.model.curves import read_curve, read_scale
 from dashpot.model.element import Element
 from dashpot.model.fixing import fixed_as_found
 from dashpot.model.joints import read_ends, read_known
+from dashpot.model.nesting import TooDeep, height, refuse_too_deep
 from dashpot.model.network import Branch, Characteristic, Ends, Group, Joint, NetworkSpec, Value
 from dashpot.model.values import ONLY, Copy, Reading, kind_of, read_value
 from dashpot.text.form import Form
@@ -28,6 +29,7 @@ FOR_ALL = ("repeat", "about", "scale")
 class BranchReader:
     """Reads named branches and notes mistakes in ``problems``; ``use`` finds another network by the word for it.
 
+    ``depth`` is in how many groups and networks all of them lie; ``use`` is told that of the branches it finds.
     ``ends`` gathers which ``joints`` every outermost branch connects.
     """
 
@@ -35,10 +37,11 @@ class BranchReader:
         self,
         elements: MappingType[str, type[Element]],
         problems: list[Problem],
-        use: Callable[[str], NetworkSpec],
+        use: Callable[[str, int], NetworkSpec],
         joints: MappingType[str, Joint],
+        depth: int = 0,
     ) -> None:
-        self.elements, self.problems, self.use, self.joints = elements, problems, use, joints
+        self.elements, self.problems, self.use, self.joints, self._depth = elements, problems, use, joints, depth
         self._count_of_branches, self._unsound = 0, set[str]()
         self.ends: dict[str, Ends] = {}
 
@@ -124,7 +127,10 @@ class BranchReader:
 
     def _group(self, form: Form, kind: Literal["series", "parallel"], copy: Copy) -> Group:
         first = len(self.problems)
+        refuse_too_deep(self._depth + 1, form.key_place(kind))
+        self._depth += 1
         members = self.members(form, kind, copy)
+        self._depth -= 1
         if not members and len(self.problems) == first:
             form.complain(kind, "expected at least one branch, got none", "write it, or leave the group out")
         form.close()
@@ -141,13 +147,23 @@ class BranchReader:
             )
         form.close()
         try:
-            spec = self.use(other) if other and self._count_of_branches <= MAXIMUM_BRANCHES else None
+            spec = self._network(other, form) if other and self._count_of_branches <= MAXIMUM_BRANCHES else None
             if spec is None or not self._room_for(len(list(spec.leaves())), form):
                 return None
             return Group("", "parallel", (fixed_as_found(spec) if fixed else spec).root.members, form.place)
+        except TooDeep:
+            raise
         except InputError as error:
             self._complain_of_use(other, form, error)
             return None
+
+    def _network(self, word: str, form: Form) -> NetworkSpec:
+        place = form.place_of("use")
+        refuse_too_deep(self._depth + 1, place)
+        spec = self.use(word, self._depth + 1)
+        # it may have been read where it lay less deep
+        refuse_too_deep(self._depth + height(spec.root), place)
+        return spec
 
     def _room_for(self, count: int, form: Form) -> bool:
         # told once: what is beyond the limit need not be counted

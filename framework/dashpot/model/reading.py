@@ -11,6 +11,7 @@ from dashpot.model.clashes import find_clashes
 from dashpot.model.element import Element
 from dashpot.model.identified import read_identified
 from dashpot.model.joints import read_joints
+from dashpot.model.nesting import TooDeep
 from dashpot.model.network import Group, NetworkSpec, Value
 from dashpot.model.shipped import find_network, find_used_network, read_specification
 from dashpot.model.topology import COMPLIANCE
@@ -60,7 +61,7 @@ def build_network(
     document: Document, elements: Elements, *, beside: MappingType[str, Document] | None = None
 ) -> NetworkSpec:
     """The network in a document. Raises InputError with every mistake."""
-    return _build(document, _Uses(document.file, elements, (), beside or {}, {}))
+    return _build(document, _Uses(document.file, elements, (), beside or {}, {}, 0))
 
 
 def _build(document: Document, uses: _Uses) -> NetworkSpec:
@@ -73,7 +74,7 @@ def _build(document: Document, uses: _Uses) -> NetworkSpec:
     gravity = form.quantity("gravity", "m/s^2", 0.0)
     if "gravity" in form and "nodes" not in form:
         form.complain("gravity", "gravity pulls at the masses of nodes, but the network has no nodes", "remove it")
-    reader = BranchReader(uses.elements, problems, uses.network, joints)
+    reader = BranchReader(uses.elements, problems, uses.network, joints, uses.depth)
     members = reader.outermost(form)
     measurement = _read_measurement(form, problems)
     identified = read_identified(form)
@@ -131,7 +132,7 @@ class _Uses:
     """The networks that a file may use: shipped ones and those in or below its folder.
 
     ``trail`` are the files of the networks that use this one, outermost first; ``read`` what became of each file that
-    was used so far: it is read once, however often it is used.
+    was used so far: it is read once, however often it is used. ``depth`` is in how many groups and networks it lies.
     """
 
     file: str | None
@@ -139,31 +140,34 @@ class _Uses:
     trail: tuple[Path, ...]
     beside: MappingType[str, Document]
     read: dict[Path, NetworkSpec | InputError]
+    depth: int
 
-    def network(self, word: str) -> NetworkSpec:
+    def network(self, word: str, depth: int) -> NetworkSpec:
         """The network that a file calls ``word``. Raises InputError with all that is wrong with it."""
         if word in self.beside:
-            return self._used(self.beside[word], self.trail)
+            return self._used(self.beside[word], self.trail, depth)
         here = Path(self.file).resolve() if self.file else None
         trail = (*self.trail, here) if here else self.trail
         found = find_used_network(word, here.parent if here else Path.cwd())
         if found.resolve() in trail:
             names = " -> ".join(path.name for path in (*trail, found))
             raise InputError.at(Place(str(found)), f"the network uses itself: {names}", "break the circle")
-        known = self.read.get(found.resolve()) or self._outcome(found, trail)
+        known = self.read.get(found.resolve()) or self._outcome(found, trail, depth)
         self.read[found.resolve()] = known
         if isinstance(known, InputError):
             raise known
         return known
 
-    def _outcome(self, file: Path, trail: tuple[Path, ...]) -> NetworkSpec | InputError:
+    def _outcome(self, file: Path, trail: tuple[Path, ...], depth: int) -> NetworkSpec | InputError:
         try:
-            return self._used(read_specification(file), trail)
+            return self._used(read_specification(file), trail, depth)
+        except TooDeep:
+            raise
         except InputError as error:
             return error
 
-    def _used(self, document: Document, trail: tuple[Path, ...]) -> NetworkSpec:
-        inner = _build(document, replace(self, file=document.file, trail=trail, beside={}))
+    def _used(self, document: Document, trail: tuple[Path, ...], depth: int) -> NetworkSpec:
+        inner = _build(document, replace(self, file=document.file, trail=trail, beside={}, depth=depth))
         if inner.joints:
             raise InputError.at(
                 document.root.place,
