@@ -10,6 +10,7 @@ from typing import Literal
 
 import dashpot
 from dashpot.model.network import NetworkSpec
+from dashpot.text.name import shortened
 
 Verb = Literal["fit", "compare", "diagnose"]
 VERBS: tuple[Verb, ...] = ("fit", "compare", "diagnose")
@@ -43,7 +44,7 @@ class Job:
     def name(self) -> str:
         """The name of its folder and of its record."""
         about = () if self.verb == "compare" else self.models
-        return "-".join([self.specimen, self.verb, *about, *(["shared"] if self.held else [])])
+        return shortened("-".join([self.specimen, self.verb, *about, *(["shared"] if self.held else [])]))
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,7 @@ def parse_campaign(document: Document, folder: Path, registry: Registry) -> Camp
     specimens = _specimens(form, folder, problems)
     batch = form.text("batch", BATCH)
     campaign = CampaignSpec(
-        name=form.text("name") or "",
+        name=form.name("name") or "",
         about=form.text("about", ""),
         specimens=specimens,
         models=_models(form, folder, registry, problems),

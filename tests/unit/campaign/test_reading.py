@@ -121,3 +121,12 @@ def test_the_schema_takes_what_the_reader_takes(tmp_path):
     jsonschema.validate(Document.parse(text).root.plain(), campaign_schema())
     with pytest.raises(jsonschema.ValidationError):
         jsonschema.validate(Document.parse(text + "sed: 1\n").root.plain(), campaign_schema())
+
+
+def test_the_names_of_a_campaign_and_of_its_jobs_can_be_those_of_folders(tmp_path):
+    told = mistake(tmp_path, HEAD.replace("name: c", "name: ../c") + "specimens: specimens.csv\n" + REST)
+    assert "the campaign, 'name': '../c' cannot be a name: leave out" in told
+    table = TABLE.replace("\na,", f"\n{'€' * 80},").replace("\nb,", f"\n{'€' * 80}b,")
+    found = read(tmp_path, HEAD + "specimens: specimens.csv\n" + REST, table)
+    names = {job.name for job in found.jobs}
+    assert len(names) == 2 and all(len(name.encode()) <= 200 for name in names)

@@ -68,3 +68,11 @@ def test_an_unknown_specimen_is_told_before_anything_is_fitted(folder, monkeypat
     assert main(["joint", "two_mounts.yaml", "-o", "together"]) == 1
     assert "hrad" in capsys.readouterr().err
     assert not (folder / "together").exists()
+
+
+def test_a_specimen_whose_name_cannot_be_that_of_a_file_is_told_before_anything_is_fitted(folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    (folder / "two_mounts.yaml").write_text(JOINT.replace("soft: {", "../soft: {"))
+    assert main(["joint", "two_mounts.yaml", "-o", "together"]) == 1
+    assert "two_mounts.yaml:4:12: '../soft' cannot be the name of a specimen. leave out" in capsys.readouterr().err
+    assert not (folder / "together").exists()

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from dashpot.data.importing.files import run_names
+from dashpot.text.name import is_name
 
 
 @pytest.mark.parametrize(
@@ -32,3 +33,11 @@ from dashpot.data.importing.files import run_names
 def test_long_names_lose_the_words_that_all_begin_with(stems, names):
     found = list(run_names([Path(f"{stem}.csv") for stem in stems]).values())
     assert found == names
+
+
+@pytest.mark.parametrize("sign", ["x", "橡"])
+def test_names_that_are_cut_off_are_told_apart_by_numbers(sign):
+    files = [Path(f"{sign * 110}{number}.csv") for number in range(3)]
+    names = list(run_names(files).values())
+    assert len(set(names)) == 3 and names[2].endswith("_2")
+    assert all(map(is_name, names))

@@ -9,10 +9,13 @@ from pathlib import Path
 
 from dashpot.data.source import DESCRIPTIONS
 from dashpot.data.table import FileReader
+from dashpot.text.name import MOST_BYTES, start_of
 from dashpot.text.problem import InputError, Place
 
 # longer names fill the tables of a report: words that all files begin with are left out
 _LONG = 24
+# what is cut off leaves room for a number
+_LONGEST = 100
 _WORD = re.compile(r"[^ _-]+[ _-]+")
 
 
@@ -50,7 +53,7 @@ def run_names(files: Sequence[Path]) -> dict[Path, str]:
             name = _safe(f"{file.resolve().parent.name}_{stem}")
         number = 2
         while name in names.values():
-            name, number = _safe(f"{stem}_{number}"), number + 1
+            name, number = _safe(stem, f"_{number}"), number + 1
         names[file] = name
     return names
 
@@ -72,8 +75,9 @@ def common_folder(files: Sequence[Path]) -> Path:
     return Path(os.path.commonpath([str(file.resolve().parent) for file in files]))
 
 
-def _safe(name: str) -> str:
-    return re.sub(r"[/\\:*?\"<>|\x00-\x1f\x7f]", "_", name).lstrip(".")[:100] or "run"
+def _safe(name: str, end: str = "") -> str:
+    fit = re.sub(r"[/\\:*?\"<>|\x00-\x1f\x7f]", "_", name).lstrip(".")[:_LONGEST]
+    return (start_of(fit, MOST_BYTES - len(end)) or "run") + end
 
 
 def _in_order(path: Path) -> list[tuple[int, str]]:

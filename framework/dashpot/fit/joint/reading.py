@@ -14,6 +14,7 @@ from dashpot.model.reading import read_network
 from dashpot.model.shipped import SUFFIXES
 from dashpot.text.document import Document
 from dashpot.text.form import Form, read_text
+from dashpot.text.name import RULE, is_name, shown
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Sequence
 from dashpot.text.problem import InputError, Problem, nearest
@@ -43,6 +44,8 @@ def _specimens(form: Form, folder: Path, registry: Registry) -> Iterator[Specime
     if "specimens" in form and len(entries) < 2:
         form.complain("specimens", f"expected two specimens or more, got {len(entries)}", "fit a single one by 'fit'")
     for name, entry in entries.items():
+        if not is_name(name):
+            entry.complain(None, f"{shown(name)} cannot be the name of a specimen", RULE)
         word, data = entry.text("network"), entry.text("data")
         entry.close()
         if word and data:

@@ -17,6 +17,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from dashpot.fit.replay import Block
+from dashpot.text.name import shortened
 from dashpot.text.problem import InputError, Place
 
 MARK = "study.txt"
@@ -46,7 +47,7 @@ class Checkpoint:
 
     def stage(self, name: str) -> Record:
         """The record of one search of one stage."""
-        return Record(None if self.folder is None else self.folder / name)
+        return Record(None if self.folder is None else self.folder / shortened(name))
 
     def discard(self) -> None:
         """Remove all records."""
