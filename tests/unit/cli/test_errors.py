@@ -823,24 +823,31 @@ def test_a_plugin_that_is_not_installed(blame, monkeypatch):
 
 
 RECORDS = {
-    "of another study": ("study.txt", "another", "its records are of another study", "say --force to begin again"),
+    "of another study": (None, "its records are of another study", "say --force to begin again"),
+    "with a damaged mark": (b"\xff", "its 'study.txt', which tells what its records are of, is damaged", "say --force"),
 }
 
 
-@pytest.mark.parametrize("file, text, found, advice", RECORDS.values(), ids=RECORDS)
-def test_a_checkpoint_that_cannot_be_used(blame, folder, monkeypatch, file, text, found, advice):
+@pytest.mark.parametrize("mark, found, advice", RECORDS.values(), ids=RECORDS)
+def test_a_checkpoint_that_cannot_be_used(blame, folder, monkeypatch, mark, found, advice):
     from dashpot.fit.study import run
+    from dashpot.fit.study.checkpoint import Checkpoint
 
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    output = f"study_{Path(file).stem}"
+    output = "damaged" if mark else "another"
     with monkeypatch.context() as patched:
         patched.setattr(run, "search", interrupted)
         assert blame(f"study x.yaml -o {output}", "x.yaml", STUDY + STAGES + MODELS)[0] == 3
-    record = folder / output / "checkpoint" / file
-    assert record.parent.is_dir()
-    record.write_text(text)
+    records = folder / output / "checkpoint"
+    assert (records / "study.txt").is_file()
+    if mark is None:
+        Checkpoint(records).discard()
+        Checkpoint(records).open("another")
+    else:
+        (records / "study.txt").write_bytes(mark)
+        (records / "a.json").write_text("{}")
     check_parts(*blame(f"study x.yaml -o {output}"), "checkpoint", found, advice)
     assert blame(f"study x.yaml -o {output} --force --quiet")[0] == 0
     assert json.loads((folder / output / "study.json").read_text())["format"].startswith("dashpot-study")
