@@ -82,5 +82,6 @@ class CampaignSpec:
     @property
     def fingerprint(self) -> str:
         """What the result of a job depends on beside its data."""
-        parts = [dashpot.__version__, str(self.seed), str(self.reports), *(model.text for model in self.models)]
+        networks = [text for model in self.models for text in model.texts]
+        parts = [dashpot.__version__, str(self.seed), str(self.reports), *networks]
         return hashlib.sha256("\0".join(parts).encode()).hexdigest()

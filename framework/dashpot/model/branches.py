@@ -30,7 +30,7 @@ class BranchReader:
     """Reads named branches and notes mistakes in ``problems``; ``use`` finds another network by the word for it.
 
     ``depth`` is in how many groups and networks all of them lie; ``use`` is told that of the branches it finds.
-    ``ends`` gathers which ``joints`` every outermost branch connects.
+    ``ends`` gathers which ``joints`` every outermost branch connects, and ``used`` the texts of what was found.
     """
 
     def __init__(
@@ -44,6 +44,7 @@ class BranchReader:
         self.elements, self.problems, self.use, self.joints, self._depth = elements, problems, use, joints, depth
         self._count_of_branches, self._unsound = 0, set[str]()
         self.ends: dict[str, Ends] = {}
+        self.used: dict[str, None] = {}
 
     def outermost(self, form: Form) -> tuple[Branch | Group, ...]:
         """The branches of the file."""
@@ -163,6 +164,7 @@ class BranchReader:
         spec = self.use(word, self._depth + 1)
         # it may have been read where it lay less deep
         refuse_too_deep(self._depth + height(spec.root), place)
+        self.used |= dict.fromkeys(spec.texts)
         return spec
 
     def _room_for(self, count: int, form: Form) -> bool:

@@ -211,7 +211,7 @@ class NetworkSpec:
 
     A network without ``joints`` has two ends: one is driven, the other held. With joints, ``ends`` says for every
     member of ``root`` what it connects; ``gravity`` in m/s^2 pulls at the masses. ``identified`` tells where
-    its numbers came from.
+    its numbers came from, ``used`` what stands in the networks that it uses.
     """
 
     name: str
@@ -224,6 +224,7 @@ class NetworkSpec:
     source: str = ""
     document: Document | None = field(default=None, compare=False, repr=False)
     identified: Identified = field(default_factory=Identified, compare=False, repr=False)
+    used: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
     @property
     def text(self) -> str:
@@ -231,6 +232,11 @@ class NetworkSpec:
         if self.document is None:
             raise ValueError(f"expected a network that was read from a text, got '{self.name}', which was built")
         return self.document.text
+
+    @property
+    def texts(self) -> tuple[str, ...]:
+        """Its text and those of all networks that it uses: what it says depends on nothing else."""
+        return (self.text, *self.used)
 
     @property
     def file(self) -> str | None:

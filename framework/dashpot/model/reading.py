@@ -82,7 +82,9 @@ def _build(document: Document, uses: _Uses) -> NetworkSpec:
     if not problems and not members:
         form.complain("branches", "the network has no branch", "add a branch, e.g. 'stiffness: {element: spring, ...}'")
     root = Group("", "parallel", members)
-    spec = NetworkSpec(name, root, measurement, joints, reader.ends, gravity, about, source, document, identified)
+    spec = NetworkSpec(
+        name, root, measurement, joints, reader.ends, gravity, about, source, document, identified, tuple(reader.used)
+    )
     problems.extend(find_clashes(spec))
     if problems:
         raise InputError(problems)

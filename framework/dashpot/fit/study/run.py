@@ -118,7 +118,7 @@ def run_study(
 
 def fingerprint(study: StudySpec, dataset: Dataset) -> str:
     """What the parameters of a study depend on."""
-    networks = [plan.network.text for plan in study.models]
+    networks = [text for plan in study.models for text in plan.network.texts]
     parts = [dashpot.__version__, str(study.seed), dataset.digest, study.text, *networks]
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()
 

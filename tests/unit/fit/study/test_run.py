@@ -205,6 +205,17 @@ def test_the_records_of_another_study_are_refused(study, tmp_path):
         run(replace(made, seed=1), checkpoint=tmp_path / "records")
 
 
+def test_records_of_a_network_that_used_another_one_are_of_another_study(study, tmp_path):
+    (tmp_path / "uses.yaml").write_text("format: dashpot-network/1\nname: uses\nbranches: {it: {use: one.yaml}}\n")
+    asked = "stages: [{name: a}]\nmodels: [uses.yaml]\n"
+    first = run(study(asked), checkpoint=tmp_path / "records")
+    assert run(study(asked), checkpoint=tmp_path / "records").models[0].stages == first.models[0].stages
+    below = tmp_path / "one.yaml"
+    below.write_text(below.read_text().replace("150 N/mm", "150 N/mm, bounds: [1 N/mm, 160 N/mm]"))
+    with pytest.raises(InputError, match="of another study"):
+        run(study(asked), checkpoint=tmp_path / "records")
+
+
 def test_bootstrap_and_profile_agree_with_the_intervals_where_the_model_is_true(study):
     data = Dataset("bench", tuple(sine(f"r{n}", 3.0 + 0.5 * n, 20.0, seed=n) for n in range(12)))
     made = study("bootstrap: 60\nprofiles: '*'\nhold_out: r0\nstages: [{name: a}]\nmodels: [two.yaml]\n")
