@@ -2,6 +2,7 @@
 
 code     - statements of Python as numba compiles it
 module   - modules, kept by what they are made of
+sealed   - their machine code on disk, known again by its digest
 borrowed - arrays without counted references, and on the stack
 packed   - long functions of four arguments in a vector
 block    - blocks of lanes along whole records, as the kernel runs them

@@ -1,4 +1,8 @@
-"""Modules of compiled functions, kept by what they are made of, so that numba can keep machine code beside them."""
+"""Modules of compiled functions, kept by what they are made of, with their machine code beside them.
+
+numba wants a file for every module. It is never read again: a module is made from the text that asks for it, and its
+machine code is loaded only with this user's seal.
+"""
 
 from __future__ import annotations
 
@@ -11,6 +15,7 @@ from pathlib import Path
 from types import ModuleType
 
 from dashpot.kernel.cache import keep, kernel_folder, passing_folder
+from dashpot.kernel.targets.numba.sealed import seal
 
 PREFIX, HELPERS = "dashpot_kernel_", ("borrowed.py", "native.py", "packed.py", "statements.py")
 
@@ -36,8 +41,10 @@ def _module(text: str, folder: Path) -> ModuleType:
         file = passing_folder() / file.name
         keep(file, text.encode())
     spec = spec_from_file_location(name, file)
-    assert spec is not None and spec.loader is not None
+    assert spec is not None
     module = module_from_spec(spec)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
+    # the loader would take bytecode that lies beside the file, whoever wrote it
+    exec(compile(text, str(file), "exec"), vars(module))
+    seal(module, file.parent)
     return module
