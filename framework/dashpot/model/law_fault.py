@@ -17,20 +17,20 @@ def told_of_law(element: type[Element]) -> Iterator[None]:
         yield
     except InputError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         file, line = _line(element, error)
         message = f"the law of the element '{element.word}' cannot be used: {_told(error)}"
         hint = "this is a fault of the plugin that gives the element: tell its author, `dashpot list elements` says who"
         raise InputError.at(Place(file, line), message, hint) from error
 
 
-def _told(error: Exception) -> str:
+def _told(error: BaseException) -> str:
     text = " ".join(str(error).split())[:300]
     # what tracing says of a law is a sentence by itself
     return text if type(error).__name__ == "TraceError" else f"it raises {type(error).__name__}: {text}"
 
 
-def _line(element: type[Element], error: Exception) -> tuple[str, int]:
+def _line(element: type[Element], error: BaseException) -> tuple[str, int]:
     code = element.step.__code__
     frames = traceback.extract_tb(error.__traceback__)
     within = [frame.lineno for frame in frames if frame.filename == code.co_filename]

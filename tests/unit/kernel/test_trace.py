@@ -168,9 +168,28 @@ class Raising(Confused):
         return {}["far"] * x
 
 
+class Leaving(Confused):
+    """Would end the process."""
+
+    word = "leaving"
+
+    def step(self, x, z, p, dt):
+        raise SystemExit(5)
+
+
+class Interrupted(Confused):
+    """Ctrl-C while it is traced."""
+
+    word = "interrupted"
+
+    def step(self, x, z, p, dt):
+        raise KeyboardInterrupt
+
+
 @pytest.mark.parametrize(
     "element, line, told",
     [
+        (Leaving, Leaving.step.__code__.co_firstlineno + 1, "it raises SystemExit: 5"),
         (Branching, Branching.step.__code__.co_firstlineno + 2, "a law may not branch on a traced value; use np.where"),
         (Raising, Raising.force_at.__code__.co_firstlineno + 1, "it raises KeyError: 'far'"),
     ],
@@ -182,3 +201,9 @@ def test_a_law_that_fails_is_told_as_the_fault_of_its_plugin_with_the_line(eleme
     [problem] = caught.value.problems
     assert (problem.place.file, problem.place.line) == (__file__, line)
     assert "a fault of the plugin that gives the element" in problem.hint
+
+
+def test_an_interruption_while_a_law_is_traced_stays_one():
+    text = f"{HEAD}  it: {{element: interrupted, stiffness: 5}}\n"
+    with pytest.raises(KeyboardInterrupt):
+        trace_network(parse_network(text, {"interrupted": Interrupted}))
