@@ -46,6 +46,7 @@ def verb(specimen: str | None, output: Path, switches: Switches) -> None:
 
     session = Session(switches)
     chosen = choose_specimen(specimen, session.registry)
+    session.claim(output)
     tables = session.claim(output / "comparison", *COMPARISON_FILES)
     causes = session.claim(output / "diagnosis", *diagnosis_files(chosen.suspect))
     session.talk.say(f"{chosen.word}: {chosen.about}")

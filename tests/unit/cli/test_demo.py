@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from dashpot import Specimen
+from dashpot.cli.output import OutputFolder
 from dashpot.contract import registry as registry_module
 
 
@@ -61,6 +62,15 @@ def test_a_second_demonstration_needs_force(call, sponge, tmp_path):
     assert call("demo", "-o", tmp_path)[0] == 0
     assert call("demo", "-o", tmp_path)[0] == 1
     assert call("demo", "-o", tmp_path, "--force")[0] == 0
+
+
+def test_a_folder_into_which_another_call_writes_is_refused_before_anything_is_measured(call, sponge, tmp_path):
+    with OutputFolder(tmp_path / "out", force=False).locked():
+        code, _, error = call("demo", "-o", tmp_path / "out", "--force")
+    assert code == 1
+    assert "out: another call of dashpot is writing into this folder. wait for its end, or choose another -o" in error
+    assert sponge.measured == [] and list((tmp_path / "out").iterdir()) == []
+    assert call("demo", "-o", tmp_path / "out")[0] == 0
 
 
 @pytest.mark.parametrize(
