@@ -150,6 +150,7 @@ def layers(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> list[dict]:
         "dashpot.compare.comparison": {"compare": work("compare"), "comparison_of": lambda fit: fit},
         "dashpot.diagnose.diagnose": {"diagnose": work("diagnose")},
     }
+    import_module("dashpot.report.networks")  # what writes reports needs the layers as they are
     for module, names in replaced.items():
         monkeypatch.setitem(sys.modules, module, SimpleNamespace(**names))
     verb = import_module("dashpot.cli.diagnose")
