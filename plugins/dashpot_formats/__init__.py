@@ -1,8 +1,8 @@
 """The built-in readers of measurement files, one format per file.
 
-- `delimited_text`, `delimited_layout`, `delimited_header`, `delimited_table`, `time_stamps` and `stated_sampling` help
-  `csv`, `lvm` and `xlsx` to make out tables as rigs write them; `lvm_header` belongs to `lvm`, `rpc_header` to `rpc`,
-  `tydex_channel` to `tydex`.
+- `delimited_text`, `delimited_lines`, `delimited_layout`, `delimited_header`, `delimited_table`, `delimited_rows`,
+  `delimited_columns`, `delimited_numbers`, `time_stamps` and `stated_sampling` help `csv`, `lvm` and `xlsx` to make out
+  tables as rigs write them; `lvm_header` belongs to `lvm`, `rpc_header` to `rpc`, `tydex_channel` to `tydex`.
 - `apart` lets libraries of native code read in a process of their own, whose other side is `serve`; `extra` says how to
   install an optional one.
 - `unit_words` knows units in other spellings, `distinct` makes names unique, `flatten` turns the variables of `mat`,

@@ -37,7 +37,7 @@ class Csv(Reader):
         skipped = get_option(options, "skip_rows", int, 0)
         if skipped < 0:
             raise ReadingError(f"expected 'skip_rows' as 0 or more, got {skipped}", "it counts lines at the top")
-        lines = [""] * skipped + lines[skipped:]
+        lines = lines.without_first(skipped)
         layout = find_layout(lines, _delimiters(options), _decimals(options))
         return read_table(lines, layout)
 

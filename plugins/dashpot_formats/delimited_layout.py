@@ -8,7 +8,11 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dashpot.contract.reader import ReadingError
+from dashpot_formats.delimited_lines import Lines
 
 # in the order of preference where several read a file alike; None stands for any white space
 DELIMITERS: tuple[str | None, ...] = ("\t", ";", ",", "|", None)
@@ -71,14 +75,15 @@ def is_number(text: str, decimal: str) -> bool:
     return _NUMBER[decimal].fullmatch(text) is not None
 
 
-def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals: Sequence[str]) -> Layout:
+def find_layout(lines: Lines, delimiters: Sequence[str | None], decimals: Sequence[str]) -> Layout:
     """The layout under which the rows hold most numbers. Raises ReadingError when there is no table of numbers."""
-    sample = _sample(lines)
+    filled = _filled_lines(lines)
+    sample = _sample(lines, filled)
     choices = [(delimiter, decimal) for delimiter in delimiters for decimal in decimals]
     if not sample:
         raise ReadingError("it holds no rows", "check that this is the file of the measurement")
     delimiter, decimal = max(choices, key=lambda choice: _score(sample, *choice))
-    wider = _wider(sample, _filled_lines(lines)[-_SAMPLE:], delimiter, decimal)
+    wider = _wider(sample, [lines[index] for index in filled[-_SAMPLE:]], delimiter, decimal)
     rows = [split_row(line, delimiter) for line in wider if not is_comment(line, delimiter)]
     if not any(is_number(cell, decimal) for row in rows for cell in row):
         raise ReadingError("it holds no table of numbers", "check that this is the file of the measurement")
@@ -87,15 +92,20 @@ def find_layout(lines: Sequence[str], delimiters: Sequence[str | None], decimals
     return Layout(delimiter, decimal, _first_row(lines, delimiter, decimal, columns), width)
 
 
-def _filled_lines(lines: Sequence[str]) -> list[str]:
-    return [line for line in lines if line.strip()]
+def _filled_lines(lines: Lines) -> NDArray[np.int64]:
+    """The numbers (from 0) of the lines that hold anything."""
+    found = [
+        np.array([index for index, line in enumerate(block, first) if line.strip()], dtype=np.int64)
+        for first, block in lines.blocks()
+    ]
+    return np.concatenate(found)
 
 
-def _sample(lines: Sequence[str]) -> list[str]:
+def _sample(lines: Lines, filled: NDArray[np.int64]) -> list[str]:
     """Lines spread over the second half of the file, where headers are past, and its last ones."""
-    filled = _filled_lines(lines)
-    half = filled[len(filled) // 2 :]
-    return half[:: max(1, len(half) // _SAMPLE)] + filled[-_SAMPLE // 2 :]
+    half = filled[filled.size // 2 :]
+    chosen = np.concatenate([half[:: max(1, half.size // _SAMPLE)], filled[-_SAMPLE // 2 :]])
+    return [lines[index] for index in chosen]
 
 
 def _wider(sample: Sequence[str], last: Sequence[str], delimiter: str | None, decimal: str) -> Sequence[str]:
@@ -127,7 +137,7 @@ def _filled(row: list[str]) -> int:
     return max((index + 1 for index, cell in enumerate(row) if cell), default=0)
 
 
-def _first_row(lines: Sequence[str], delimiter: str | None, decimal: str, columns: list[int]) -> int:
+def _first_row(lines: Lines, delimiter: str | None, decimal: str, columns: list[int]) -> int:
     """The first line with numbers in most columns, or the first of three rows on end, gaps and all."""
     sparse: list[int] = []
     for index, line in enumerate(lines):

@@ -9,7 +9,7 @@ import numpy as np
 
 from dashpot.contract.reader import Reader, ReadingError, Table
 from dashpot_formats.csv import Csv
-from dashpot_formats.delimited_table import numbers_of
+from dashpot_formats.delimited_numbers import numbers_of
 from dashpot_formats.delimited_text import read_lines
 from dashpot_formats.distinct import distinct
 from dashpot_formats.lvm_header import FileHeading, Segment, is_lvm, read_file_heading, segments
@@ -38,7 +38,8 @@ class Lvm(Reader):
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
         check_options(options, self.options)
-        lines = read_lines(path, get_option(options, "encoding", str, None))
+        # a list: its segments look up one line after the other
+        lines = list(read_lines(path, get_option(options, "encoding", str, None)))
         if not is_lvm(lines):
             return Csv().read(path, {key: value for key, value in options.items() if key == "encoding"})
         heading = read_file_heading(lines)

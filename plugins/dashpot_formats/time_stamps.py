@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Sequence
+from array import array
+from collections.abc import Iterable
 from datetime import date
 
 import numpy as np
@@ -19,19 +21,20 @@ def is_stamp(text: str) -> bool:
     return _STAMP.fullmatch(text.strip()) is not None
 
 
-def seconds(texts: Sequence[str]) -> np.ndarray | None:
+def seconds(texts: Iterable[str]) -> np.ndarray | None:
     """Seconds (n,) since the first stamp, NaN where a text is empty; None when a text is anything else.
 
     The order of day and month is that of the country: 31.12.2024 and 2024-12-31; with slashes the day comes first
     unless that makes no date or the clock has AM and PM. Times without a date go on past midnight.
     """
-    found = np.full((len(texts), 2), np.nan)
-    for index, text in enumerate(texts):
+    pairs = array("d")
+    for text in texts:
         match = _STAMP.fullmatch(text.strip())
         value = _day_and_seconds(match) if match else None
         if value is None and text.strip():
             return None
-        found[index] = np.nan if value is None else value
+        pairs.extend((math.nan, math.nan) if value is None else value)
+    found = np.array(pairs).reshape(-1, 2)
     known = np.flatnonzero(np.isfinite(found[:, 1]))
     if not known.size:
         return None

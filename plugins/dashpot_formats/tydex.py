@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -50,7 +50,7 @@ class Tydex(Reader):
         return Table(columns, units, lines=lines)
 
 
-def _sections(lines: Sequence[str]) -> dict[str, list[_Line]]:
+def _sections(lines: Iterable[str]) -> dict[str, list[_Line]]:
     """The lines of each section with their numbers, without remarks and empty ones."""
     sections: dict[str, list[_Line]] = {}
     current: list[_Line] = []

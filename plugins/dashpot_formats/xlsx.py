@@ -12,6 +12,7 @@ from dashpot.contract.reader import Reader, ReadingError, Table
 from dashpot.text.problem import nearest
 from dashpot_formats.apart import read_apart
 from dashpot_formats.delimited_layout import find_layout
+from dashpot_formats.delimited_lines import LONE, Lines
 from dashpot_formats.delimited_table import read_table
 from dashpot_formats.extra import require
 from dashpot_formats.option import check_options, get_option
@@ -37,7 +38,8 @@ class Xlsx(Reader):
         check_options(options, self.options)
         require("openpyxl", self.extra, "Excel workbooks")
         sheets: dict[str, list[str]] = read_apart(read_sheets, path, "Excel workbook").notes["sheets"]
-        lines = sheets[_chosen(sheets, options.get("sheet"))]
+        text = "\n".join(sheets[_chosen(sheets, options.get("sheet"))])
+        lines = Lines(text.encode("utf-8", LONE))
         return read_table(lines, find_layout(lines, (_BETWEEN,), (".",)))
 
 
