@@ -2,7 +2,8 @@
 
 Two Maxwells side by side give the same force when they exchange their numbers. So that `maxwell_1` means the same in
 every fit, in its intervals and in every refit, they stand by relaxation time, and sliders by yield travel (limit over
-stiffness): rising, or falling where the file declares them so.
+stiffness): rising, or falling where the file declares them so. So do groups of the same elements, as springs and
+dampers in series.
 """
 
 from __future__ import annotations
@@ -13,67 +14,69 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.model.network import Branch, Group, NetworkSpec, Slot, branch_slots
+from dashpot.fit.side_by_side import Key, Member, in_parallel, leaves_of, makeup, slots_of, sorting_keys
+from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Interchangeable:
-    """Branches that may exchange their numbers: ``slots`` (branches, numbers) among all slots of the network.
+    """Branches or groups that may exchange their numbers: ``slots`` (members, numbers) among all slots of the network.
 
-    The key by which they stand is the number ``over`` divided by the number ``under`` (None: by nothing), both columns
-    of ``slots``. They stand ``falling`` where the file declares them so.
+    They stand by their ``keys``, by the second one where the first is equal. A key is one number divided by another
+    (None: by nothing), both columns of ``slots``. They stand ``falling`` where the file declares them so.
     """
 
     names: tuple[str, ...]
     slots: NDArray[np.int64]
-    over: int
-    under: int | None
-    falling: bool
-
-    def keys(self, values: Array) -> Array:
-        """The keys (lanes, branches) of lanes of slots."""
-        below = 1.0 if self.under is None else values[:, self.slots[:, self.under]]
-        return np.asarray(values[:, self.slots[:, self.over]] / below)
+    keys: tuple[Key, ...]
+    falling: bool = False
 
     def ordered(self, values: Array) -> Array:
-        """Lanes of slots with these branches in their order."""
-        keys = self.keys(values)
-        order = np.argsort(-keys if self.falling else keys, axis=1, kind="stable")
+        """Lanes of slots with these members in their order."""
         found = values.copy()
-        for lane, own in enumerate(order):
+        for lane, own in enumerate(self.order(values)):
             found[lane, self.slots] = values[lane, self.slots[own]]
         return found
 
+    def order(self, values: Array) -> NDArray[np.int64]:
+        """Which member comes when (lanes, members), in lanes of slots; of equals the first declared."""
+        sign = -1.0 if self.falling else 1.0
+        columns = [sign * self._quotient(values, key) for key in self.keys]
+        return np.lexsort(columns[::-1], axis=1)
+
+    def _quotient(self, values: Array, key: Key) -> Array:
+        over, under = key
+        below = 1.0 if under is None else values[:, self.slots[:, under]]
+        return np.asarray(values[:, self.slots[:, over]] / below)
+
 
 def interchangeable(declared: NetworkSpec, spec: NetworkSpec) -> tuple[Interchangeable, ...]:
-    """The branches of ``spec`` that may exchange their numbers, and the order in which ``declared`` has them.
+    """The branches and groups of ``spec`` that may exchange their numbers, in the order in which ``declared`` has them.
 
-    They lie in parallel between the same ends, are of one element, and no number tells them apart: what is fixed is
-    equal, what is searched has the same bounds.
+    They lie in parallel between the same ends, are of the same elements, and no number tells them apart: what is fixed
+    is equal, what is searched has the same bounds. What lies inside of groups comes before these.
     """
-    places = {slot.path: number for number, slot in enumerate(spec.slots())}
+    slots = spec.slots()
+    places = {slot.path: number for number, slot in enumerate(slots)}
     starts = {slot.path: slot.value.number for slot in declared.slots()}
+    begin = np.array([[starts.get(slot.path, slot.value.number) for slot in slots]])
     found = []
-    for branches in _alike(spec):
-        over, under = _key(branches[0])
-        if over is None:
-            continue
-        keys = [slot.path.removeprefix(branches[0].name) for slot in branch_slots(branches[0])]
-        slots = np.array([[places[f"{branch.name}{key}"] for key in keys] for branch in branches])
-        column = {key: number for number, key in enumerate(keys)}
-        family = Interchangeable(
-            tuple(branch.name for branch in branches),
-            slots,
-            column[f".{over}"],
-            None if under is None else column[f".{under}"],
-            False,
-        )
-        begin = np.array([[starts.get(slot.path, slot.value.number) for slot in spec.slots()]])
-        falling = bool(np.all(np.diff(family.keys(begin)[0]) < 0.0))
-        found.append(Interchangeable(family.names, slots, family.over, family.under, falling))
+    for members in _alike(spec):
+        keys = sorting_keys(members[0])
+        if keys:
+            numbers = np.array([[places[slot.path] for slot in slots_of(member)] for member in members])
+            found.append(_as_declared(Interchangeable(tuple(member.name for member in members), numbers, keys), begin))
     return tuple(found)
+
+
+def _as_declared(family: Interchangeable, begin: Array) -> Interchangeable:
+    """The same, falling where it begins so and does not rise as well, as equal ones do."""
+    falling = replace(family, falling=True)
+    declared = np.arange(len(family.names))
+    falls = np.array_equal(falling.order(begin)[0], declared) and np.array_equal(family.order(begin)[0], declared[::-1])
+    return falling if falls else family
 
 
 def in_order(families: tuple[Interchangeable, ...], values: Array) -> Array:
@@ -96,41 +99,16 @@ def ordered(declared: NetworkSpec, spec: NetworkSpec) -> NetworkSpec:
     )
 
 
-def _alike(spec: NetworkSpec) -> Iterator[list[Branch]]:
+def _alike(spec: NetworkSpec) -> Iterator[list[Member]]:
     slots = spec.slots()
     shared = {branch.shares for branch in spec.leaves() if branch.shares}
     # a branch to whose numbers an expression refers is not another one's equal
     tied = {slots[k].path for rule in spec.derived.rules for k in (rule.slot, *rule.names.values())}
-    families: dict[object, list[Branch]] = {}
-    for group, branch in _in_parallel(spec.root):
-        own = tuple(branch_slots(branch))
-        if branch.shares or branch.name in shared or any(slot.value.over or slot.path in tied for slot in own):
+    families: dict[object, list[Member]] = {}
+    for place, member in in_parallel(spec):
+        own = slots_of(member)
+        unlike = any(branch.shares or branch.name in shared for branch in leaves_of(member))
+        if unlike or any(slot.value.over or slot.path in tied for slot in own):
             continue
-        numbers = tuple((slot.path.removeprefix(branch.name), _distinct(slot)) for slot in own)
-        forms = tuple((key, curve.form, curve.at, curve.data) for key, curve in branch.characteristics().items())
-        families.setdefault((group, spec.ends.get(branch.name), branch.element, numbers, forms), []).append(branch)
+        families.setdefault((place, makeup(member)), []).append(member)
     return (family for family in families.values() if len(family) > 1)
-
-
-def _in_parallel(group: Group) -> Iterator[tuple[int, Branch]]:
-    for member in group.members:
-        if isinstance(member, Group):
-            yield from _in_parallel(member)
-        elif group.kind == "parallel":
-            yield id(group), member
-
-
-def _distinct(slot: Slot) -> object:
-    # what would tell a branch from another one by this number
-    value = slot.value
-    return (value.bounds, value.scale, value.prior) if value.searched else value.number
-
-
-def _key(branch: Branch) -> tuple[str | None, str | None]:
-    """The parameters whose quotient orders branches of an element: a time alone, or a force over a stiffness."""
-    units = {key: value.unit for key, value in branch.values.items()}
-    times = [key for key, unit in units.items() if unit == "s"]
-    limits, slopes = ([key for key, unit in units.items() if unit == wanted] for wanted in ("N", "N/m"))
-    if len(times) == 1:
-        return times[0], None
-    return (limits[0], slopes[0]) if len(limits) == len(slopes) == 1 else (None, None)
