@@ -68,6 +68,43 @@ def test_a_short_clean_motion_keeps_its_velocity(count, period):
     assert np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2)) < {20.0: 2e-5, 8.0: 1e-4, 4.0: 8e-3}[period]
 
 
+@pytest.mark.parametrize("count", [30, 60, 100, 127, 128, 200, 1000])
+@pytest.mark.parametrize("period", [8.0, 5.0, 4.0, 3.5, 3.0])
+def test_the_ends_of_a_clean_motion_are_as_good_as_its_middle(count, period):
+    # of the velocity's RMS, over all samples: what the quintic and the spline of high degree leave of an endless sine
+    quintic = {8.0: 6e-5, 5.0: 1.2e-3, 4.0: 6e-3, 3.5: 1.5e-2, 3.0: 5e-2}[period]
+    allowed = quintic if count < 128 else {3.5: 2e-4, 3.0: 1e-3}.get(period, 3e-5)
+    for phase in np.arange(0.1, 6.0, 0.7):
+        angle = 2.0 * np.pi * np.arange(count) / period + phase
+        found = drive_from_samples(DT, AMPLITUDE * np.sin(angle)).velocity
+        truth = AMPLITUDE * 2.0 * np.pi / (period * DT) * np.cos(angle)
+        assert np.sqrt(np.mean((found - truth) ** 2) / np.mean(truth**2)) < allowed
+
+
+def test_the_ends_of_a_motion_that_no_sines_are_are_no_worse_than_those_of_the_spline():
+    rng, time = np.random.default_rng(seed_of("ends")), DT * np.arange(100)
+    for number in range(20):
+        angle = 2.0 * np.pi * np.arange(100) / rng.uniform(15.0, 40.0) + rng.uniform(0.0, 6.0)
+        triangle, noisy = 2.0 / np.pi * np.arcsin(np.sin(angle)), np.sin(angle) + 1e-3 * rng.standard_normal(100)
+        slope = np.sign(np.cos(angle)) * 2.0 / np.pi
+        for x, v in ((triangle, slope), (noisy, np.cos(angle))):
+            v = v * (angle[1] - angle[0]) / DT
+            spline = make_interp_spline(time, x, k=5)(time, 1)
+            found = drive_from_samples(DT, x).velocity
+            assert np.mean((found - v) ** 2) < 1.05 * np.mean((spline - v) ** 2), number
+
+
+@pytest.mark.parametrize("count", [20, 60, 128, 300])
+@pytest.mark.parametrize("share", [0.9, 0.5, 0.2, 0.01])
+def test_a_shock_that_fades_from_the_first_sample_on_is_not_told_backwards(count, share):
+    x = share ** np.arange(count)
+    before = DT * np.log(share) / DT**2 * x
+    spline = make_interp_spline(DT * np.arange(count), x, k=5)(DT * np.arange(count), 1)
+    for path, truth, known in ((x, before, spline), (x[::-1], -before[::-1], -spline[::-1])):
+        found = drive_from_samples(DT, path).velocity
+        assert np.max(np.abs(found - truth)) < 1.01 * np.max(np.abs(known - truth)) + 1e-6 / DT
+
+
 def random_motion(rng):
     """A hundred waves from 1 to 25 Hz."""
     omega, phase = 2.0 * np.pi * rng.uniform(1.0, 25.0, 100), rng.uniform(0.0, 2.0 * np.pi, 100)

@@ -16,7 +16,12 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 QUINTIC, HIGH = 5, 11  # degrees
-OUTERMOST = 5  # samples at either end, where a polynomial of high degree is worse than the quintic
+FEWEST = 128  # samples that have a spectrum; a path of fewer is short
+GOING_ON = 40  # samples by which a path is lengthened: what is wrong behind them has faded to less than a millionth
+OUTERMOST = 5  # samples at an end that is not lengthened: there the quintic is better than a spline of high degree
+FARTHEST = 2.0  # times the largest distance of these samples from their mean
+LOOKING_BACK, ORDER = 200, 16  # samples from which it is lengthened, and how many of them tell the next one
+DISTINCT = 1e-6  # of the largest singular value: what is less is rounding, or noise that a clean path may have
 PIECE, MARGIN = 100_000, 100  # samples
 ALIASES = 2.0 * np.pi * np.arange(-8, 9)[:, None]
 FREQUENCIES = np.linspace(0.0, 0.5, 4097)  # periods a sample, at which responses are known
@@ -24,12 +29,39 @@ FREQUENCIES = np.linspace(0.0, 0.5, 4097)  # periods a sample, at which response
 
 def interpolated_rates(dt: float, x: Array, degree: int) -> tuple[Array, Array]:
     """Velocity and acceleration (n,) of the spline through samples (n,) every ``dt``."""
-    velocity, acceleration = _rates(dt, x, degree)
-    if degree > QUINTIC:
-        for end in (slice(OUTERMOST), slice(-OUTERMOST, None)):
-            near = x[:MARGIN] if end.start is None else x[-MARGIN:]
+    if degree == QUINTIC and x.size >= FEWEST:
+        return _rates(dt, x, degree)
+    # the ends of a spline are off by as much as the velocity where the motion is fast, and are much of a short path
+    before, behind = going_on(x[::-1])[::-1], going_on(x)
+    longer = _rates(dt, np.concatenate([before, x, behind]), degree)
+    velocity, acceleration = (rate[before.size : before.size + x.size] for rate in longer)
+    ends = ((before, slice(OUTERMOST), x[:MARGIN]), (behind, slice(-OUTERMOST, None), x[-MARGIN:]))
+    for lengthened, end, near in ends if degree > QUINTIC else ():
+        if not lengthened.size:
             velocity[end], acceleration[end] = (rate[end] for rate in _rates(dt, near, QUINTIC))
     return velocity, acceleration
+
+
+def going_on(x: Array) -> Array:
+    """A path (n,) for some samples behind its end, by linear prediction; none where it would go far beyond its reach.
+
+    Each sample is a sum of those before it, by least squares: exact for a sum of half as many sines. What grows, as a
+    fading shock does backwards, grows faster than a spline forgets it. Source: Makhoul, Proceedings of the IEEE 63
+    (1975) 561, the covariance method.
+    """
+    last = x[-LOOKING_BACK:]
+    mean, order = last.mean(), min(ORDER, last.size // 3)
+    path = np.append(last - mean, np.zeros(GOING_ON))
+    if last.size <= ORDER:
+        return path[:0]
+    before = np.lib.stride_tricks.sliding_window_view(path[: last.size], order)
+    weights = np.linalg.lstsq(before[:-1], path[order : last.size], rcond=DISTINCT)[0]
+    farthest = FARTHEST * np.max(np.abs(path))
+    for place in range(last.size, path.size):
+        path[place] = weights @ path[place - order : place]
+        if abs(path[place]) > farthest:
+            return path[:0]
+    return path[last.size :] + mean
 
 
 @cache

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from dashpot.data.interpolating import FREQUENCIES, HIGH, QUINTIC, response_of_spline
+from dashpot.data.interpolating import FEWEST, FREQUENCIES, HIGH, QUINTIC, response_of_spline
 from dashpot.data.white_noise import white_noise
 
 Array = NDArray[np.float64]
@@ -21,7 +21,6 @@ Array = NDArray[np.float64]
 DEGREE = 8
 HALF_WIDTHS = (6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 35, 42, 50, 60)  # in samples
 STANDS_OUT = 3.0  # times the density of the white noise
-FEWEST = 128  # samples that have a spectrum
 LENGTH = 256  # samples of a piece, at least, where there are so many
 OF_A_SHORT_PATH = 12  # half width in samples
 PIECES, OVERLAP = 4, 0.7  # of a record whose spectra are averaged
