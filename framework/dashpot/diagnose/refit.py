@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 STEPS, TOLERANCE = 60, 1e-5
 KEPT_BYTES = 100e6  # of columns
-TRIAL_STEPS, TRIAL_TOLERANCE = 12, 1e-3  # a trial is only compared
+TRIAL_TOLERANCE = 1e-3  # a trial is only compared
 FIRST_STEPS = 4  # from each of two starts, before the one that misses less goes on alone
 SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
 
@@ -102,13 +102,13 @@ class Refitter:
         if fresh and model.at_bound.any():
             chosen.append(self._start(model, terms, self._freed(model)))
         if len(chosen) == 1:
-            return self._fitted(model.base, tuple(terms), *chosen[0], noise, TRIAL_STEPS, TRIAL_TOLERANCE)
+            return self._fitted(model.base, tuple(terms), *chosen[0], noise, STEPS, TRIAL_TOLERANCE)
         trials = [self._fitted(model.base, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
         ends = objective.losses(np.array([trial.values for trial in trials]))
         ahead = trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
         if ahead.outcome is not Outcome.STEPS_SPENT:
             return ahead
-        rest = TRIAL_STEPS - FIRST_STEPS
+        rest = STEPS - FIRST_STEPS
         return self._fitted(
             model.base, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE
         )
@@ -122,9 +122,7 @@ class Refitter:
         root = model.fitted.root
         kept = tuple(member for member in root.members if member.name != branch)
         start = replace(model.fitted, root=replace(root, members=kept))
-        return self._fitted(
-            model.base, model.terms, model.declared, model.owned, start, noise, TRIAL_STEPS, TRIAL_TOLERANCE
-        )
+        return self._fitted(model.base, model.terms, model.declared, model.owned, start, noise, STEPS, TRIAL_TOLERANCE)
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
