@@ -46,15 +46,23 @@ def solve_within(
 ) -> Bounded:
     """One lane ``values`` (slots,), by default the numbers of the file, with an error of at most ``tolerance`` times
     the root mean square of each force, or with ``finest`` times as many steps as usual, a power of two.
+
+    Where some step of the finest ones cannot be solved it is the finest solution that can, with its larger error.
     """
     refine, before = 1, network.solve(network.prepare(excitation), values)
+    solved: Bounded | None = None
     while True:
         refine *= 2
         found = network.solve(network.prepare(excitation, refine), values)
         error, peak = _moved(found, before)
         allowed = tolerance * np.sqrt(np.mean(found.force[0] ** 2, axis=1))
-        if refine >= finest or (found.status[0] is Status.GOOD and (error <= allowed).all()):
-            return Bounded(found, error, peak, refine)
+        good, bounded = found.status[0] is Status.GOOD, Bounded(found, error, peak, refine)
+        if good and before.status[0] is Status.GOOD:
+            solved = bounded
+        if good and (error <= allowed).all():
+            return bounded
+        if refine >= finest:
+            return bounded if good or solved is None else solved
         before = found
 
 
