@@ -40,7 +40,7 @@ def test_a_diagnosis_goes_through_on_a_single_run(seed):
     told([outcome])
     assert outcome.verdict["held_out"] == []
     measured = {cause["cause"] for cause in outcome.verdict["causes"] if cause["gain"] is not None}
-    assert outcome.named
+    assert outcome.verdict["causes"]
     assert measured <= FAULTS_OF_SINGLE_RUNS
 
 

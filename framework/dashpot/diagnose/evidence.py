@@ -7,10 +7,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.linear_step import Structure
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import Scores
+from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Model, Term
 

@@ -64,8 +64,7 @@ class Front:
 
     ``total`` (e + c, e + c) is their sum in double precision. The first e have a ``precision`` (e,) known beforehand;
     ``owners`` (e,) are the terms of whose form they are errors, -1 for those of none. The next columns are the residual
-    and ``tangents`` of terms. The last ones are each what a number of the base does to the force that is held off its
-    best place, when the others give way.
+    and ``tangents`` of terms.
     """
 
     grams: NDArray[np.floating]
@@ -116,44 +115,28 @@ class Front:
 
 
 def front_of(
-    grams: Array,
-    known: Array,
-    free: int,
-    layout: Layout,
-    model: Model,
-    candidates: Sequence[Candidate],
-    held: NDArray[np.intp],
+    grams: Array, known: Array, free: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
 ) -> Front:
     """From Gram matrices (groups, f + c, f + c) behind ``free`` columns of the base and ``known`` (f - free,) ones.
 
     The residual is that of the base as it is, unless faults of each run are ``known``, to which no fit has adapted it.
-    The numbers (h,) of the base that may be ``held`` get a column each.
     """
     first = free + known.size
     whole = grams.sum(axis=0)
-    inverse = _inverse(whole, np.zeros(free))
-    moves, squares = inverse @ whole[:free, free:], np.diag(whole).copy()
+    moves, squares = in_front(whole, np.zeros(free)), np.diag(whole).copy()
     squares[free:] -= np.sum(whole[:free, free:] * moves, axis=0)
     squares[squares < RIDGE * np.diag(whole)] = 0.0  # what the base makes up for has no error of a form
     errors, precision, owners = form_errors(squares, first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
+    at = np.ix_(order, order)
+    total = whole[at]
     moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
-    # of columns that are nothing but moves of the base, of unit size
-    moves = np.hstack([moves, -inverse[:, held] / np.sqrt(np.maximum(np.diag(inverse)[held], 1e-300))])
-    left = np.empty((len(grams), moves.shape[1], moves.shape[1]), np.float32)
+    left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
     for number, gram in enumerate(grams):
-        left[number] = beside(_widened(gram, order, held.size), moves)
-    total = beside(_widened(whole, order, held.size), moves)
-    return Front(left, total, moves, np.append(known, precision), owned, layout.tangents)
-
-
-def _widened(gram: Array, order: NDArray[np.intp], empty: int) -> Array:
-    """The columns of a Gram matrix in some ``order``, and so many ``empty`` ones."""
-    found = np.zeros((order.size + empty, order.size + empty))
-    found[: order.size, : order.size] = gram[np.ix_(order, order)]
-    return found
+        left[number] = beside(gram[at], moves)
+    return Front(left, beside(total, moves), moves, np.append(known, precision), owned, layout.tangents)
 
 
 def form_errors(
@@ -188,15 +171,10 @@ def in_front(total: Array, precision: Array) -> Array:
     where a run alone reaches a deflection, the curve of the base there cannot be predicted from others, and says
     nothing of the terms.
     """
-    first = precision.size
-    return _inverse(total, precision) @ total[:first, first:]
-
-
-def _inverse(total: Array, precision: Array) -> Array:
-    """The inverse (f, f) of the Gram matrix of the first columns, with what is known of them."""
-    inner, scale = _scaled(total, precision)
-    found: Array = np.linalg.pinv(inner, rcond=1e-11, hermitian=True) / np.outer(scale, scale)
-    return found
+    first, inner, scale = precision.size, *_scaled(total, precision)
+    return (
+        np.linalg.pinv(inner, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None]) / scale[:, None]
+    )
 
 
 def occam(total: Array, precision: Array, free: int) -> float:

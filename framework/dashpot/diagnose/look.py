@@ -45,11 +45,10 @@ class Doubt:
 class Look:
     """The whitened columns behind the ``front``, ``samples`` (groups,) of them.
 
-    ``own`` (t,) are the coordinates of the terms' numbers, ``base`` (p,) those of the base, of which those at
-    ``positive`` (h,) places are strengths that stay positive, whose columns are the last. ``rich`` is what all columns
-    together leave, N. ``measured_noise`` is that of the records alone, without the error of the model, ``sizes`` (c,)
-    the RMS of columns in N. ``exact`` (groups, 1 + t, 1 + t) are the Gram matrices of residual and tangents without
-    errors of forms.
+    ``own`` (t,) are the coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all
+    columns together leave, N. ``measured_noise`` is that of the records alone, without the error of the model,
+    ``sizes`` (c,) the RMS of columns in N. ``exact`` (groups, 1 + t, 1 + t) are the Gram matrices of residual and
+    tangents without errors of forms.
     """
 
     model: Model
@@ -67,12 +66,6 @@ class Look:
     rich: float
     own: NDArray[np.intp]
     base: NDArray[np.intp]
-    positive: NDArray[np.intp]
-
-    @property
-    def size(self) -> int:
-        """How many columns there are."""
-        return self.layout.size + self.positive.size
 
 
 def look_at(
@@ -119,8 +112,7 @@ def look_at(
     moves = in_front(plainly.sum(axis=0), precision)
     moves[:, 0] *= bool(doubted)  # the residual is that of the parameters as they are
     exact = np.array([beside(gram, moves) for gram in plainly])
-    positive = np.flatnonzero(model.strengths[columns.base])
-    front = front_of(grams, precision[free:], free, layout, model, candidates, positive)
+    front = front_of(grams, precision[free:], free, layout, model, candidates)
     return Look(
         model=model,
         noise=noise,
@@ -137,7 +129,6 @@ def look_at(
         rich=rich,
         own=columns.own,
         base=columns.base,
-        positive=positive,
     )
 
 

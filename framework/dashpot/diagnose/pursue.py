@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.linear_step import Structure
 from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Doubt, Look, look_at, look_settled
-from dashpot.diagnose.pursuit import NAMED, Pursuit, Scored, Without
+from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores
+from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
 from dashpot.diagnose.term import Model, Term
 from dashpot.fit.refine import Outcome
@@ -158,19 +157,20 @@ class Pursuer:
     def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
         """The best few structures of different terms that score better than the present one, refitted.
 
-        Those in which a fault of the measurement lacks its evidence do not count: beside another term it may have it.
+        A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
         """
-        present, names = scores.score(Structure()), set()
+        present, names, unproven = scores.score(Structure()), set(), set[Form]()
         many, tried = {True: 0, False: 0}, {True: 0, False: 0}
         for structure in ranked:
             key, single = _key(scores, structure), structure.size == 1
-            wanted = many[single] < REFITTED and tried[single] < TRIED
+            wanted = many[single] < REFITTED and tried[single] < TRIED and (single or not unproven & key)
             if structure.size and key not in names and wanted and scores.score(structure) < present:
                 names.add(key)
                 tried[single] += 1
                 trial = self.refitted(scores, structure)
                 if trial:
                     many[single] += not trial.unproven
+                    unproven |= trial.unproven
                     yield trial
 
     def refitted(self, scores: Scores, structure: Structure) -> Scored | None:

@@ -13,11 +13,13 @@ does not predict. The prior odds of each term are stated in ``Odds``.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.linear_step import STEADY, Added, Held, LinearStep, Structure
+from dashpot.diagnose.front import NONE
+from dashpot.diagnose.look import Look
 from dashpot.diagnose.term import Model
 
 Array = NDArray[np.float64]
@@ -25,6 +27,26 @@ Array = NDArray[np.float64]
 FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
 RIG_ODDS = 0.01  # of a fault of the measurement against a law of the specimen
 NUMBER_ODDS = 0.1  # of a law with a number more against one without it
+STEADY = 1e-6  # of the square of a column: keeps numbers that nothing tells from running away
+
+
+class Added(NamedTuple):
+    """Columns of a candidate that join a structure, by their number among its own."""
+
+    candidate: int
+    places: tuple[int, ...]
+
+
+class Structure(NamedTuple):
+    """What changes at a model: own terms that go, by number, and columns that join."""
+
+    dropped: frozenset[int] = frozenset()
+    added: frozenset[Added] = frozenset()
+
+    @property
+    def size(self) -> int:
+        """How many changes these are."""
+        return len(self.dropped) + len(self.added)
 
 
 @dataclass(frozen=True)
@@ -44,16 +66,78 @@ class Odds:
 
 
 @dataclass(eq=False)
-class Scores(LinearStep):
+class Scores:
     """The scores of structures at one look; what was computed once is kept."""
 
+    look: Look
     odds: Odds = field(init=False)
     known: dict[Structure, tuple[Array, float] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         self.odds = Odds(self.look.layout.bank)
+        self.scale = self.look.front.beside().scale
         self.kinds = [term.cause.kind for term in self.look.model.terms]
+
+    def gram(self, gone: frozenset[int] = NONE) -> Array:
+        """The Gram matrix (c, c) of the scaled columns beside what is refitted where some terms are ``gone``.
+
+        With what is known of the strengths beforehand.
+        """
+        return self.look.front.beside(gone).gram
+
+    def columns(self, structure: Structure) -> NDArray[np.intp]:
+        """The columns that a structure fits: the tangents of the terms that stay, then what joins."""
+        paths = self.look.model.coordinates.paths
+        gone = {path for number in structure.dropped for path in self.look.model.owned[number]}
+        kept = [1 + k for k, at in enumerate(self.look.own) if paths[at] not in gone]
+        alive = [at for at in kept if self.look.front.beside().squares[at] > 0.0]
+        return np.array([*alive, *self.atoms(structure)], dtype=np.intp)
+
+    def atoms(self, structure: Structure) -> list[int]:
+        """The columns that join."""
+        first = self.look.layout.first_candidate
+        return [
+            first + self.look.candidates[k].columns.start + place
+            for k, places in sorted(structure.added)
+            for place in places
+        ]
+
+    def target(self, structure: Structure) -> Array:
+        """The residual as a combination (c,) of the scaled columns: what dropped terms explained comes back."""
+        target = np.zeros(self.look.layout.size)
+        target[0] = 1.0
+        for number in structure.dropped:
+            at = self.look.layout.term(number)
+            target[at] = self.scale[at] / self.scale[0]
+        return target
+
+    def strengths(self, structure: Structure) -> Array:
+        """The solution on all runs, one for each of ``columns``, in their own units."""
+        at, target, gram = self.columns(structure), self.target(structure), self.gram(structure.dropped)
+        solution = np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+        return solution * self.scale[0] / self.scale[at]
+
+    def moves(self, structure: Structure) -> Array:
+        """The natural steps (p,) of all parameters of the model that a structure foresees."""
+        at, strengths, look = self.columns(structure), self.strengths(structure), self.look
+        found = np.zeros(look.model.point.size)
+        tangents = at <= look.layout.tangents
+        found[look.own[at[tangents] - 1]] = strengths[tangents]
+        target = self.target(structure) * self.scale[0] / self.scale
+        moves = look.front.beside(structure.dropped).base_moves[: look.base.size]
+        found[look.base] = moves @ target - moves[:, at] @ strengths
+        return found
+
+    def admitted(self, structure: Structure) -> bool:
+        """Whether no strength has the wrong sign."""
+        found = self.strengths(structure)
+        first = found.size - len(self.atoms(structure))
+        for k, places in sorted(structure.added):
+            mine = found[first : first + len(places)]
+            first += len(places)
+            if self.look.candidates[k].suspect.sign and (mine < 0.0).any():
+                return False
+        return True
 
     def predicted(self, structure: Structure) -> tuple[Array, float] | None:
         """Mean square (groups,) of each group, predicted from all others, and what errors of forms cost in nats.
@@ -65,12 +149,15 @@ class Scores(LinearStep):
         return self.known[structure]
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
-        front, gone, foreseen = self.look.front, structure.dropped, structure != Structure()
-        fit = self.fit(structure) if foreseen else self._fit(structure, Held())
-        grams = front.groups(fit.combined / self.scale[:, None], gone)
-        left = _left_out(grams, fit.whole, fit.right, foreseen)
-        rest = (fit.rest if foreseen else fit.combined[:, -1]) * self.scale[0] / self.scale
-        return np.maximum(left * self.scale[0] ** 2 / self.look.samples, 1e-12), front.beside(gone).unlikely(rest)
+        at, target, gone = self.columns(structure), self.target(structure), structure.dropped
+        front, gram, samples = self.look.front, self.gram(gone), self.look.samples
+        foreseen = structure != Structure()
+        left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target, foreseen)
+        rest = target.copy()
+        if foreseen:
+            rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+        rest *= self.scale[0] / self.scale
+        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
     def exact(self) -> Array:
         """Mean square (groups,) of each group, predicted from all others by the present structure.
@@ -80,14 +167,11 @@ class Scores(LinearStep):
         total = self.look.exact.sum(axis=0)
         scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
         alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
-        unit = scale[alive]
-        known = np.diag(1.0 / unit**2)
-        combined = np.zeros((scale.size, alive.size + 1))
-        combined[alive, np.arange(alive.size)] = 1.0 / unit
-        combined[0, -1] = 1.0 / scale[0]
-        products = combined.T @ total @ combined
-        whole = products[:-1, :-1] + known + STEADY * np.eye(alive.size)
-        left = _left_out(combined.T @ self.look.exact @ combined, whole, products[:-1, -1], foreseen=False)
+        unit = np.outer(scale, scale)
+        known = np.diag(np.append(0.0, np.ones(scale.size - 1)))
+        target = np.eye(scale.size)[0]
+        combined = _scaled(scale, alive, target)
+        left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target, foreseen=False)
         return np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
 
     def price(self, structure: Structure) -> float:
@@ -115,15 +199,23 @@ def nats(squares: Array, samples: Array) -> Array:
     return found
 
 
-def _left_out(grams: Array, whole: Array, right: Array, foreseen: bool) -> Array:
-    """The squares (groups,) of a target that k columns leave in each group, with strengths from all others.
+def _scaled(scale: Array, at: NDArray[np.intp], target: Array) -> Array:
+    """Columns ``at`` divided by their ``scale`` (c,) and a ``target`` (c,) of such ones, as combinations (c, k + 1)."""
+    found = np.zeros((scale.size, at.size + 1))
+    found[at, np.arange(at.size)] = 1.0 / scale[at]
+    found[:, -1] = target / scale
+    return found
 
-    ``grams`` (groups, k + 1, k + 1) are those of the columns and the target; ``whole`` (k, k) and ``right`` (k,), of
-    the columns and of these with the target, are their sums over the groups, and what is known of the strengths
-    beforehand. Where the strengths are not ``foreseen`` the model stays as it is, but for what leaving a group out
-    changes: a step that a fit has not made promises too much.
+
+def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, foreseen: bool) -> Array:
+    """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
+
+    ``grams`` (groups, k + 1, k + 1) are those of the columns and the target; ``gram`` (c, c), of all columns, is their
+    sum over the groups, and what is known of the strengths beforehand. Where the strengths are not ``foreseen`` the
+    model stays as it is, but for what leaving a group out changes: a step that a fit has not made promises too much.
     """
     inner, cross, square = grams[:, :-1, :-1], grams[:, :-1, -1], grams[:, -1, -1]
+    whole, right = _steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)
     solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])
@@ -131,3 +223,7 @@ def _left_out(grams: Array, whole: Array, right: Array, foreseen: bool) -> Array
         solved -= np.linalg.solve(whole, right)[:, None]
     left: Array = square - 2.0 * np.sum(solved[..., 0] * cross, axis=1)
     return left + np.sum(solved * (inner @ solved), axis=(1, 2))
+
+
+def _steadied(gram: Array, at: NDArray[np.intp]) -> Array:
+    return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)

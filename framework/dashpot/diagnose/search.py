@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
-from dashpot.diagnose.linear_step import Added, Structure
-from dashpot.diagnose.score import Scores
+from dashpot.diagnose.score import Added, Scores, Structure
 
 Array = NDArray[np.float64]
 
@@ -108,18 +107,13 @@ def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:
 
 
 def _project(scores: Scores, structure: Structure) -> _Projected:
-    layout, gone, fit = scores.look.layout, structure.dropped, scores.fit(structure)
-    gram, bank = scores.gram(gone), slice(layout.first_candidate, layout.size)
-    held, put_back, _ = scores.put_back(gone, scores.held[structure])
-    put_back = put_back[:, bank]
-    seen = np.flatnonzero(fit.combined.any(axis=1))
-    columns, target = fit.combined[seen, :-1], fit.combined[seen, -1]
-    across = (gram[bank][:, seen] + put_back.T @ gram[np.ix_(held, seen)]) @ np.column_stack([columns, target])
-    both = gram[bank][:, held] @ put_back
-    solve = np.linalg.solve(fit.whole, across[:, :-1].T)
-    left = gram[bank, bank] + both + both.T + put_back.T @ gram[np.ix_(held, held)] @ put_back - across[:, :-1] @ solve
-    right = across[:, -1] - solve.T @ fit.right
-    square = float(target @ gram[np.ix_(seen, seen)] @ target - fit.solution @ fit.right)
+    at, target = scores.columns(structure), scores.target(structure)
+    first = scores.look.layout.first_candidate
+    gram, bank = scores.gram(structure.dropped), slice(first, None)
+    solve = np.linalg.solve(gram[np.ix_(at, at)] + 1e-9 * np.eye(at.size), gram[at])
+    left = gram[bank, bank] - gram[bank][:, at] @ solve[:, bank]
+    right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)
+    square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))
     samples = float(scores.look.samples.sum())
     # per unit of the residual, so that a gain in squares is one in nats
     return _Projected(right, left, 0.5 * samples / max(square, 1e-300))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,6 @@ from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
 from dashpot.model.reading import parse_network
 from dashpot.model.sites import Site
-from dashpot.text.quantity import force_dimension
 
 Array = NDArray[np.float64]
 
@@ -75,17 +73,6 @@ class Model:
         """Which coordinates (p,) are at an end of their range."""
         margin = AT_BOUND * (self.coordinates.high - self.coordinates.low)
         return (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
-
-    @cached_property
-    def strengths(self) -> NDArray[np.bool_]:
-        """Which coordinates (p,) are positive numbers to which the force of their branch is proportional.
-
-        That is a number of force by its unit, if its branch has no other one.
-        """
-        homes = [_home(slot.path) for slot in self.fitted.slots() if force_dimension(slot.value.unit) == 1]
-        units = {slot.path: slot.value.unit for slot in self.fitted.slots()}
-        alone = [force_dimension(units[path]) == 1 and homes.count(_home(path)) == 1 for path in self.coordinates.paths]
-        return np.array(alone, dtype=bool) & self.coordinates.log
 
     @property
     def names(self) -> tuple[tuple[str, str], ...]:
@@ -164,10 +151,6 @@ def inherited(
         if homes.get(slot.path, slot.path) in known and (slot.path in homes or not _owned(slot.path, owned))
     }
     return with_ranges(declared.with_values(values), sizes)
-
-
-def _home(path: str) -> str:
-    return path.rpartition(".")[0]
 
 
 def _owned(path: str, owned: Sequence[Sequence[str]]) -> bool:

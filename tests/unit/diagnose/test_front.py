@@ -36,14 +36,12 @@ def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
     model = SimpleNamespace(terms=[SimpleNamespace(name=("word", ""))])
     candidates = [SimpleNamespace(name=("word", ""), columns=slice(0, 2))]
     made, same = (
-        front_of(each @ each.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates, np.arange(0))
+        front_of(each @ each.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
         for each in (rows, also)
     )
     assert same.precision == pytest.approx(made.precision, rel=1e-9)
     also[:, forms.start] = 7.0 * rows[:, 0]  # the base alone: rounding is no form
-    alone = front_of(
-        also @ also.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates, np.arange(0)
-    )
+    alone = front_of(also @ also.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
     assert alone.precision == pytest.approx(made.precision[1:] / 2.0, rel=1e-9)
     flat = np.concatenate(rows, axis=1)
     left = flat - flat @ np.linalg.pinv(flat[:base]) @ flat[:base]

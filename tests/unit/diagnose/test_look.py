@@ -75,14 +75,13 @@ def test_gram_matrices_are_those_of_the_residual_and_of_what_a_refit_of_the_base
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
     strengths[:, 0] = 0.0
-    scale = np.sqrt(look.front.beside().squares[: look.layout.size])
-    each = np.eye(look.size, scale.size) / scale
+    scale = np.sqrt(look.front.beside().squares)
     left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
     seen = set()
     for run, rows in left.items():
         for number, part in look.folds.of_run(run, rows.shape[1]):
             expected = rows[:, part] @ rows[:, part].T / np.outer(scale, scale)
-            assert look.front.groups(each)[number] == pytest.approx(expected, abs=2e-6)
+            assert look.front.groups(np.diag(1.0 / scale))[number] == pytest.approx(expected, abs=2e-6)
             assert look.samples[number] == pytest.approx(look.noise.independent[run] * (part.stop - part.start))
             seen.add(number)
     assert seen == set(range(len(look.folds.names)))
@@ -220,7 +219,7 @@ def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     """Large data: the same matrices, whatever is kept in memory."""
     monkeypatch.setattr("dashpot.diagnose.columns.HELD_BYTES", 0)
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
-    every = np.eye(look.size)
+    every = np.eye(look.layout.size)
     assert (again.front.groups(every) == look.front.groups(every)).all() and (again.sizes == look.sizes).all()
 
 

@@ -5,8 +5,7 @@ import pytest
 from scipy.stats import norm
 from unit.diagnose.synthetic import GROUPS, candidates_of, look_of, random_rows
 
-from dashpot.diagnose.linear_step import Added, Structure
-from dashpot.diagnose.score import FALSE_ALARMS, RIG_ODDS, Odds, Scores, nats
+from dashpot.diagnose.score import FALSE_ALARMS, RIG_ODDS, Added, Odds, Scores, Structure, nats
 
 WORDS = ("one", "two", "three")
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from unit.diagnose.synthetic import candidates_of, look_of, random_rows
 
-from dashpot.diagnose.linear_step import Structure
-from dashpot.diagnose.score import Scores
+from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.search import search
 
 WORDS = tuple("abcdefghij")
