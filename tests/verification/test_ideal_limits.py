@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 from seeds import seed_of
@@ -17,6 +19,7 @@ from dashpot.kernel.energy import EnergyCounter
 from dashpot.kernel.solution import Status
 from dashpot.kernel.within import FINEST, TOLERANCE, solve_within
 
+ANEW = "DRAW_SEEDS" in os.environ  # then of draws that nobody has looked at less is asked
 PARTS = 500  # of a sample, in the closed form of a slider
 BEHIND = "leg: {{series: {{k: {{element: spring, stiffness: {k} N/m}}, it: {{element: {law}}}}}}}"
 CARRIED = """
@@ -57,7 +60,7 @@ def test_an_ideal_slider_behind_a_spring_is_the_stop_operator(k, limit, state):
     state(f"an ideal slider of {limit:g} N behind {k:g} N/m: {rms(found - exact) / rms(exact):.1e} of the RMS force")
     assert rms(found - exact) < bound
     # what is extrapolated from two solutions may go beyond
-    assert np.max(np.abs(found)) <= limit * (1.0 + TOLERANCE)
+    assert np.max(np.abs(found)) <= limit * (1.0 + (TOLERANCE if ANEW else 1e-9))
 
 
 def test_an_ideal_slider_does_not_creep_however_long_it_is_held():
@@ -73,7 +76,10 @@ def test_a_mass_on_ideal_friction_sticks_and_slides(mass, k, limit, state):
     at, motion = times(1.0), drawn("masses on sliders")
     exact = force_on_a_slider(motion, at, mass, k, limit)
     found, bound = solved(
-        system(f"{{base: driven, hub: {{mass: {mass} kg}}}}", CARRIED.format(k=k, limit=limit)), at, motion, FINEST
+        system(f"{{base: driven, hub: {{mass: {mass} kg}}}}", CARRIED.format(k=k, limit=limit)),
+        at,
+        motion,
+        FINEST if ANEW else 64,
     )
     state(f"{mass:g} kg on friction of {limit:g} N: {rms(found - exact) / rms(exact):.1e} of the RMS force")
     assert rms(found - exact) < bound
@@ -200,13 +206,14 @@ CAUGHT_IDS = [f"{made.__name__}_{number}" for made, number in CAUGHT]
 @pytest.mark.parametrize(("made", "number"), CAUGHT, ids=CAUGHT_IDS)
 def test_a_mass_that_hits_a_rigid_stop_stays_there_until_it_is_pulled_off(made, number, state):
     network, run, exact, phases = made(number, times(1.0))
-    if phases <= 4:
+    if ANEW and phases <= 4:
         pytest.skip("in this draw the mass hardly ever hits the stop")
+    assert phases > 4
     found = solve_within(network, run)
     missed = found.solution.force[0, 0] - exact
     state(f"{made.__name__} {number}: {rms(missed) / rms(exact):.1e} of the RMS force, {found.refine} times the steps")
     assert found.solution.status == (Status.GOOD,)
-    assert found.error[0] <= TOLERANCE * rms(found.solution.force[0, 0]) or found.refine == FINEST
+    assert found.error[0] <= TOLERANCE * rms(found.solution.force[0, 0]) or ANEW and found.refine == FINEST
     assert rms(missed) < found.error[0]
     assert np.max(np.abs(missed)) < found.peak[0]
 
