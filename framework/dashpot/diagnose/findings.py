@@ -20,6 +20,7 @@ from dashpot.compare.misfit import Misfit, describe_misfit
 from dashpot.contract.cause import Cause
 from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.next_run import NextRun
@@ -259,6 +260,18 @@ class Findings:
         return explainable_error(self.after_setting, self.seed, not self._near_floor)
 
     @property
+    def fails_held_out(self) -> bool:
+        """Whether held-out runs are predicted far worse than training runs, and than a general model predicts them.
+
+        That model is taught by the same runs. This is judged when all else is decided: it changes what is told of the
+        files, never the files.
+        """
+        theirs, mine = self.explainable.held_out, self.after.held_out
+        if theirs is None or mine is None:
+            return False
+        return mine > (1.0 + FORM_ERROR) * max(theirs, self._trained, self.setting.floor.value or 0.0)
+
+    @property
     def remarks(self) -> list[str]:
         """What the report says of the data and the search; a fault that only a held-out run has stands here alone."""
         errors = self.after.per_run
@@ -271,7 +284,16 @@ class Findings:
         ]
         names = " and ".join(f"'{name}'" for name in self.spare)
         spare = [f"Of the diagnosed network {names} may go: without, all else refitted, nothing is predicted worse."]
-        return [*self.triage.remarks, *spare * bool(self.spare), *alone]
+        return [*self.triage.remarks, *spare * bool(self.spare), *alone, *self._on_held_out()]
+
+    def _on_held_out(self) -> list[str]:
+        theirs, mine = self.explainable.held_out, self.after.held_out
+        if not self.fails_held_out:
+            return []
+        return [
+            f"On held-out runs the files leave {mine:.3g} N, a general model of the past motion {theirs:.3g} N: what "
+            "was found in the training runs does not hold there."
+        ]
 
     def residuals(self, network: NetworkSpec, setting: Setting) -> dict[str, Array]:
         """Measured minus simulated force (n,) of every run, warm-up included."""

@@ -115,13 +115,13 @@ def test_nine_of_ten_that_are_accepted_are_to_be_right(presence, standing):
         (("accepted", "probable"), (), True, "partly_explained"),
     ],
 )
-def test_only_what_is_accepted_explains(standings, rivals, far, verdict):
+@pytest.mark.parametrize("why", ["_far_above_attainable", "_beyond_noise", "fails_held_out"])
+def test_only_what_is_accepted_explains(why, standings, rivals, far, verdict):
     terms = [SimpleNamespace(standing=standing, rivals=rivals) for standing in standings]
     found = SimpleNamespace(
         triage=SimpleNamespace(faults=()),
         leftover=Leftover(0.0, 0.0, ""),
-        _far_above_attainable=far,
-        _beyond_noise=False,
+        **{name: far and name == why for name in ("_far_above_attainable", "_beyond_noise", "fails_held_out")},
         named=[term for term in terms if term.standing == "accepted"],
         terms=terms,
     )
@@ -136,7 +136,29 @@ def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
         _at_floor=True,
         _far_above_attainable=False,
         _beyond_noise=False,
+        fails_held_out=False,
         named=[],
         terms=[],
     )
     assert Diagnosis.verdict.func(found) == verdict
+
+
+@pytest.mark.parametrize(
+    ("mine", "theirs", "trained", "floor", "fails"),
+    [
+        (12.0, 6.0, 2.0, 2.5, True),
+        (6.5, 6.0, 2.0, 2.5, False),
+        (12.0, 6.0, 11.0, 2.5, False),
+        (12.0, 6.0, 2.0, 11.0, False),
+        (12.0, None, 2.0, 2.5, False),
+        (None, None, 2.0, None, False),
+    ],
+)
+def test_what_a_general_model_predicts_far_better_is_not_explained(mine, theirs, trained, floor, fails):
+    found = SimpleNamespace(
+        after=SimpleNamespace(held_out=mine),
+        explainable=SimpleNamespace(held_out=theirs),
+        setting=SimpleNamespace(floor=SimpleNamespace(value=floor)),
+        _trained=trained,
+    )
+    assert Diagnosis.fails_held_out.fget(found) is fails
