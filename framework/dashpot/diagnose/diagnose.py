@@ -7,8 +7,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from dashpot.contract.cause import Cause
 from dashpot.contract.chain import make_optimizer
 from dashpot.contract.registry import Registry
@@ -232,12 +230,11 @@ def remarks_on(pursuit: Pursuit) -> list[str]:
 
 
 def next_runs(refitter: Refitter, pursuit: Pursuit) -> dict[tuple[str, str], NextRun]:
-    """The run to make next for every cause that another one may replace."""
+    """The run to make next for every cause, and for each that stands in its place in more than one of ten draws."""
     found = {}
     for term, rival in pursuit.rivals:
-        (word,) = {name[0] for name in rival.model.names if name not in pursuit.best.model.names} or {""}
-        close = float(np.mean(rival.drawn(pursuit.weights) < pursuit.best.drawn(pursuit.weights))) > 0.0
-        if word and close:
+        told = {name for name in pursuit.replacements(term.name) if name in rival.model.names}
+        for word, _ in told:
             run = next_run(refitter, pursuit.best.model, rival.model, pursuit.look.measured_noise)
             if run is not None:
                 found[term.cause.word, word] = run
