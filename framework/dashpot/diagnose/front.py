@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,21 +88,40 @@ class Front:
         return found
 
     def _without(self, gone: frozenset[int]) -> Beside:
-        first = self.precision.size
-        kept = np.flatnonzero(~np.isin(self.owners, list(gone)))
-        columns, precision = np.concatenate([kept, np.arange(first, len(self.total))]), self.precision[kept]
-        total = self.total[np.ix_(columns, columns)]
+        return self._part(self.beside(), np.isin(self.owners, list(gone))) if gone else self._beside_all()
+
+    def _beside_all(self) -> Beside:
+        first, total, precision = self.precision.size, self.total, self.precision
         moves = in_front(total, precision)
         gram = beside(total, moves)
         squares = np.diag(gram).copy()
         gram += moves.T @ (precision[:, None] * moves)
         numbers = range(1, 1 + self.tangents)
         gram[numbers, numbers] += 1.0
-        scale = np.sqrt(np.maximum(self.beside().squares if gone else squares, 1e-300))
+        scale = np.sqrt(np.maximum(squares, 1e-300))
         gram /= np.outer(scale, scale)
+        base = self.base_moves[:, first:] - self.base_moves[:, :first] @ moves
+        columns = np.arange(len(total))
+        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, occam(total, precision))
+
+    def _part(self, whole: Beside, going: NDArray[np.bool_]) -> Beside:
+        """The same where some of the columns in front are ``going`` (e,): a change of their rank."""
+        first, kept = self.precision.size, np.flatnonzero(~going)
+        pull = _inverse(self._covariance[np.ix_(going, going)]) @ whole.moves[going]
+        moves = whole.moves[kept] - self._covariance[np.ix_(kept, going)] @ pull
+        comes_back = (whole.moves[going] / whole.scale).T @ (pull / whole.scale)
         base = self.base_moves[:, first:] - self.base_moves[:, kept] @ moves
-        nats = occam(total, precision, free=0)
-        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, nats)
+        columns = np.concatenate([kept, np.arange(first, len(self.total))])
+        precision, gram = self.precision[kept], whole.gram + comes_back
+        squares = np.diag(gram) * whole.scale**2 - precision @ moves**2
+        squares[1 : 1 + self.tangents] -= 1.0
+        nats = occam(self.total[np.ix_(kept, kept)], precision)
+        return Beside(columns, moves, base, squares, whole.scale, gram, precision, self.tangents, nats)
+
+    @cached_property
+    def _covariance(self) -> Array:
+        """The covariance (e, e) of the strengths of the columns in front."""
+        return covariance(self.total, self.precision)
 
     def groups(self, combined: Array, gone: frozenset[int] = NONE) -> Array:
         """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, where some terms are ``gone``."""
@@ -171,30 +191,27 @@ def in_front(total: Array, precision: Array) -> Array:
     where a run alone reaches a deflection, the curve of the base there cannot be predicted from others, and says
     nothing of the terms.
     """
-    first, inner, scale = precision.size, *_scaled(total, precision)
-    return (
-        np.linalg.pinv(inner, rcond=1e-11, hermitian=True) @ (total[:first, first:] / scale[:, None]) / scale[:, None]
-    )
+    return covariance(total, precision) @ total[: precision.size, precision.size :]
 
 
-def occam(total: Array, precision: Array, free: int) -> float:
-    """The nats by which the marginal likelihood is below that of the best strengths of the first columns.
-
-    Nothing is known beforehand of the ``free`` ones among them.
-    """
-    inner, scale = _scaled(total, precision)
-    outside = np.linalg.pinv(inner[:free, :free], rcond=1e-11, hermitian=True)
-    beside = inner[free:, free:] - inner[free:, :free] @ outside @ inner[:free, free:]
-    deviations = scale[free:] / np.sqrt(precision[free:])
-    sizes = np.linalg.eigvalsh(beside * np.outer(deviations, deviations))
-    return 0.5 * float(np.log(np.maximum(sizes, 1.0)).sum())
+def covariance(total: Array, precision: Array) -> Array:
+    """The covariance (f, f) of the strengths of the first columns, of which so much is known beforehand."""
+    return _inverse(total[: precision.size, : precision.size] + np.diag(precision))
 
 
-def _scaled(total: Array, precision: Array) -> tuple[Array, Array]:
-    """The Gram matrix (f, f) of the first columns, with what is known of them, divided by their scale (f,)."""
-    inner = total[: precision.size, : precision.size] + np.diag(precision)
-    scale = np.sqrt(np.maximum(np.diag(inner), 1e-300))
-    return inner / np.outer(scale, scale), scale
+def _inverse(matrix: Array) -> Array:
+    """The inverse (f, f) of a positive matrix; of what is not told in it, the smallest."""
+    scale = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+    unit = np.outer(scale, scale)
+    found: Array = np.linalg.pinv(matrix / unit, rcond=1e-11, hermitian=True) / unit
+    return found
+
+
+def occam(total: Array, precision: Array) -> float:
+    """The nats by which the marginal likelihood is below that of the best strengths of the first columns."""
+    deviations = np.sqrt(precision)
+    inner = total[: precision.size, : precision.size] / np.outer(deviations, deviations)
+    return 0.5 * float(np.linalg.slogdet(inner + np.eye(precision.size))[1])
 
 
 def beside(gram: Array, moves: Array) -> Array:
