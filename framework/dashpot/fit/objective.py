@@ -67,6 +67,7 @@ class Objective:
         # no methods of its own: what is large goes with the last reference, not when garbage is collected
         self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
+        self.scratch = Scratch()
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -107,7 +108,7 @@ class Objective:
         """
         rows_of = partial(self._moved_as_a_whole, values, moves)
         if isinstance(self.network, CompiledNetwork):
-            rows_of = partial(self._moved_by_branches, values, moves, self.parts.lanes(values, moves), Scratch())
+            rows_of = partial(self._moved_by_branches, values, moves, self.parts.lanes(values, moves))
 
         def reduced(team: Team) -> list[Result]:
             return [reduce(number, self._weighed(number, rows)) for number, rows in rows_of(team)]
@@ -116,12 +117,12 @@ class Objective:
             yield from found
 
     def _moved_by_branches(
-        self, values: Array, moves: Array, lanes: Sequence[MovedLanes], scratch: Scratch, team: Team
+        self, values: Array, moves: Array, lanes: Sequence[MovedLanes], team: Team
     ) -> Iterator[tuple[int, Array]]:
         for number in team:
             run = self.runs[number]
             settings, dt = run.excitation.settings, run.drive.dt
-            forces = self.parts.sensitivities(self.part_rows(number), lanes, len(moves), scratch)
+            forces = self.parts.sensitivities(self.part_rows(number), lanes, len(moves), self.scratch)
             found = run.seen(self.network.observation(values, settings).linear(forces, dt))[:, run.first :]
             for k in np.flatnonzero(moves[:, self.parts.outside].any(axis=1)):
                 other = self.network.observation(values + moves[k], settings).see(forces[:1] + forces[1 + k], dt)[0]

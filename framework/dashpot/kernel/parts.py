@@ -7,7 +7,6 @@ block.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
@@ -69,11 +68,14 @@ class Parts:
         empty = set(range(1 + count))
         for part, run, moved in zip(self.members, rows.each, lanes, strict=True):
             forces = part.network.simulate(run, moved.lanes, scratch.take("forces", len(moved.lanes), samples))
-            branches = len(part.slots)
-            own = [(0, force) for force in forces[:branches]]
-            changed = zip(moved.touched.tolist(), forces[branches:], strict=True)
-            for place, force in itertools.chain(own, ((1 + k, force - forces[at]) for (k, at), force in changed)):
-                found[place] = force if place in empty else found[place] + force
+            stand, changed = np.split(forces, [len(part.slots)])
+            for force, branch in zip(changed, moved.touched[:, 1], strict=True):
+                force -= stand[branch]
+            for place, force in zip([0] * len(stand) + (1 + moved.touched[:, 0]).tolist(), forces, strict=True):
+                if place in empty:
+                    found[place] = force
+                else:
+                    found[place] += force
                 empty.discard(place)
         found[list(empty)] = 0.0
         return found
