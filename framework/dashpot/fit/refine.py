@@ -10,6 +10,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.fit.bounded_step import least_within
 from dashpot.fit.coordinates import Coordinates
 from dashpot.fit.linear import Linear, Loss, linearise
 from dashpot.fit.rising_step import rising_step
@@ -19,7 +20,6 @@ Array = NDArray[np.float64]
 OWN_METHOD = "gauss_newton"  # its name in files
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 BOXES = (0.7, 0.2, 0.05)  # smaller ones, each with the two smallest dampings
-NOT_FELT = 1e-12  # of the largest eigenvalue
 CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
 LEAPS = (1.0, 4.0)  # times the way of these steps
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
@@ -145,29 +145,6 @@ def _reach(coordinates: Coordinates, point: Array, stride: float) -> tuple[Array
     low, high = np.maximum(coordinates.low - point, -most), np.minimum(coordinates.high - point, most)
     grown = np.where(coordinates.log, np.expm1(np.minimum(high, stride)), high)
     return low / coordinates.unit, grown / coordinates.unit
-
-
-def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
-    """The least of s.matrix.s/2 - right.s within its limits, and of several such steps nearly the shortest."""
-    values, vectors = np.linalg.eigh(matrix)
-    least = NOT_FELT * values.max(initial=0.0)
-    if least == 0.0:
-        return np.zeros(right.size)
-    roots = np.sqrt(np.maximum(values, least))
-    aim = np.where(values > least, vectors.T @ right / roots, 0.0)
-    unlimited: Array = vectors @ (aim / roots)
-    if np.all((unlimited >= low) & (unlimited <= high)):
-        return unlimited
-    return _least_at_limits(roots[:, None] * vectors.T, aim, low, high)
-
-
-def _least_at_limits(rows: Array, aim: Array, low: Array, high: Array) -> Array:
-    """The least of |rows.s - aim|^2 within its limits, some of which it comes to."""
-    from scipy.optimize import lsq_linear
-
-    wide = np.maximum(high, np.nextafter(low, np.inf))
-    found = lsq_linear(rows, aim, (low, wide), "bvls", max_iter=10 * low.size)
-    return np.clip(found.x, low, high)
 
 
 def _strides(move: Array, coordinates: Coordinates) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import product
 
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from unit.fit.bench import DAMPING, KELVIN_VOIGT, STIFFNESS, jacobian_of, kelvin
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.linear import Linear
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import DAMPINGS, LEAPS, PATIENCE, Outcome, candidates, leaps, least_within, refine
+from dashpot.fit.refine import DAMPINGS, LEAPS, PATIENCE, Outcome, candidates, leaps, refine
 from dashpot.fit.starts import KEPT, refine_from_starts
 from dashpot.kernel.network import compile_network
 
@@ -281,37 +280,6 @@ def test_several_starts_of_nothing():
     _, objective, coordinates = ready("it: {element: spring, stiffness: 1e5}", runs())
     best = refine_from_starts(objective, coordinates, 0, lambda done, loss: None)
     assert best.spread == (best.refined.loss,)
-
-
-def least_by_trying(matrix, right, low, high):
-    """The least cost over all ways to hold numbers at a limit, the others at their stationary point."""
-    costs = []
-    for held in product((None, 0, 1), repeat=right.size):
-        free = np.array([side is None for side in held])
-        step = np.array([0.0 if side is None else (low, high)[side][k] for k, side in enumerate(held)])
-        rest = right[free] - matrix[np.ix_(free, ~free)] @ step[~free]
-        step[free] = np.linalg.solve(matrix[np.ix_(free, free)], rest)
-        if np.all((step >= low - 1e-9) & (step <= high + 1e-9)):
-            costs.append(0.5 * step @ matrix @ step - right @ step)
-    return min(costs)
-
-
-def test_a_step_within_limits_is_the_best_one():
-    rng = np.random.default_rng(seed_of("steps within limits"))
-    for _ in range(60):
-        rows = rng.normal(size=(6, 4)) * 10.0 ** rng.uniform(-1.5, 0.0, 4)
-        matrix, right = rows.T @ rows, rows.T @ rng.normal(size=6)
-        low, high = -rng.uniform(0.0, 1.0, 4), rng.uniform(0.0, 1.0, 4)
-        step = least_within(matrix, right, low, high)
-        assert np.all((step >= low) & (step <= high))
-        cost = 0.5 * step @ matrix @ step - right @ step
-        assert cost == pytest.approx(least_by_trying(matrix, right, low, high), rel=1e-8, abs=1e-12)
-
-
-def test_a_direction_without_influence_is_not_walked():
-    rows = np.array([[1.0, 1.0]])
-    step = least_within(rows.T @ rows, np.array([1.0, 1.0]), np.full(2, -np.inf), np.full(2, np.inf))
-    assert step == pytest.approx([0.5, 0.5], rel=1e-9)
 
 
 def test_what_was_linearised_is_not_linearised_again_where_no_step_helped():

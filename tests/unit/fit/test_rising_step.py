@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import minimize
 from seeds import seed_of
 
-from dashpot.fit.refine import least_within
+from dashpot.fit.bounded_step import least_within
 from dashpot.fit.rising_step import rising_step
 
 FAR = 10.0
