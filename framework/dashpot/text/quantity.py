@@ -109,11 +109,16 @@ _CONFUSED = {
 }
 
 
-# factors of the units that stand in nearly every file: reading those needs no library of units
+# factors of the units that stand in nearly every file, and of those that a rig engineer is shown: these need no library
+# of units
 USUAL = {
     ("N/mm", "N/m"): "1e3",
     ("kN/mm", "N/m"): "1e6",
     ("N*s/mm", "N*s/m"): "1e3",
+    ("mm/N", "m/N"): "1e-3",
+    ("um/N", "m/N"): "1e-6",
+    ("kN*s/mm", "N*s/m"): "1e6",
+    ("kN*s/mm", "N/(m/s)"): "1e6",
     ("N*s/m", "N/(m/s)"): "1",
     ("N*s/mm", "N/(m/s)"): "1e3",
     ("kN*s/m", "N*s/m"): "1e3",
@@ -121,13 +126,35 @@ USUAL = {
     ("kN*s^2/m^2", "N*s^2/m^2"): "1e3",
     ("MN*s^2/m^2", "N*s^2/m^2"): "1e6",
     ("t", "kg"): "1e3",
+    ("g", "kg"): "1e-3",
+    ("kHz", "Hz"): "1e3",
+    ("kPa", "Pa"): "1e3",
+    ("MPa", "Pa"): "1e6",
     ("mm", "m"): "1e-3",
     ("mm/s", "m/s"): "1e-3",
     ("um", "m"): "1e-6",
     ("ms", "s"): "1e-3",
+    ("us", "s"): "1e-6",
     ("kN", "N"): "1e3",
     ("%", "1"): "0.01",
 }
+
+# the powers of those that numbers are mostly kept in, for the same reason
+USUAL_POWERS: dict[str, dict[str, float]] = {
+    "1": {},
+    "m": {"[length]": 1.0},
+    "s": {"[time]": 1.0},
+    "kg": {"[mass]": 1.0},
+    "Hz": {"[time]": -1.0},
+    "Pa": {"[mass]": 1.0, "[length]": -1.0, "[time]": -2.0},
+    "m/s": {"[length]": 1.0, "[time]": -1.0},
+    "N": {"[mass]": 1.0, "[length]": 1.0, "[time]": -2.0},
+    "N/m": {"[mass]": 1.0, "[time]": -2.0},
+    "m/N": {"[mass]": -1.0, "[time]": 2.0},
+    "N*s/m": {"[mass]": 1.0, "[time]": -1.0},
+    "N/(m/s)": {"[mass]": 1.0, "[time]": -1.0},
+}
+USUAL_POWERS |= {given: USUAL_POWERS[wanted] for given, wanted in USUAL if wanted in USUAL_POWERS}
 
 
 def si(quantity: str | float, unit: str) -> float:
@@ -156,6 +183,8 @@ def factor(unit_text: str, unit: str) -> tuple[float, float]:
 
 def is_unit(text: str) -> bool:
     """Whether a text is a unit we know."""
+    if text in USUAL_POWERS:
+        return True
     try:
         _parse(text)
     except ValueError:
@@ -246,10 +275,10 @@ def _rig_units(unit: str) -> tuple[tuple[str, Decimal], ...]:
     # what something does per setting: N/m per Pa is a length by its dimension only
     if re.sub(r"\([^)]*\)", "", unit).count("/") > 1:
         return ()
-    dimension = _parse(unit).dimensionality
+    wanted = powers(unit)
     for choice in _RIG_UNITS:
         pairs = [pair.split(" from ") for pair in choice.split(", ")]
-        if _parse(pairs[0][0]).dimensionality == dimension:
+        if powers(pairs[0][0]) == wanted:
             return tuple((name, Decimal(smallest)) for name, smallest in pairs)
     return ()
 
@@ -317,6 +346,8 @@ def _parse(unit_text: str) -> pint.Unit:
 @cache
 def powers(unit: str) -> dict[str, float]:
     """The powers of mass, length, time and so on in a unit: `N/m` gives 1 of mass, -2 of time. ValueError for none."""
+    if unit in USUAL_POWERS:
+        return USUAL_POWERS[unit]
     dimension: Any = _parse(unit).dimensionality
     return {name: float(power) for name, power in dimension.items()}
 

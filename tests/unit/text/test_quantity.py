@@ -8,7 +8,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dashpot.text.quantity import USUAL, base_unit, factor, force_dimension, is_unit, measure, pretty, pretty_all, si
+from dashpot.text.quantity import (
+    USUAL,
+    USUAL_POWERS,
+    base_unit,
+    factor,
+    force_dimension,
+    is_unit,
+    measure,
+    powers,
+    pretty,
+    pretty_all,
+    si,
+)
 
 
 @pytest.mark.parametrize(
@@ -181,6 +193,11 @@ def test_what_is_no_quantity_is_not_measured(text):
 @pytest.mark.parametrize(("given", "wanted"), list(USUAL))
 def test_the_factors_of_usual_units_are_those_of_the_library_of_units(given, wanted):
     assert factor(given, wanted) == factor(f"1*{given}", wanted)
+
+
+@pytest.mark.parametrize("unit", USUAL_POWERS)
+def test_the_powers_of_usual_units_are_those_of_the_library_of_units(unit):
+    assert powers(unit) == powers(f"1*{unit}")
 
 
 @pytest.mark.parametrize("unit", ["N/mmm", "", "parsec?", "N N N"])
