@@ -12,6 +12,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from dashpot.contract.optimizer import Optimizer, Space
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
+from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.data.run import Run
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
@@ -88,6 +90,11 @@ class Setting:
     def held_out(self) -> list[ScoredRun]:
         """The held-out runs."""
         return [self.scored[name] for name in self.split.held_out]
+
+    @cached_property
+    def noise(self) -> dict[str, NoiseSpectrum]:
+        """The spectrum of the noise of each training run by name; every network of a comparison asks for it."""
+        return noise_of_runs(self.train_runs, self.floor)
 
     @property
     def swing(self) -> float:
@@ -224,7 +231,6 @@ def fit_prepared(
     refined, polished = _polish(correct_ends(staged, setting.train), setting, jobs, watch)
     fitted = ordered(spec, refined)
     objective, coordinates = Objective(compile_network(fitted), setting.train, jobs), search_coordinates(fitted)
-    noise = noise_of_runs(setting.train_runs, setting.floor)
     steps = [each.step for each in known_numbers(fitted)]
     before, error = rows_beside(objective, coordinates, fitted, setting.floor.value)
     known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value, before, error)
@@ -249,7 +255,7 @@ def fit_prepared(
         correlation=known.correlation,
         errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
         samples=sum(run.samples for run in setting.train),
-        known=identifiability(objective, coordinates, coordinates.start, noise),
+        known=identifiability(objective, coordinates, coordinates.start, setting.noise),
         priors=told_priors(fitted, coordinates, known.errors),
     )
 
