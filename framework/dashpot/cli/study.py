@@ -143,11 +143,12 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
     from dashpot.report.study import study_page
     from dashpot.report.tables import plain_table, to_csv
     from dashpot.study.masses import mass_sentence
-    from dashpot.study.study import study_content, study_evidence
+    from dashpot.study.study import comparison_of, study_content, study_evidence
 
-    content = study_content(result)
+    comparison = comparison_of(result)
+    content = study_content(result, comparison)
     grid = comparison_grid(content)
-    page = render(study_page(content, study_evidence(result)))
+    page = render(study_page(content, study_evidence(result, comparison)))
     with folder.together() as results:
         for model in result.models:
             results.write(f"{model.fit.declared.name}.yaml", model.fit.identified_text)

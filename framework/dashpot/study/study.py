@@ -24,9 +24,12 @@ def comparison_of(result: StudyResult) -> Comparison:
     return Comparison(last, tuple(family), {}, result.study.seed, metrics=result.metrics)
 
 
-def study_content(result: StudyResult) -> dict[str, Any]:
-    """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known."""
-    content = comparison_of(result).as_dict()
+def study_content(result: StudyResult, comparison: Comparison | None = None) -> dict[str, Any]:
+    """The result as in ``study.json``: a comparison, and for each model its stages and how well it is known.
+
+    A ``comparison`` of the same result that is given has simulated its models once for all that is told of them.
+    """
+    content = (comparison or comparison_of(result)).as_dict()
     family = [model["name"] for model in content["models"]]
     plans = {plan.name: plan for plan in result.study.models}
     models = [
@@ -56,9 +59,9 @@ def study_content(result: StudyResult) -> dict[str, Any]:
     }
 
 
-def study_evidence(result: StudyResult) -> Any:
-    """Arrays and texts for the report: those of the comparison, and those of an axle."""
-    evidence = comparison_of(result).evidence()
+def study_evidence(result: StudyResult, comparison: Comparison | None = None) -> Any:
+    """Arrays and texts for the report: those of the comparison, and those of an axle; see ``study_content``."""
+    evidence = (comparison or comparison_of(result)).evidence()
     return evidence | axle_evidence(result.models, evidence["dynamic_stiffness"])
 
 
