@@ -59,9 +59,12 @@ def refined_path(drive: Drive, parts: int, first: int, end: int) -> tuple[Array,
 
 
 def _at_parts(ascending: list[Array], order: int, parts: int) -> Array:
-    # the polynomials of every step, or their derivatives, at equal parts of it
-    terms = [part[:, None] * power for part, power in zip(ascending, _powers(order, parts), strict=True)]
-    return sum(terms, np.zeros(())).ravel()
+    # the polynomials of every step, or their derivatives, at equal parts of it: part by part, along all steps
+    found = np.zeros((ascending[0].size, parts))
+    for part in range(parts):
+        powers = (power[part] for power in _powers(order, parts))
+        found[:, part] += sum(each * power for each, power in zip(ascending, powers, strict=True) if power)
+    return found.ravel()
 
 
 @lru_cache
