@@ -20,17 +20,12 @@ ROUNDS = 10  # for each number, after which rounding is taken to keep them from 
 
 def least_within(matrix: Array, right: Array, low: Array, high: Array) -> Array:
     """The least of s.matrix.s/2 - right.s within its limits, and of several such steps nearly the shortest."""
-    values, vectors = np.linalg.eigh(matrix)
+    values = np.linalg.eigvalsh(matrix)
     least = NOT_FELT * values.max(initial=0.0)
     if least == 0.0:
         return np.zeros(right.size)
-    roots = np.sqrt(np.maximum(values, least))
-    aim = np.where(values > least, vectors.T @ right / roots, 0.0)
-    unlimited: Array = vectors @ (aim / roots)
-    if np.all((unlimited >= low) & (unlimited <= high)):
-        return unlimited
     found = _by_pivots(matrix, right, low, high) if np.all(values > least) else None
-    return _by_library(roots[:, None] * vectors.T, aim, low, high) if found is None else found
+    return _along_what_is_felt(matrix, right, low, high) if found is None else found
 
 
 def _by_pivots(matrix: Array, right: Array, low: Array, high: Array) -> Array | None:
@@ -58,6 +53,18 @@ def _least_held(matrix: Array, right: Array, held: Array, free: NDArray[np.bool_
     pull = right[free] - matrix[np.ix_(free, ~free)] @ held[~free]
     step[free] = np.linalg.solve(matrix[np.ix_(free, free)], pull)
     return step
+
+
+def _along_what_is_felt(matrix: Array, right: Array, low: Array, high: Array) -> Array:
+    """The same without the directions in which the model tells nothing."""
+    values, vectors = np.linalg.eigh(matrix)
+    least = NOT_FELT * values.max(initial=0.0)
+    roots = np.sqrt(np.maximum(values, least))
+    aim = np.where(values > least, vectors.T @ right / roots, 0.0)
+    unlimited: Array = vectors @ (aim / roots)
+    if np.all((unlimited >= low) & (unlimited <= high)):
+        return unlimited
+    return _by_library(roots[:, None] * vectors.T, aim, low, high)
 
 
 def _by_library(rows: Array, aim: Array, low: Array, high: Array) -> Array:
