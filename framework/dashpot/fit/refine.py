@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dashpot.fit.bounded_step import least_within
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.geodesic import bent_steps
 from dashpot.fit.linear import Linear, Loss, linearise
 from dashpot.fit.rising_step import rising_step
 
@@ -22,7 +23,9 @@ STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 BOXES = (0.7, 0.2, 0.05)  # smaller ones, each with the two smallest dampings
 CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
 LEAPS = (1.0, 4.0)  # times the way of these steps
+BARELY = 1e-5  # of the loss in a step: so many such steps are worth what bent ones cost, a second Jacobian each
 DAMPINGS = np.array([0.0, 1e-3, 1e-2, 1e-1, 1.0, 10.0, 1e2, 1e4])
+BENT = 5  # of these dampings, from the smallest on: steps of larger ones are too short to leave a valley
 TRIED = len(DAMPINGS) + 2 * len(BOXES) + len(LEAPS)  # in a step, at most
 
 
@@ -63,6 +66,7 @@ def refine(
     ``thorough`` refinement also tries steps within smaller boxes (rectangular trust regions), since a parameter that is
     hardly felt takes the longest stride and spoils every step of little damping; and after some steps that hardly help
     the way that they have come, once and several times as far: in a bent valley steps are short, however far it leads.
+    After some that hardly help at all steps are bent as the valley is; see ``bent_steps``.
     Structures of a diagnosis are refitted in a few steps each and compared; one that happens to leap would be ahead, so
     that they do without. The Jacobian counts as one parameter vector for each coordinate, and ``budget`` is the largest
     number of vectors. The second of two steps, each from one loss to another that is ``hopeless``, is the last one,
@@ -72,16 +76,22 @@ def refine(
     loss = float(objective.losses(coordinates.to_values(point))[0])
     spent, slack, hoped, trail = 1, 1.0, True, [point]
     linear: Linear | None = None
+    barely = 0
     if not np.isfinite(loss) or point.size == 0:
         return Refined(point, loss, Outcome.CONVERGED if point.size == 0 else Outcome.FAILED, spent)
     for _ in range(steps):
-        if budget is not None and spent + 1 + point.size + TRIED > budget:
+        bent = BENT if thorough and barely >= PATIENCE else 0
+        if budget is not None and spent + 1 + point.size + TRIED + (bent and 1 + point.size + 2 * bent) > budget:
             return Refined(point, loss, Outcome.BUDGET_SPENT, spent)
         if linear is None:
             linear = linearise(objective, coordinates, point)
             spent += 1 + point.size
         tries = candidates(linear, coordinates, point, slack, BOXES if thorough else ())
         tries = np.vstack([tries, *(leaps(coordinates, trail) if thorough else [])])
+        if bent:
+            straight, dampings = tries[:bent], (slack * DAMPINGS[:bent]).tolist()
+            tries = np.vstack([tries, bent_steps(objective, linear, coordinates, point, straight, dampings)])
+            spent += 1 + point.size + bent
         losses = objective.losses(coordinates.to_values(tries))
         spent += len(tries)
         best = int(np.argmin(losses))
@@ -94,6 +104,7 @@ def refine(
         strides = _strides(tries[best] - point, coordinates)
         before, loss, point, linear = loss, float(losses[best]), tries[best], None
         slack = max(DAMPINGS[best] / 10.0, 1e-3) if best < len(DAMPINGS) else slack
+        barely = barely + 1 if 1.0 - loss / before < BARELY else 0
         trail = [*trail[-PATIENCE:], point] if 1.0 - loss / before < CREEP else [point]
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
