@@ -9,15 +9,16 @@ import numpy as np
 from dashpot.model.element import Element, Motion, Parameter, Response, State
 from dashpot.model.picture import Symbol
 
-CREEP = 1e-5  # m/s: the smaller, the less is crept in a step, and the harder the step is to solve
+# m: 1e-8 of the shortest travels that are measured, and 1e5 times the rounding of a place half a metre away
+WAY = 1e-11
 
 
 class IdealCoulomb(Element):
     """Ideal dry friction: F = limit sgn(v) where it slides, any |F| <= limit where it sticks, v = 0.
 
-    The force is the unknown: F = clip(F_before + limit v/creep) between -limit and limit, which is true of both. In a
-    time step dt of rest with a change of the force by dF the slider creeps by dt creep dF/limit, creep = 0.01 mm/s,
-    which goes to zero with the steps, however long it sticks. The force begins at zero.
+    The force is the unknown: F = clip(F_before + limit v dt/way) between -limit and limit, which is true of both. While
+    it sticks the slider gives way by way dF/limit, way = 1e-11 m, where the force changes by dF: by no more than twice
+    the way, however long it sticks and however long the time steps dt are. The force begins at zero.
     """
 
     picture = Symbol.SLIDER
@@ -28,7 +29,7 @@ class IdealCoulomb(Element):
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The projection on the forces that the slider can carry, at the end of the step."""
-        force = np.minimum(np.maximum(z.force + p.limit / CREEP * x.velocity_new, -p.limit), p.limit)
+        force = np.minimum(np.maximum(z.force + p.limit / WAY * x.velocity_new * dt, -p.limit), p.limit)
         return Response(force, force=force)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:

@@ -2,12 +2,19 @@
 
 A solution is held against that with twice as many steps. Where forces are smooth the second one errs much less, and
 the difference is the error of the first; where they bend sharply within a step (a stop, a gap, a reversal) both may err
-by as much as the step is long, and twice the difference is a bound for the second. No order of the steps is relied on.
+by as much as the step is long, and twice the difference is a bound for the second.
+
+Two solutions may be near to each other by chance, and both be wrong. So the changes before count as well. They do not
+fall faster than the order of the steps allows; one that did tells less than the one before. And twice a change is all
+that is still to come where the changes fall by a third or more each time; where they did not, no convergence is seen,
+and the largest of the last three counts.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise, takewhile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +29,10 @@ TOLERANCE = 1e-3  # of the root mean square of a force: the numerical error that
 FINEST = 256  # times as many steps as usual, at most
 # where in a step forces bend is a matter of chance, so that the error may be larger than the change
 CHANCE = 2.0
+QUICKEST = 16.0  # by what a change falls where steps of the highest order, four, are halved
+SEEN = 3  # changes, of which two say by how much they fall: one may fall by chance
+# of a change is the next one, at most: then CHANCE times it is the sum of all that follow
+FALLS = CHANCE / (1.0 + CHANCE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,10 +62,12 @@ def solve_within(
     """
     refine, before = 1, network.solve(network.prepare(excitation), values)
     solved: Bounded | None = None
+    changes: list[tuple[Array, Array]] = []
     while True:
         refine *= 2
         found = network.solve(network.prepare(excitation, refine), values)
-        error, peak = _moved(found, before)
+        changes.append(_moved(found, before))
+        error, peak = (bound(each) for each in zip(*changes, strict=True))
         allowed = tolerance * np.sqrt(np.mean(found.force[0] ** 2, axis=1))
         good, bounded = found.status[0] is Status.GOOD, Bounded(found, error, peak, refine)
         if good and before.status[0] is Status.GOOD:
@@ -69,7 +82,8 @@ def solve_within(
 def solve_at(network: CompiledSystem, excitation: Excitation, refine: int) -> Bounded:
     """The numbers of the file with ``refine`` times as many steps as usual, by hand."""
     found = network.solve(network.prepare(excitation, refine))
-    return Bounded(found, *_moved(network.solve(network.prepare(excitation, 2 * refine)), found), refine)
+    error, peak = _moved(network.solve(network.prepare(excitation, 2 * refine)), found)
+    return Bounded(found, bound([error]), bound([peak]), refine)
 
 
 def steps_within(network: CompiledSystem, excitation: Excitation, values: Array, tolerance: float, finest: int) -> int:
@@ -101,7 +115,21 @@ def told_error(solution: Solution) -> float:
     return float(np.max(np.where(np.isfinite(shares), shares, np.inf), initial=0.0))
 
 
+def bound(changes: Sequence[Array]) -> Array:
+    """Of the error of the last solution, from the ``changes`` where the steps were halved, the last one at the end.
+
+    A change that is not finite, of a solution that failed, tells of no other one.
+    """
+    finite = list(takewhile(lambda change: bool(np.isfinite(change).all()), reversed(changes)))[:SEEN]
+    if not finite:
+        return CHANCE * changes[-1]
+    last = finite[0] if len(finite) == 1 else np.maximum(finite[0], finite[1] / QUICKEST)
+    pairs = pairwise(finite)
+    falls = np.all([after <= FALLS * before for after, before in pairs], axis=0) if len(finite) > 1 else True
+    return CHANCE * np.where(falls, last, np.max(finite, axis=0))
+
+
 def _moved(finer: Solution, before: Solution) -> tuple[Array, Array]:
-    """Bounds (driven nodes,) by how much forces move where the steps are halved: of root mean square and peak."""
+    """How far the forces (driven nodes,) move where the steps are halved: root mean square and peak."""
     way = finer.force[0] - before.force[0]
-    return CHANCE * np.sqrt(np.mean(way**2, axis=1)), CHANCE * np.max(np.abs(way), axis=1)
+    return np.sqrt(np.mean(way**2, axis=1)), np.max(np.abs(way), axis=1)
