@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.noise_spectrum import NoiseSpectrum
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.decided import decide, doubt_of
 from dashpot.fit.linear import linearise
 from dashpot.fit.noise_of_runs import variance_of
 from dashpot.fit.objective import Objective
@@ -120,9 +121,14 @@ def identifiability(
     idle_paths, unsolved_paths = (tuple(np.array(coordinates.paths)[which].tolist()) for which in (idle, unsolved))
     if not felt.size:
         return Identifiability(1.0, {}, (), idle_paths, unsolved_paths)
-    lengths, axes = np.linalg.eigh(linear.normal[np.ix_(felt, felt)] / np.outer(size[felt], size[felt]))
-    short = lengths < SMALLEST * lengths[-1]
-    root = axes / np.sqrt(np.maximum(lengths, SMALLEST * lengths[-1])) / size[felt, None]
+    scaled, doubt = (
+        products[np.ix_(felt, felt)] / np.outer(size[felt], size[felt])
+        for products in (linear.normal, doubt_of(linear, coordinates, point))
+    )
+    lengths, axes = np.linalg.eigh(scaled)
+    decided, others = decide(lengths, axes, doubt, SMALLEST)
+    short, axes[:, ~decided] = ~decided, others
+    root = axes / np.sqrt(np.where(short, SMALLEST * lengths[-1], lengths)) / size[felt, None]
 
     def score(number: int, rows: Array) -> Array:
         own = noise[objective.runs[number].name]

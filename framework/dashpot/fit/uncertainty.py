@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dashpot.data.steady import STEADY
 from dashpot.fit.alike import moved_alike
 from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.decided import decide, doubt_of
 from dashpot.fit.linear import Linear, Loss, linearise
 from dashpot.fit.scored import ScoredRun
 
@@ -24,7 +25,6 @@ FEWEST_BLOCKS = 8
 FEWEST_RUNS = 3
 WEAK = 1e-6
 UNDECIDED = 1e-12  # of the largest eigenvalue, with parameters scaled alike
-SHARE = 1e-6
 MOST_LEVERAGE = 0.99
 ABSORBED = 8.0
 NOISE_KNOWN = 1.05  # noise floors may be this much too low
@@ -102,7 +102,8 @@ def assess_uncertainty(
     known_before = error * (np.zeros((0, point.size)) if priors is None else priors)
     told = np.any(known_before != 0.0, axis=0)
     idle = ~unsolved & ~told & (scale / np.sqrt(objective.total) < WEAK * max(loss, 1e-300))
-    root, lost = _scaled_root(linear.normal + known_before.T @ known_before, idle | unsolved)
+    doubt = doubt_of(linear, coordinates, point)
+    root, lost = _scaled_root(linear.normal + known_before.T @ known_before, idle | unsolved, doubt)
     covariance, freedom = _sandwich(_blocks(objective, linear), root)
     groups = repeats or objective.repeated()
     within, between = np.sqrt(np.diag(covariance)), _between_runs(groups, linear, root)
@@ -140,7 +141,7 @@ def effective_error(objective: OfRuns, coordinates: Coordinates, point: Array, n
     """
     linear = linearise(objective, coordinates, point)
     loss = float(np.sqrt(linear.square / objective.total))
-    root, _ = _scaled_root(linear.normal, linear.unsolved)
+    root, _ = _scaled_root(linear.normal, linear.unsolved, np.zeros_like(linear.normal))
     if not root.shape[1]:
         return loss
     covariance, _ = _sandwich(_blocks(objective, linear), root)
@@ -196,19 +197,19 @@ def _quantiles(freedom: Array) -> Array:
     return stdtrit(np.maximum(freedom, 1.0), LEVEL)
 
 
-def _scaled_root(normal: Array, without: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
+def _scaled_root(normal: Array, without: NDArray[np.bool_], doubt: Array) -> tuple[Array, NDArray[np.bool_]]:
     """``_inverse_root`` of products (p, p) with parameters scaled alike, some of which are left out."""
     scale = np.sqrt(np.diag(normal))
     safe = np.where(without | (scale == 0.0), 1.0, scale)
-    root, lost = _inverse_root(normal / np.outer(safe, safe))
+    root, lost = _inverse_root(normal / np.outer(safe, safe), doubt / np.outer(safe, safe))
     return root / safe[:, None], lost
 
 
-def _inverse_root(normal: Array) -> tuple[Array, NDArray[np.bool_]]:
+def _inverse_root(normal: Array, doubt: Array) -> tuple[Array, NDArray[np.bool_]]:
     """W (p, k) with W W' the inverse where the data decide, and which parameters share in what they do not decide."""
     values, vectors = np.linalg.eigh(normal)
-    kept = values > UNDECIDED * values.max(initial=0.0)
-    return vectors[:, kept] / np.sqrt(values[kept]), np.sum(vectors[:, ~kept] ** 2, axis=1) > SHARE
+    kept, others = decide(values, vectors, doubt, UNDECIDED)
+    return vectors[:, kept] / np.sqrt(values[kept]), (others != 0.0).any(axis=1)
 
 
 def _blocks(objective: OfRuns, linear: Linear) -> Iterator[Array]:
