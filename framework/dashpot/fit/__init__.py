@@ -16,7 +16,9 @@ uncertainty  how well the parameters are known
 prior        what was known before, as residual terms
 posterior    draws from the posterior of a fit
 chains       whether these draws have come to rest
+decided      which directions a Jacobian decides, and which its own error only seems to
 identifiability  what the data can tell, from the Fisher information, in words
+spare        branches without which the data are explained as well
 profile      the profile likelihood of a number
 bootstrap    refits on runs drawn with replacement
 virtual_test a network on a test bench

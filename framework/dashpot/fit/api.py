@@ -45,9 +45,10 @@ from dashpot.fit.result import Errors, FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun, weighted
 from dashpot.fit.search import run_search
 from dashpot.fit.seen_range import seen_range
+from dashpot.fit.spare import spare_branches
 from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.thinned import thinned
-from dashpot.fit.uncertainty import assess_uncertainty
+from dashpot.fit.uncertainty import assess_uncertainty, effective_error
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
 from dashpot.kernel.workers import finished, result_of, threads
@@ -61,6 +62,7 @@ Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
 REFINEMENT_STEPS = 120
+REFIT_STEPS = 40  # of a network with a branch less, which begins near to where it ends
 
 
 def silent(*_: Any, **__: Any) -> None:
@@ -236,6 +238,16 @@ def fit_prepared(
     known = assess_uncertainty(objective, coordinates, coordinates.start, steps, setting.floor.value, before, error)
     intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
     intervals |= derived_intervals(fitted.slots(), coordinates, known)
+    errors_of_numbers = known.errors * coordinates.slopes(coordinates.start) * coordinates.unit
+    spare = spare_branches(
+        fitted,
+        coordinates,
+        errors_of_numbers,
+        setting.train,
+        effective_error(objective, coordinates, coordinates.start, setting.floor.value),
+        lambda less: _refitted(less, setting, jobs),
+        jobs,
+    )
     return FitResult(
         declared=spec,
         fitted=with_intervals(fitted, intervals),
@@ -253,11 +265,19 @@ def fit_prepared(
         history=best.history,
         seen=seen_range(spec, setting.train),
         correlation=known.correlation,
-        errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
+        errors_of_numbers=errors_of_numbers,
         samples=sum(run.samples for run in setting.train),
         known=identifiability(objective, coordinates, coordinates.start, setting.noise),
         priors=told_priors(fitted, coordinates, known.errors),
+        spare=spare,
     )
+
+
+def _refitted(spec: NetworkSpec, setting: Setting, jobs: int) -> NetworkSpec:
+    objective = Objective(compile_network(spec), setting.train, jobs)
+    whole = refinement(spec, objective, lambda slot: True)
+    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, setting.floor.value)
+    return whole.at(found.point)
 
 
 def _polish(spec: NetworkSpec, setting: Setting, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -151,22 +151,29 @@ def identifiability(
     )
 
 
-def may_go(spec: NetworkSpec, known: Identifiability) -> list[str]:
-    """What a network could do without on these data, in sentences: idle branches, and one of two that do the same."""
+def may_go(spec: NetworkSpec, known: Identifiability, spare: Sequence[str] = ()) -> list[str]:
+    """What a network could do without on these data, in sentences.
+
+    Idle branches, one of two that do the same, and those that are ``spare``, which may go together.
+    """
     searched: dict[str, list[str]] = {}
     for slot in spec.slots():
         if slot.value.searched:
             searched.setdefault(_branch_of(slot.path), []).append(slot.path)
     laws = {branch.name: branch.element.word for branch in spec.leaves()}
-    found = [
-        f"{name} has no influence on these data and may go"
-        for name, paths in searched.items()
-        if name in laws and set(paths) <= set(known.idle)
-    ]
+    idle = [name for name, paths in searched.items() if name in laws and set(paths) <= set(known.idle)]
     lost = dict.fromkeys(tuple(sorted(set(map(_branch_of, each.above(WEAKER))))) for each in known.loose if each.lost)
     alike = [pair for pair in lost if len({laws.get(name, name) for name in pair}) == 1]
-    twins = [" and ".join(pair) for pair in alike if len(pair) == 2]
-    return found + [f"{pair} do the same to these data: one of them may go" for pair in twins]
+    twins = [pair for pair in alike if len(pair) == 2 and not set(pair) <= set(spare)]
+    told = {*idle, *(name for pair in twins for name in pair)}
+    rest = [name for name in spare if name not in told]
+    them = "it" if len(rest) == 1 else "them"
+    without = f"without {them}, all else refitted, these data are explained as well"
+    return [
+        *(f"{name} has no influence on these data and may go" for name in idle),
+        *(f"{' and '.join(pair)} do the same to these data: one of them may go" for pair in twins),
+        *([f"{' and '.join(rest)} may go: {without}"] if rest else []),
+    ]
 
 
 def _branch_of(path: str) -> str:

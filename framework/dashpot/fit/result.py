@@ -44,7 +44,8 @@ class FitResult:
     the identifiability; ``seen`` is the range of the motions of the training runs. ``correlation`` (p, p)
     is that of the errors of the free parameters, in the order of their slots and in logarithms where they are searched
     so; ``errors_of_numbers`` (p,) are their standard errors in SI. ``samples`` is how many were fitted; ``priors``
-    what became of the priors; ``posterior`` has the draws of a sampler where one was asked for.
+    what became of the priors; ``posterior`` has the draws of a sampler where one was asked for; ``spare`` names the
+    branches that may go together.
     """
 
     declared: NetworkSpec
@@ -68,6 +69,7 @@ class FitResult:
     samples: int = 0
     priors: tuple[PriorTold, ...] = ()
     posterior: Posterior | None = field(default=None, repr=False)
+    spare: tuple[str, ...] = ()
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -156,7 +158,7 @@ class FitResult:
         """What the data tell of the parameters as it stands in result files; None where it was not looked at."""
         if self.known is None:
             return None
-        told = identifiability_of(self.fitted, self.known) | {"undetermined": self.undetermined}
+        told = identifiability_of(self.fitted, self.known, self.spare) | {"undetermined": self.undetermined}
         if self.priors:
             told["weak"] = [f"without the priors {sentence}" for sentence in told["weak"]]
         return told
@@ -186,14 +188,14 @@ def floor_of(floor: NoiseFloor) -> dict[str, Any]:
     return {"value": floor.value, "from": floor.source}
 
 
-def identifiability_of(spec: NetworkSpec, known: Identifiability) -> dict[str, Any]:
-    """What data tell of the parameters of a network as it stands in result files."""
+def identifiability_of(spec: NetworkSpec, known: Identifiability, spare: Sequence[str] = ()) -> dict[str, Any]:
+    """What data tell of the parameters of a network, and of its ``spare`` branches, as it stands in result files."""
     return {
         "condition": known.condition,
         "deviations": known.deviations,
         "undetermined": known.undetermined,
         "weak": known.sentences,
-        "may_go": may_go(spec, known),
+        "may_go": may_go(spec, known, spare),
     }
 
 
