@@ -35,6 +35,13 @@ def test_three_hundred_random_networks_are_within_a_thousandth_and_their_bounds_
     holds([measure(settled_case(number)) for number in range(CASES)], state)
 
 
+def test_nodes_between_stiff_friction_and_contacts_are_balanced(state):
+    # two creep velocities of 1e-6 m/s beside a contact: a step that ended where only one of two nodes was balanced
+    case = measure(settled_case(147))
+    state(f"two nodes between stiff friction and a contact: {case.error:.1e} of the RMS force, bound {case.bound:.1e}")
+    assert case.error < LARGEST and case.inside and case.inside_peak
+
+
 def test_the_integrator_finds_a_closed_form():
     # a mass between a spring and the ground's dashpot under a sine: the steady state of the transfer function
     k, c, m, omega, amplitude, dt = 4e4, 300.0, 2.0, 2.0 * np.pi * 9.0, 2e-3, 1e-3

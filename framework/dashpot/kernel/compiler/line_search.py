@@ -112,13 +112,18 @@ def _next_share(pull: Node, stiffness: Node, length: Node) -> tuple[Node, Node, 
 
 
 def _balanced(balance: Balance, missing: Mapping[str, Node], share: Node) -> Node:
-    """Whether no node lacks more than a share of its forces, and of what its stiffnesses make of its place."""
-    sizes = {joint: _inertia(balance, joint) for joint in missing}
+    """Whether no node lacks more than a share of its forces, or than the rounding of its place makes of them."""
+    forces = {joint: _inertia(balance, joint) for joint in missing}
+    rounded = dict(forces)
     for edge, force, tangent in zip(balance.topology.edges, balance.forces, balance.tangents, strict=True):
         places = np.absolute(balance.position(edge.lower)) + np.absolute(balance.position(edge.upper))
-        size = np.absolute(force) + np.absolute(tangent) * places
-        sizes |= {joint: sizes[joint] + size for joint in (edge.lower, edge.upper) if joint in sizes}
-    lacks = [np.absolute(force) <= share * sizes[joint] for joint, force in missing.items()]
+        for joint in (each for each in (edge.lower, edge.upper) if each in forces):
+            forces[joint] = forces[joint] + np.absolute(force)
+            rounded[joint] = rounded[joint] + np.absolute(force) + np.absolute(tangent) * places
+    lacks = [
+        np.absolute(force) <= maximum(share * forces[joint], ROUNDING * rounded[joint])
+        for joint, force in missing.items()
+    ]
     return reduce(lambda one, other: one & other, lacks)
 
 
