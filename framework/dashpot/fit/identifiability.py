@@ -154,7 +154,7 @@ def identifiability(
 def may_go(spec: NetworkSpec, known: Identifiability, spare: Sequence[str] = ()) -> list[str]:
     """What a network could do without on these data, in sentences.
 
-    Idle branches, one of two that do the same, and those that are ``spare``, which may go together.
+    Idle branches, two that do the same, as one would, and those that are ``spare``, which may go together.
     """
     searched: dict[str, list[str]] = {}
     for slot in spec.slots():
@@ -171,7 +171,7 @@ def may_go(spec: NetworkSpec, known: Identifiability, spare: Sequence[str] = ())
     without = f"without {them}, all else refitted, these data are explained as well"
     return [
         *(f"{name} has no influence on these data and may go" for name in idle),
-        *(f"{' and '.join(pair)} do the same to these data: one of them may go" for pair in twins),
+        *(f"{' and '.join(pair)} do the same to these data: one in their place would do" for pair in twins),
         *([f"{' and '.join(rest)} may go: {without}"] if rest else []),
     ]
 

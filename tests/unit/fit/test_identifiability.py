@@ -147,8 +147,8 @@ def test_two_branches_that_do_the_same_are_told_and_one_may_go():
     """)
     told = found.as_dict()["identifiability"]
     assert set(told["undetermined"]) == {"a.damping", "b.damping"}
-    assert told["may_go"] == ["a and b do the same to these data: one of them may go"]
-    assert "  a and b do the same to these data: one of them may go" in found.summary().splitlines()
+    assert told["may_go"] == ["a and b do the same to these data: one in their place would do"]
+    assert "  a and b do the same to these data: one in their place would do" in found.summary().splitlines()
 
 
 def test_a_branch_without_influence_may_go():

@@ -87,7 +87,7 @@ def test_of_two_that_do_the_same_one_is_told_to_go_and_not_twice():
     found = fitted(NEEDED + "    more: {element: damper, damping: {start: 100}}\n", measured(np.random.default_rng(1)))
     assert found.spare == ("more",)
     assert found.as_dict()["identifiability"]["may_go"] == [
-        "more and oil do the same to these data: one of them may go"
+        "more and oil do the same to these data: one in their place would do"
     ]
 
 
