@@ -57,7 +57,7 @@ def examine(dataset: Dataset) -> Triage:
     ]
     copied = duplicate_runs(measured) + [fault for run in measured if (fault := lost_samples(run))]
     runs = _without(measured, copied)
-    turned = work_faults(runs)
+    turned, late = work_faults(runs)
     runs = _without(runs, turned)
     scaled = wrong_scales(runs)
     runs = _without(runs, scaled)
@@ -65,7 +65,7 @@ def examine(dataset: Dataset) -> Triage:
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats([kept[run.name] for run in whole if run.name in kept])
     sound = {run.name for run in runs}
-    remarks = [remark for run in left if run.name in sound and (remark := actuator_harmonics(run))]
+    remarks = late + [remark for run in left if run.name in sound and (remark := actuator_harmonics(run))]
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")

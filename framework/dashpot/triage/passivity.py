@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 ONE_IN = 1000
 FEWEST_CYCLES = 3
 FEWEST_OTHERS = 2
+FEWEST_TOGETHER = 2  # runs: what a single one has may be its own
 _TINY = 1e-300
 # what the numbers of a force may be times those of a displacement: N against m, mm and um, kN against mm
 _SWAPS = (1.0, 1e-3, 1e-6, 1e-9)
@@ -57,13 +58,46 @@ def gives_back(work: CycleWork, delay: float, runs: int = 1) -> bool:
     return scatter == 0.0 or bool(stdtr(count - 1, below / scatter) < 1.0 / (ONE_IN * runs))
 
 
-def work_faults(runs: Sequence[Run]) -> list[Fault]:
-    """The runs that give back work, each with what would correct it."""
+def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
+    """The runs that give back work, each with what would correct it, and what is to be remarked of all runs."""
     works = {run.name: work for run in runs if (work := work_of_cycles(run)) is not None}
     bad = [run for run in runs if run.name in works and gives_back(works[run.name], delay_of(run), len(works))]
     accused = {run.name for run in bad}
     sound = [run for run in runs if run.name in works and run.name not in accused]
-    return [_fault_of(run, works[run.name], sound) for run in bad]
+    delay = _common_delay(bad, sound, works)
+    if delay is not None:
+        names = ", ".join(f"'{run.name}'" for run in bad)
+        return [], [
+            f"{names} give back work, which no passive specimen does; with the force of all runs earlier by "
+            f"{pretty(delay, 's', 2)} or more none does: it comes late in all of them"
+        ]
+    return [_fault_of(run, works[run.name], sound) for run in bad], []
+
+
+def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> float | None:
+    """The least delay in s that makes several runs give back work if the force of all runs comes late by it; or None.
+
+    Which of them give it back is a matter of stiffness and loss then, as of one preload, and no fault of theirs. The
+    others have to predict them, all forces taken earlier, as well as they predict each other, and better than if these
+    runs alone were late.
+    """
+    if len(bad) < FEWEST_TOGETHER or len(sound) < FEWEST_OTHERS or min(works[run.name].per_delay for run in bad) <= 0.0:
+        return None
+    least = max(-float(np.mean(works[run.name].taken)) / works[run.name].per_delay for run in bad)
+    if any(least * 4.0 * works[run.name].taken.size > np.ptp(run.time) for run in bad):
+        return None  # more than a quarter of a cycle
+    sizes = Sizes.of(sound)
+    earlier = [_earlier(run, least, sizes) for run in sound]
+    usual = [_unlike(each, fitted(_but(number, earlier))) for number, each in enumerate(earlier)]
+    coefficients, as_they_are = fitted(earlier), fitted([moments_of_run(run, sizes) for run in sound])
+    together = [_unlike(_earlier(run, least, sizes), coefficients) for run in bad]
+    alone = [min(_lateness(run, works[run.name], sizes, as_they_are))[0] for run in bad]
+    return least if max(together) <= _farthest(usual) and sum(together) < sum(alone) else None
+
+
+def _earlier(run: Run, delay: float, sizes: Sizes) -> Moments:
+    force = advance(run.force, round(delay / run.sample_time))
+    return moments_of(run.displacement, np.gradient(run.displacement, run.sample_time), force, sizes)
 
 
 def delay_of(run: Run) -> float:
@@ -120,9 +154,12 @@ def _but(number: int, moments: Sequence[Moments]) -> list[Moments]:
 
 
 def _unlike(moments: Moments, coefficients: Array) -> float:
-    """The share of the square of a force that no multiple of the forecast explains; all of it for a negative one."""
+    """The share of the square of a force that the forecast leaves, at most all of it."""
     gain, likeness = compared(moments, coefficients)
-    return 1.0 - likeness if gain > 0.0 else 1.0
+    if not gain > 0.0:
+        return 1.0
+    missed = (1.0 / gain - 1.0) ** 2 * likeness  # of the forecast, along itself
+    return min(1.0 - likeness + missed, 1.0)
 
 
 def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iterator[_Try]:
@@ -150,8 +187,7 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iter
         "with its force and displacement taken for each other it agrees with the others",
         "Swap the columns of its force and displacement channels",
     )
-    late = [(unlike(x, rate, advance(force, count)), count) for count in _delays(run, work)]
-    if late:
+    if late := _lateness(run, work, sizes, coefficients):
         apart, count = min(late)
         delay = pretty(count * run.sample_time, "s", 3)
         yield _Try(
@@ -160,6 +196,12 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iter
             f"with its force {delay} earlier it agrees with the others",
             f"Write 'delay: {delay}' under its force channel",
         )
+
+
+def _lateness(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> list[tuple[float, int]]:
+    """How much of its force the others do not explain if it is so many samples late."""
+    counts = _delays(run, work)
+    return [(_unlike(_earlier(run, count * run.sample_time, sizes), coefficients), count) for count in counts]
 
 
 def _turned_force(unlike: float) -> _Try:
@@ -173,9 +215,14 @@ def _turned_force(unlike: float) -> _Try:
 
 
 def _delays(run: Run, work: CycleWork) -> list[int]:
-    """Delays in samples, at most a quarter of the mean cycle, each a tenth longer than the one before."""
+    """Delays in samples that let it take up work, at most a quarter of the mean cycle, each a tenth longer than the
+    one before.
+    """
     most = run.time.size // (4 * max(work.taken.size, 1))
-    counts = np.unique(np.round(np.geomspace(1.0, max(most, 1), 60)).astype(int))
+    least = -float(np.mean(work.taken)) / (work.per_delay * run.sample_time) if work.per_delay > 0.0 else np.inf
+    if not least <= most:
+        return []
+    counts = np.unique(np.round(np.geomspace(max(np.ceil(least), 1.0), max(most, 1), 60)).astype(int))
     return [int(count) for count in counts if count <= most]
 
 

@@ -152,6 +152,41 @@ def test_a_delay_that_makes_a_run_give_back_work_is_named_with_its_length():
     assert found == pytest.approx(12.0, rel=0.12)
 
 
+def stiffening(name, amplitude, frequency, preload, delay, seed):
+    """Four times as stiff at 20 mm as at 5 mm, with the same dashpot, and its force late."""
+    x = sine(amplitude, frequency, preload)
+    return run(name, x, late(1e5 * x + 1e7 * x**2 + 1000.0 * np.gradient(x, STEP), delay), 2.0, seed)
+
+
+CONDITIONS = [(a, f, p) for p in (5e-3, 12e-3, 20e-3) for a, f in ((1e-3, 2.0), (2e-3, 5.0), (3e-3, 3.0))]
+
+
+@pytest.mark.parametrize(("delay", "stiffest"), [(4e-3, ["r6", "r7", "r8"]), (1.2e-3, [])])
+def test_a_force_that_is_late_in_all_runs_is_no_fault_of_those_at_the_stiffest_preload(delay, stiffest):
+    """It takes away more of the work where the specimen is stiff; the runs are left to the diagnosis."""
+    runs = [stiffening(f"r{k}", *each, delay, k) for k, each in enumerate(CONDITIONS)]
+    found = examine(Dataset("made", tuple(runs)))
+    assert found.faults == () and len(found.dataset.runs) == len(runs)
+    remarks = [remark for remark in found.remarks if "late in all of them" in remark]
+    assert [each.name for each in runs if f"'{each.name}'" in "".join(remarks)] == stiffest
+
+
+def test_runs_that_are_late_by_themselves_are_still_named():
+    """Two of five: with all forces earlier they would be as far from the others as before."""
+    runs = mounts()
+    runs[2], runs[3] = mount("r2", 1e-3, 5, 12e-3, seed=2), mount("r3", 2e-3, 5, 12e-3, seed=3)
+    assert {name: fault.kind for name, fault in told(runs).items()} == {"r2": "delay", "r3": "delay"}
+
+
+def test_a_late_force_is_not_taken_for_swapped_channels():
+    """A small loop about a large preload is nearly elastic, so that force and deflection look alike: not their size."""
+    runs = [stiffening(f"r{k}", *each, 0.0, k) for k, each in enumerate(CONDITIONS)]
+    runs[7] = stiffening("r7", *CONDITIONS[7], 12e-3, 7)
+    fault = told(runs)["r7"]
+    assert fault.kind == "delay"
+    assert float(fault.cure.split("delay: ")[1].split(" ms")[0]) == pytest.approx(12.0, rel=0.12)
+
+
 def test_what_nothing_mends_is_left_out():
     """A record of another specimen whose drive pulls it along agrees with nobody."""
     runs = mounts()
