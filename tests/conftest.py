@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -18,6 +19,9 @@ def pytest_configure(config: pytest.Config) -> None:
     if config.getoption("markexpr") == "random":
         os.environ.setdefault("DRAW_SEEDS", str(secrets.randbits(32)))
     settings.load_profile("drawn" if os.environ.get("DRAW_SEEDS") else "fixed")
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        # started in the background of a shell: the commands that tests interrupt would ignore it, too
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_report_header() -> str | None:
