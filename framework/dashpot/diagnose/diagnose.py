@@ -233,7 +233,7 @@ def next_runs(refitter: Refitter, pursuit: Pursuit) -> dict[tuple[str, str], Nex
     """The run to make next for every cause, and for each that stands in its place in more than one of ten draws."""
     found = {}
     for term, rival in pursuit.rivals:
-        told = {name for name in pursuit.replacements(term.name) if name in rival.model.names}
+        told = [name for name in pursuit.replacements(term.name) if name in rival.model.names]
         for word, _ in told:
             run = next_run(refitter, pursuit.best.model, rival.model, pursuit.look.measured_noise)
             if run is not None:

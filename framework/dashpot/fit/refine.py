@@ -67,7 +67,7 @@ def refine(
     hardly felt takes the longest stride and spoils every step of little damping; and after some steps that hardly help
     the way that they have come, once and several times as far: in a bent valley steps are short, however far it leads.
     After some that hardly help at all steps are bent as the valley is; see ``bent_steps``.
-    Structures of a diagnosis are refitted in a few steps each and compared; one that happens to leap would be ahead, so
+    Structures of a diagnosis are refitted and compared; one that happens to leap would be ahead, so
     that they do without. The Jacobian counts as one parameter vector for each coordinate, and ``budget`` is the largest
     number of vectors. The second of two steps, each from one loss to another that is ``hopeless``, is the last one,
     unless a number grew or fell as fast as it may.

@@ -81,17 +81,23 @@ def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, 
     others have to predict them, all forces taken earlier, as well as they predict each other, and better than if these
     runs alone were late.
     """
-    if len(bad) < FEWEST_TOGETHER or len(sound) < FEWEST_OTHERS or min(works[run.name].per_delay for run in bad) <= 0.0:
+    if len(bad) < FEWEST_TOGETHER or len(sound) < FEWEST_OTHERS:
         return None
-    least = max(-float(np.mean(works[run.name].taken)) / works[run.name].per_delay for run in bad)
-    if any(least * 4.0 * works[run.name].taken.size > np.ptp(run.time) for run in bad):
-        return None  # more than a quarter of a cycle
+    least = max(_least_delay(works[run.name]) for run in bad)
+    if any(least > _longest(run, works[run.name]) * run.sample_time for run in bad):
+        return None
     sizes = Sizes.of(sound)
     earlier = [_earlier(run, least, sizes) for run in sound]
-    usual = [_unlike(each, fitted(_but(number, earlier))) for number, each in enumerate(earlier)]
+    usual = [_missed(each, fitted(_but(number, earlier))) for number, each in enumerate(earlier)]
     coefficients, as_they_are = fitted(earlier), fitted([moments_of_run(run, sizes) for run in sound])
-    together = [_unlike(_earlier(run, least, sizes), coefficients) for run in bad]
-    alone = [min(_lateness(run, works[run.name], sizes, as_they_are))[0] for run in bad]
+    together = [_missed(_earlier(run, least, sizes), coefficients) for run in bad]
+    alone = [
+        min(
+            _missed(_earlier(run, count * run.sample_time, sizes), as_they_are)
+            for count in _delays(run, works[run.name])
+        )
+        for run in bad
+    ]
     return least if max(together) <= _farthest(usual) and sum(together) < sum(alone) else None
 
 
@@ -128,7 +134,8 @@ def _most_likely(run: Run, work: CycleWork, sound: Sequence[Run]) -> _Try | None
     moments = [moments_of_run(other, sizes) for other in sound]
     coefficients = fitted(moments)
     usual = [_unlike(each, fitted(_but(number, moments))) for number, each in enumerate(moments)]
-    tries = list(_tries(run, work, sizes, coefficients))
+    in_size = _farthest([_missed(each, fitted(_but(number, moments))) for number, each in enumerate(moments)])
+    tries = list(_tries(run, work, sizes, coefficients, in_size))
     least = min(each.unlike for each in tries)
     if least > _farthest(usual):
         return None
@@ -154,16 +161,22 @@ def _but(number: int, moments: Sequence[Moments]) -> list[Moments]:
 
 
 def _unlike(moments: Moments, coefficients: Array) -> float:
-    """The share of the square of a force that the forecast leaves, at most all of it."""
+    """The share of the square of a force that no multiple of the forecast explains; all of it for a negative one."""
     gain, likeness = compared(moments, coefficients)
-    if not gain > 0.0:
-        return 1.0
-    missed = (1.0 / gain - 1.0) ** 2 * likeness  # of the forecast, along itself
-    return min(1.0 - likeness + missed, 1.0)
+    return 1.0 - likeness if gain > 0.0 else 1.0
 
 
-def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iterator[_Try]:
-    """What may have gone wrong, the more usual mistakes first."""
+def _missed(moments: Moments, coefficients: Array) -> float:
+    """The share of the square of a force that the forecast as it is leaves, at most all of it."""
+    gain, likeness = compared(moments, coefficients)
+    return min(1.0 - likeness + (1.0 / gain - 1.0) ** 2 * likeness, 1.0) if gain > 0.0 else 1.0
+
+
+def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array, in_size: float) -> Iterator[_Try]:
+    """What may have gone wrong, the more usual mistakes first.
+
+    Of swapped channels the forecast leaves no more than a share ``in_size``: but for it, any elastic run is like them.
+    """
     x, force = run.displacement, run.force
     rate = np.gradient(x, run.sample_time)
 
@@ -180,14 +193,18 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iter
         "displacement",
     )
     slope = np.gradient(force, run.sample_time)
-    swapped = min(unlike(factor * force, factor * slope, x / factor) for factor in _SWAPS)
-    yield _Try(
-        "swapped_channels",
-        swapped,
-        "with its force and displacement taken for each other it agrees with the others",
-        "Swap the columns of its force and displacement channels",
-    )
-    if late := _lateness(run, work, sizes, coefficients):
+    swaps = [moments_of(factor * force, factor * slope, x / factor, sizes) for factor in _SWAPS]
+    if swapped := [_unlike(each, coefficients) for each in swaps if _missed(each, coefficients) <= in_size]:
+        yield _Try(
+            "swapped_channels",
+            min(swapped),
+            "with its force and displacement taken for each other it agrees with the others",
+            "Swap the columns of its force and displacement channels",
+        )
+    late = [
+        (_unlike(_earlier(run, count * run.sample_time, sizes), coefficients), count) for count in _delays(run, work)
+    ]
+    if late:
         apart, count = min(late)
         delay = pretty(count * run.sample_time, "s", 3)
         yield _Try(
@@ -196,12 +213,6 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> Iter
             f"with its force {delay} earlier it agrees with the others",
             f"Write 'delay: {delay}' under its force channel",
         )
-
-
-def _lateness(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array) -> list[tuple[float, int]]:
-    """How much of its force the others do not explain if it is so many samples late."""
-    counts = _delays(run, work)
-    return [(_unlike(_earlier(run, count * run.sample_time, sizes), coefficients), count) for count in counts]
 
 
 def _turned_force(unlike: float) -> _Try:
@@ -218,12 +229,20 @@ def _delays(run: Run, work: CycleWork) -> list[int]:
     """Delays in samples that let it take up work, at most a quarter of the mean cycle, each a tenth longer than the
     one before.
     """
-    most = run.time.size // (4 * max(work.taken.size, 1))
-    least = -float(np.mean(work.taken)) / (work.per_delay * run.sample_time) if work.per_delay > 0.0 else np.inf
+    least, most = max(np.ceil(_least_delay(work) / run.sample_time), 1.0), _longest(run, work)
     if not least <= most:
         return []
-    counts = np.unique(np.round(np.geomspace(max(np.ceil(least), 1.0), max(most, 1), 60)).astype(int))
-    return [int(count) for count in counts if count <= most]
+    return [int(count) for count in np.unique(np.round(np.geomspace(least, most, 60)))]
+
+
+def _least_delay(work: CycleWork) -> float:
+    """The time in s by which the force has to be earlier for the run to take up work; infinite where it never does."""
+    return -float(np.mean(work.taken)) / work.per_delay if work.per_delay > 0.0 else np.inf
+
+
+def _longest(run: Run, work: CycleWork) -> int:
+    """A quarter of the mean cycle in samples."""
+    return run.time.size // (4 * max(work.taken.size, 1))
 
 
 def _by_itself(run: Run, work: CycleWork) -> _Try:

@@ -178,6 +178,23 @@ def test_runs_that_are_late_by_themselves_are_still_named():
     assert {name: fault.kind for name, fault in told(runs).items()} == {"r2": "delay", "r3": "delay"}
 
 
+@pytest.mark.parametrize("gain", [-1.1, -1.3, -4.448, -1000.0])
+def test_a_turned_force_in_another_unit_is_turned_back(gain):
+    """Of its size scale tells, and the diagnosis."""
+    runs = mounts()
+    runs[1] = replace(runs[1], channels={**runs[1].channels, "force": gain * runs[1].force})
+    found = examine(Dataset("made", tuple(runs)))
+    assert [(fault.run, fault.kind) for fault in found.faults][0] == ("r1", "polarity")
+    assert len(found.dataset.runs) == len(runs)
+
+
+@pytest.mark.parametrize("delay", [47e-3, 49e-3, 50e-3, 52e-3])
+def test_runs_that_are_late_by_about_a_quarter_of_a_cycle_are_told(delay):
+    runs = mounts()
+    runs[2], runs[3] = mount("r2", 1e-3, 5, delay, seed=2), mount("r3", 2e-3, 5, delay, seed=3)
+    assert set(told(runs)) == {"r2", "r3"}
+
+
 def test_a_late_force_is_not_taken_for_swapped_channels():
     """A small loop about a large preload is nearly elastic, so that force and deflection look alike: not their size."""
     runs = [stiffening(f"r{k}", *each, 0.0, k) for k, each in enumerate(CONDITIONS)]
