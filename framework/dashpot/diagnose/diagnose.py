@@ -19,7 +19,7 @@ from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.next_run import NextRun, next_run
-from dashpot.diagnose.polish import known, polished
+from dashpot.diagnose.polish import FEWER_STEPS, STEPS, known, polished
 from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
@@ -34,8 +34,9 @@ from dashpot.fit.grounding import free_curves
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult
+from dashpot.fit.scored import ScoredRun
 from dashpot.fit.thinned import subsampled
-from dashpot.kernel.workers import threads
+from dashpot.kernel.workers import forked, threads
 from dashpot.model.network import Group, NetworkSpec
 from dashpot.text.problem import InputError, Place
 from dashpot.triage.examine import examine
@@ -90,8 +91,9 @@ def diagnose(
         setting = replace(setting, floor=floor_of_corrected(setting, accused))
     model = pursuit.best.model
     together = groups_of(runs, groups)
-    final = known(polished(model, runs, jobs), model, runs, together, jobs, setting.floor.value)
-    removals = [Removal(one.name, polished(one.scored.model, runs, jobs, steps=10)) for one in pursuit.without]
+    whole, *less = all_polished(pursuit, runs, jobs)
+    final = known(whole, model, runs, together, jobs, setting.floor.value)
+    removals = [Removal(one.name, found) for one, found in zip(pursuit.without, less, strict=True)]
     last = put_right(refitter, accused)
     spare = spare_branches(last, pursuit.look, pursuit.best.model)
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
@@ -112,6 +114,12 @@ def diagnose(
         seed=seed,
         jobs=jobs,
     )
+
+
+def all_polished(pursuit: Pursuit, runs: Sequence[ScoredRun], jobs: int) -> list[NetworkSpec]:
+    """The networks of the best structure and of those without each of its causes, at the least error of the runs."""
+    models = [(pursuit.best.model, STEPS), *((one.scored.model, FEWER_STEPS) for one in pursuit.without)]
+    return forked(lambda one: polished(one[0], runs, jobs, one[1]), models, jobs)
 
 
 def find_causes(

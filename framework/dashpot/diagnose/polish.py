@@ -22,7 +22,7 @@ from dashpot.model.network import NetworkSpec
 
 Array = NDArray[np.float64]
 
-STEPS = 60
+STEPS, FEWER_STEPS = 60, 10  # fewer from a structure that was refitted
 
 
 def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = STEPS) -> NetworkSpec:

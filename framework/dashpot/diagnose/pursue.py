@@ -6,8 +6,10 @@ structure without it is refitted, and so are those with another cause in its pla
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,7 @@ from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
 from dashpot.diagnose.term import Model, Term
 from dashpot.fit.refine import Outcome
+from dashpot.kernel.workers import forked
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
@@ -31,6 +34,7 @@ REFITTED = 2  # structures with one change, and as many with more, at each look
 TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
 MOST_LOOKS = 12
 DRAWS = 200
+Key = frozenset[tuple[object, ...]]  # numbers of terms that go, and forms that join
 
 
 @dataclass(eq=False)
@@ -60,14 +64,14 @@ class Pursuer:
         while True:
             look, present, without, others = self.local_optimum(seen)
             scores = Scores(look)
-            rivals = tuple(self.rivals(scores, search(scores))) if present.model.terms else ()
+            rivals = self.rivals(scores, search(scores)) if present.model.terms else []
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
             onward = self._onward(look, fresh, present) if self.ended else None
             if onward is None:
                 weights = self.weights(len(look.folds.names))
-                found = (present, look, model, without, rivals, tuple(others), weights)
+                found = (present, look, model, without, tuple(rivals), tuple(others), weights)
                 return Pursuit(*found, self.looks, self.ended, tuple(self.refused))
             del look  # a look is large
             self.looked = self._all_candidates(onward)
@@ -102,7 +106,7 @@ class Pursuer:
             self.watch(self.looks, len(look.model.terms))
             scores = Scores(look)
             present = scored_by(scores, scores.odds)
-            trials = list(self.trials(scores, search(scores)))
+            trials = self.trials(scores, search(scores))
             del scores
             onward = self._onward(look, trials, present)
             self.ended = onward is None
@@ -154,41 +158,47 @@ class Pursuer:
         known = of_names(look.candidates, model.names)
         return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
 
-    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[Scored]:
+    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> list[Scored]:
         """The best few structures of different terms that score better than the present one, refitted.
 
         A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
         """
-        present, names, unproven = scores.score(Structure()), set(), set[Form]()
-        many, tried = {True: 0, False: 0}, {True: 0, False: 0}
-        for structure in ranked:
-            key, single = _key(scores, structure), structure.size == 1
-            wanted = many[single] < REFITTED and tried[single] < TRIED and (single or not unproven & key)
-            if structure.size and key not in names and wanted and scores.score(structure) < present:
-                names.add(key)
-                tried[single] += 1
-                trial = self.refitted(scores, structure)
+        present, found, unproven = scores.score(Structure()), list[Scored](), set[Form]()
+        different = {_key(scores, one): one for one in reversed([*ranked]) if one.size and scores.score(one) < present}
+        waiting, kept, tried = list(reversed(different.items())), Counter[bool](), Counter[bool]()
+        while few := _few(waiting, kept, tried, unproven):
+            for (key, structure), trial in zip(few, self.refitted(scores, [one for _, one in few]), strict=True):
+                waiting.remove((key, structure))
+                tried[structure.size == 1] += 1
                 if trial:
-                    many[single] += not trial.unproven
+                    kept[structure.size == 1] += not trial.unproven
                     unproven |= trial.unproven
-                    yield trial
+                    found.append(trial)
+        return found
 
-    def refitted(self, scores: Scores, structure: Structure) -> Scored | None:
-        """A structure refitted; None for one that cannot be written, or that the data do not tell."""
-        terms, look = terms_of(scores, structure), scores.look
-        new = {term for term in terms if term not in look.model.terms}
+    def refitted(self, scores: Scores, structures: Sequence[Structure]) -> list[Scored | None]:
+        """Structures refitted; None for one that cannot be written, or that the data do not tell."""
+        each = [(tuple(terms_of(scores, one)), scores.moves(one)) for one in structures]
+        terms = dict.fromkeys(term for mine, _ in each for term in (*scores.look.model.terms, *mine))
+        found = forked(partial(self._refitted, scores), each, self.refitter.jobs, (*terms,))
+        for (mine, _), (_, refusal) in zip(each, found, strict=True):
+            new = [term for term in mine if term not in scores.look.model.terms]
+            self.refused += [(term, refusal) for term in new if refusal]
+        return [scored for scored, _ in found]
+
+    def _refitted(self, scores: Scores, asked: tuple[Sequence[Term], Array]) -> tuple[Scored | None, str]:
+        """The model with other terms, refitted, and why it cannot be written, if that is so."""
+        (terms, moves), look = asked, scores.look
         try:
-            model = self.refitter.refit(look.model, terms, look.noise, scores.moves(structure))
-            found = self._tenable(look, model, new)
+            model = self.refitter.refit(look.model, terms, look.noise, moves)
+            found = self._tenable(look, model, {term for term in terms if term not in look.model.terms})
         except InputError as error:
-            self.refused += [(term, str(error)) for term in terms if term in new]
-            return None
+            return None, str(error)
         if found is None:
-            return None
-        seen, unproven = found
-        return replace(
-            scored_by(seen, scores.odds), unproven=frozenset((one.name, one.suspect.form) for one in unproven)
-        )
+            return None, ""
+        seen, lacking = found
+        unproven = frozenset((one.name, one.suspect.form) for one in lacking)
+        return replace(scored_by(seen, scores.odds), unproven=unproven), ""
 
     def _tenable(self, look: Look, model: Model, new: set[Term]) -> tuple[Scores, set[Term]] | None:
         """A refitted model under the noise of a look, and those of its new terms that lack evidence.
@@ -222,21 +232,27 @@ class Pursuer:
         present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.scores_of(look, present.model)
-            found = [self._without(look, present, (term,), odds) for term in present.model.terms]
+            found = self._without(look, present, [(term,) for term in present.model.terms], odds)
             worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
             if min(worth, default=1.0) >= NAMED:
-                return present, tuple(self._without_causes(look, present, found, odds))
+                return present, self._without_causes(look, present, found, odds)
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
-    def _without(self, look: Look, present: Scored, gone: tuple[Term, ...], odds: Odds) -> Without:
-        rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
-        return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
+    def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
+        """The structure without each of some sets of terms, refitted."""
 
-    def _without_causes(self, look: Look, present: Scored, found: Sequence[Without], odds: Odds) -> Iterator[Without]:
-        for name in dict.fromkeys(one.name for one in found):
-            mine = [one for one in found if one.name == name]
-            every = tuple(term for one in mine for term in one.terms)
-            yield mine[0] if len(mine) == 1 else self._without(look, present, every, odds)
+        def refitted(gone: tuple[Term, ...]) -> Without:
+            rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
+            return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
+
+        return forked(refitted, each, self.refitter.jobs, present.model.terms)
+
+    def _without_causes(self, look: Look, present: Scored, found: Sequence[Without], odds: Odds) -> tuple[Without, ...]:
+        """The structure without all terms of each cause; that without a single one is ``found``."""
+        every = {name: tuple(t for one in found if one.name == name for t in one.terms) for name in _names(found)}
+        more = self._without(look, present, [terms for terms in every.values() if len(terms) > 1], odds)
+        known = {one.terms: one for one in (*found, *more)}
+        return tuple(known[terms] for terms in every.values())
 
     def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
@@ -264,21 +280,47 @@ class Pursuer:
         cost = without.likelihood(forms_err=False) - present.likelihood(forms_err=False)
         return cost > float(without.samples.sum()) * self.relevance
 
-    def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> Iterator[tuple[Term, Scored]]:
+    def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> list[tuple[Term, Scored]]:
         """For each term the best few structures with another cause in its place, refitted.
 
         A second one is refitted where it promises more than the refit of the first one has kept.
         """
-        for number, term in enumerate(scores.look.model.terms):
-            exchanged = [one for one in ranked if one.dropped == {number} and _joins_alone(scores, one)]
-            different = {_key(scores, one): one for one in reversed(exchanged)}
-            kept, many = np.inf, 0
-            for structure in sorted(different.values(), key=scores.score)[:TRIED]:
-                if many < REFITTED and scores.score(structure) < kept:
-                    trial = self.refitted(scores, structure)
-                    if trial:
-                        kept, many = min(kept, trial.score), many + 1
-                        yield term, trial
+        waiting = {term: _exchanges(scores, ranked, k) for k, term in enumerate(scores.look.model.terms)}
+        found: dict[Term, list[Scored]] = {term: [] for term in waiting}
+        while few := [
+            (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])
+        ]:
+            for (term, _), trial in zip(few, self.refitted(scores, [one for _, one in few]), strict=True):
+                found[term] += [trial] if trial else []
+        return [(term, trial) for term, trials in found.items() for trial in trials]
+
+
+def _few(
+    waiting: Sequence[tuple[Key, Structure]], kept: Mapping[bool, int], tried: Mapping[bool, int], unproven: set[Form]
+) -> list[tuple[Key, Structure]]:
+    """Of structures with one change, and of those with more, as many as are missing."""
+    found = []
+    for single in (True, False):
+        mine = [one for one in waiting if (one[1].size == 1) == single and (single or not unproven & one[0])]
+        found += mine[: min(REFITTED - kept[single], TRIED - tried[single])]
+    return found
+
+
+def _exchanges(scores: Scores, ranked: Sequence[Structure], number: int) -> list[Structure]:
+    """The best structures with another cause in the place of a term, by its number."""
+    exchanged = [one for one in ranked if one.dropped == {number} and _joins_alone(scores, one)]
+    different = {_key(scores, one): one for one in reversed(exchanged)}
+    return sorted(different.values(), key=scores.score)[:TRIED]
+
+
+def _promises(scores: Scores, waiting: Sequence[Structure], found: Sequence[Scored]) -> bool:
+    """Whether the next of some structures may be better than those refitted."""
+    best = min((one.score for one in found), default=np.inf)
+    return bool(waiting) and len(found) < REFITTED and scores.score(waiting[0]) < best
+
+
+def _names(found: Iterable[Without]) -> Iterable[tuple[str, str]]:
+    return dict.fromkeys(one.name for one in found)
 
 
 def _joins_alone(scores: Scores, structure: Structure) -> bool:
@@ -298,7 +340,7 @@ def scored_by(scores: Scores, odds: Odds) -> Scored:
     return Scored(model, *found, scores.exact(), scores.look.samples, odds.of_model(model))
 
 
-def _key(scores: Scores, structure: Structure) -> frozenset[tuple[object, ...]]:
+def _key(scores: Scores, structure: Structure) -> Key:
     """Terms that go and forms that join, whatever their places."""
     joins = ((scores.look.candidates[k].name, scores.look.candidates[k].suspect.form) for k, _ in structure.added)
     return frozenset([*((number,) for number in structure.dropped), *joins])

@@ -148,6 +148,8 @@ class Pursuit:
         """What a cause alone explains over that and what stays unexplained, which might be its own."""
         alone = self.explained(name, forms_err=True)
         whole = alone + unexplained
+        if np.isinf(alone):
+            return 1.0
         return alone / whole if whole > 0.0 else float(self.without_cause(name) is None)
 
     def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
@@ -157,7 +159,8 @@ class Pursuit:
         """
         gone = self.without_cause(name)
         cost = gone.likelihood(forms_err) - self.best.likelihood(forms_err) if gone else 0.0
-        return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
+        with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
+            return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
 
     def without_cause(self, name: tuple[str, str]) -> Scored | None:
         """The structure without all terms of a cause, refitted; None where it has none."""

@@ -1,13 +1,17 @@
-"""Where work is done: in threads of this process, or piece by piece on somebody's pool or cluster.
+"""Where work is done: in threads or forks of this process, or piece by piece on somebody's pool or cluster.
 
 Whatever takes ``jobs`` takes a number of threads, a ``concurrent.futures.Executor`` or a client of Dask. Threads share
-the runs of one piece of work, as numpy and compiled loops let go of the interpreter. A pool or a cluster does whole
-pieces, each of them on one thread, so that no processor is asked for twice.
+the runs of one piece of work, as numpy and compiled loops let go of the interpreter. A fork does what keeps the
+interpreter busy, and has all that this process has. A pool or a cluster does whole pieces, each of them on one thread,
+so that no processor is asked for twice.
 """
 
 from __future__ import annotations
 
+import io
 import os
+import pickle
+import sys
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecutor, as_completed
@@ -20,6 +24,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from dashpot.text.problem import InputError, Place
 
 if TYPE_CHECKING:
+    from concurrent.futures import ProcessPoolExecutor
+
     from distributed import Client
 
     Jobs = int | Executor | Client
@@ -85,13 +91,75 @@ if hasattr(os, "register_at_fork"):  # threads do not come along
     os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
+def forked(
+    work: Callable[[Item], Result], items: Iterable[Item], jobs: int, shared: Sequence[object] = ()
+) -> list[Result]:
+    """What ``work`` makes of each item, in their order, in no more than ``jobs`` processes at once.
+
+    Each process is a copy of this one, so that ``work`` and the items may be anything. What they come to is pickled on
+    its way back; what is ``shared`` is not, but is the same object here. What else they change stays with them. On
+    systems that cannot copy a process whose libraries have threads all is done here.
+    """
+    each = list(items)
+    if min(jobs, len(each)) < 2 or sys.platform != "linux" or _within.thread:
+        return [work(item) for item in each]
+    with _ending(min(jobs, len(each)), "fork", _inherit, (work, each, shared)) as pool:
+        return [_Unpacker(found, shared).load() for found in pool.map(_packed_answer, range(len(each)))]
+
+
+_inherited: list[Any] = []  # in a fork: what to do, with what, and what is shared
+
+
+def _inherit(*given: Any) -> None:
+    """Begin a fork: its threads and its keyboard are those of the process that it is a copy of."""
+    _left_to_the_parent()
+    _within.thread = True
+    _inherited[:] = given
+
+
+def _packed_answer(number: int) -> bytes:
+    work, each, shared = _inherited
+    packed = io.BytesIO()
+    _Packer(packed, shared).dump(work(each[number]))
+    return packed.getvalue()
+
+
+class _Packer(pickle.Pickler):
+    """What is shared travels as its number."""
+
+    def __init__(self, packed: io.BytesIO, shared: Sequence[object]) -> None:
+        super().__init__(packed, pickle.HIGHEST_PROTOCOL)
+        self._numbers = {id(one): number for number, one in enumerate(shared)}
+
+    def persistent_id(self, obj: Any) -> int | None:
+        return self._numbers.get(id(obj))
+
+
+class _Unpacker(pickle.Unpickler):
+    def __init__(self, packed: bytes, shared: Sequence[object]) -> None:
+        super().__init__(io.BytesIO(packed))
+        self._shared = shared
+
+    def persistent_load(self, pid: Any) -> object:
+        return self._shared[pid]
+
+
 @contextmanager
 def processes(count: int) -> Iterator[Executor]:
     """So many processes of this machine, which end with the block, at once where it fails or is interrupted."""
+    with _ending(count, "spawn", _left_to_the_parent) as pool:
+        yield pool
+
+
+@contextmanager
+def _ending(
+    count: int, how: str, begin: Callable[..., None], given: tuple[Any, ...] = ()
+) -> Iterator[ProcessPoolExecutor]:
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import active_children, get_context
 
-    pool, others = ProcessPoolExecutor(count, get_context("spawn"), initializer=_left_to_the_parent), active_children()
+    others = active_children()
+    pool = ProcessPoolExecutor(count, get_context(how), begin, given)
     try:
         yield pool
     except BaseException:

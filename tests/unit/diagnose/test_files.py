@@ -81,11 +81,11 @@ def measured(*words):
     return dataset(lambda motion: plain(motion) + sum(law(motion) for law in laws), held_out=(HELD_OUT,), **options)
 
 
-def diagnosed(data, folder):
+def diagnosed(data, folder, *options):
     """The folder of a diagnosis by the command."""
     path = write(data, folder / "data")
     (folder / "plain.yaml").write_text(NETWORK)
-    code = main(["diagnose", str(folder / "plain.yaml"), str(path), "-o", str(folder / "out"), "--quiet"])
+    code = main(["diagnose", str(folder / "plain.yaml"), str(path), "-o", str(folder / "out"), "--quiet", *options])
     assert code == 0
     return folder / "out"
 
@@ -112,7 +112,7 @@ def folder_of(tmp_path_factory):
     @cache
     def made(words):
         folder = tmp_path_factory.mktemp("_".join(words))
-        diagnosed(measured(*words), folder)
+        diagnosed(measured(*words), folder, "--jobs", "2")
         return folder
 
     return made
@@ -185,6 +185,12 @@ def without_held_out(told):
 def text_of(path):
     """A file without the record of its data."""
     return re.sub(r"^#?.*\b(data|digest)\b.*$", "", path.read_text(), flags=re.MULTILINE)
+
+
+def test_forks_change_nothing(folder_of, tmp_path):
+    words = ("friction", "quadratic_damping")
+    alone = diagnosed(measured(*words), tmp_path, "--jobs", "1") / "diagnosis.json"
+    assert json.loads(alone.read_text()) == json.loads((folder_of(words) / "out" / "diagnosis.json").read_text())
 
 
 def test_motions_are_what_they_are_called():

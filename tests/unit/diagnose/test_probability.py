@@ -1,5 +1,6 @@
 """How sure a cause is: by draws over folds, and beside what stays unexplained."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -66,6 +67,12 @@ ALONE = np.exp(2.0 * 4.0 / SAMPLES) - 1.0
 def beside_errors_of_forms(forms=4.0):
     """A structure that is worse by 10 nats in each fold, by fewer where the forms of the other laws may err."""
     return Scored(**{**vars(scored(forms)), "exact": squares_of(10.0)})
+
+
+def test_a_cause_without_which_no_form_comes_near_is_certain():
+    """The errors that forms would need to stand for it cost more nats than a float holds as a power."""
+    found = pursuit(scored(0.0, "a"), [replace(scored(50.0), errors=1e6)])
+    assert found.probability(("a", ""), unexplained=0.5) == 1.0
 
 
 def test_what_another_form_could_explain_as_well_is_not_its_own():

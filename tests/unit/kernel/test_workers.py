@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
+import sys
 import threading
 import time
 
@@ -20,7 +22,7 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.profile import profiles
 from dashpot.fit.ranges import natural_sizes, with_ranges
 from dashpot.kernel.network import compile_network
-from dashpot.kernel.workers import finished, pieces, processes, spread, streamed, threads
+from dashpot.kernel.workers import finished, forked, pieces, processes, spread, streamed, threads
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
 
@@ -138,6 +140,43 @@ def test_a_forked_process_has_threads_of_its_own():
 
 def _spread_there():
     return spread(str, range(3), 2)
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 8])
+def test_forks_answer_in_order_and_send_back_what_is_shared(jobs):
+    marks = [object() for _ in range(5)]  # no two of them are equal, and a copy of one is none of them
+    found = forked(lambda number: (number**2, marks[number]), range(5), jobs, marks)
+    assert [square for square, _ in found] == [0, 1, 4, 9, 16]
+    assert all(mark is mine for (_, mark), mine in zip(found, marks, strict=True))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nothing is forked")
+def test_forks_work_side_by_side_and_keep_what_they_change():
+    changed = []
+
+    def work(number: int) -> tuple[int, int]:
+        changed.append(number)
+        time.sleep(0.2)
+        inside = forked(lambda one: os.getpid(), range(2), 2)  # is not forked once more
+        return os.getpid(), len({os.getpid(), *inside})
+
+    found = forked(work, range(4), 2)
+    others = {process for process, _ in found}
+    assert os.getpid() not in others and len(others) == 2 and not changed
+    assert [many for _, many in found] == [1, 1, 1, 1]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_what_fails_in_a_fork_raises_its_error(jobs):
+    def work(number: int) -> float:
+        return 1.0 / (number - 1)
+
+    with pytest.raises(ZeroDivisionError):
+        forked(work, range(3), jobs)
+    ends = time.monotonic() + 10.0
+    while multiprocessing.active_children():
+        assert time.monotonic() < ends, "a fork goes on"
+        time.sleep(0.01)
 
 
 @pytest.mark.parametrize("wrong", [0, -1, True, "four", None])
