@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.data.coherence import highest_coherent
 from dashpot.data.interpolating import PIECE, QUINTIC, interpolated_rates
 from dashpot.data.smoothing import best_rates, sensor_noise, smooth_path
 from dashpot.text.problem import InputError, Place
@@ -16,7 +17,6 @@ from dashpot.text.problem import InputError, Place
 Array = NDArray[np.float64]
 
 FEWEST = 25  # samples that are smoothed, if that is asked for
-NOISE_OF_SPAN = 1e-6
 
 
 @dataclass(frozen=True)
@@ -82,21 +82,21 @@ def drive_from_path(dt: float, displacement: Array, velocity: Array, acceleratio
     return Drive(dt, displacement, velocity, acceleration, step, place)
 
 
-def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = None) -> Drive:
+def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = None, force: Array | None = None) -> Drive:
     """The drive of a measured displacement.
 
     Rates come from an interpolating spline where the samples are clean, or the motion too fast to be smoothed, and from
     local polynomials, which also replace the displacement, where the sensor is noisy; ``smooth`` decides it by hand.
-    Raises InputError for fewer than two samples.
+    Where the ``force`` (n,) in N was measured, what is too fast to show in it is noise. Raises InputError for fewer
+    than two samples.
     """
     x = np.ascontiguousarray(displacement, dtype=float)
     _refuse_single(x)
     degree = QUINTIC
     if x.size > FEWEST:
-        noise = sensor_noise(x)
-        best = best_rates(x, noise)
+        best = best_rates(x, sensor_noise(x), None if force is None else highest_coherent(x, force))
         degree = best.degree
-        if smooth or (smooth is None and best.smooth and noise > NOISE_OF_SPAN * np.ptp(x)):
+        if smooth or (smooth is None and best.smooth):
             return drive_from_path(dt, *smooth_path(dt, x, best.half))
     return drive_from_path(dt, x, *interpolated_rates(dt, x, degree))
 

@@ -62,7 +62,9 @@ class Excitation:
     @classmethod
     def _of_run(cls, run: Run) -> Excitation:
         motions = {
-            _node(name): drive_from_samples(run.sample_time, samples)
+            _node(name): drive_from_samples(
+                run.sample_time, samples, force=run.channels.get(channel_at("force", _node(name)))
+            )
             for name, samples in run.channels.items()
             if name.partition("@")[0] == "displacement"
         }

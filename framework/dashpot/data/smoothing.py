@@ -19,7 +19,8 @@ from dashpot.data.white_noise import white_noise
 Array = NDArray[np.float64]
 
 DEGREE = 8
-HALF_WIDTHS = (6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 35, 42, 50, 60)  # in samples
+HALF_WIDTHS = (6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 35, 42, 50, 60, 72, 86, 104, 125, 150, 180, 216, 260, 312, 375)
+NOISE_OF_SPAN = 1e-6  # of the path: what is less is rounding
 STANDS_OUT = 3.0  # times the density of the white noise
 LENGTH = 256  # samples of a piece, at least, where there are so many
 OF_A_SHORT_PATH = 12  # half width in samples
@@ -52,17 +53,20 @@ def smooth_path(dt: float, x: Array, half: int) -> tuple[Array, Array, Array]:
     return place, speed, bend
 
 
-def best_rates(x: Array, noise: float) -> Choice:
+def best_rates(x: Array, noise: float, shown: float | None = None) -> Choice:
     """What gives the best velocity of a path (n,) with this white noise in m.
 
     What is expected is the motion that is lost, by the spectrum of the path, and the noise that passes; of splines
-    also what they make of motions above the Nyquist frequency, which the samples show as slower ones.
+    also what they make of motions above the Nyquist frequency, which the samples show as slower ones. Where it is known
+    up to which frequency, in periods a sample, the path is ``shown`` in the force, all that is faster is noise, be it
+    white, a hum or the jitter of a clock, and below it there is as much.
     """
     if x.size < FEWEST:
         return Choice(OF_A_SHORT_PATH, False, QUINTIC)
     frequency, power = _spectrum(x)
     omega = 2.0 * np.pi * frequency
-    stands_out = power > STANDS_OUT * 2.0 * noise**2
+    passing = _noise_of(frequency, power, noise, shown)
+    stands_out = power > STANDS_OUT * passing
     # what the window of a piece spreads beyond the fastest part is no motion
     moving = stands_out & (frequency <= _fastest_part(frequency, power * stands_out) + frequency[1])
 
@@ -70,9 +74,9 @@ def best_rates(x: Array, noise: float) -> Choice:
         """The mean square, but for a factor, of the velocity that is lost and of the noise that passes."""
         at = np.interp(frequency, FREQUENCIES, response)
         lost = np.sum(power[moving] * (at - omega)[moving] ** 2)
-        return float(lost + 2.0 * noise**2 * np.sum(at**2))
+        return float(lost + np.sum(passing * at**2))
 
-    beyond = _near_nyquist(x, noise)
+    beyond = 0.0 if shown is not None and shown < NEAR_NYQUIST else _near_nyquist(x, noise)
 
     def mistaken(response: Array) -> float:
         """The same for motions above the Nyquist frequency, which are taken to be as strong as those just below it."""
@@ -82,7 +86,16 @@ def best_rates(x: Array, noise: float) -> Choice:
     quintic, high = response_of_spline(QUINTIC), response_of_spline(HIGH)
     degree = HIGH if expected(high) + mistaken(high) < expected(quintic) + mistaken(quintic) else QUINTIC
     error, half = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
-    return Choice(half, error < expected(response_of_spline(degree)), degree)
+    noisy = np.sqrt(0.5 * np.mean(passing)) > NOISE_OF_SPAN * np.ptp(x)
+    return Choice(half, bool(noisy) and error < expected(response_of_spline(degree)), degree)
+
+
+def _noise_of(frequency: Array, power: Array, noise: float, shown: float | None) -> Array:
+    """The density (f,) of the noise: white, or what is faster than what is ``shown`` in the force."""
+    faster = frequency > (0.5 if shown is None else shown + 2 * WIDENED * frequency[1])
+    if not faster.any():
+        return np.full(frequency.size, 2.0 * noise**2)
+    return np.where(faster, power, np.median(power[faster]))
 
 
 def sensor_noise(x: Array) -> float:

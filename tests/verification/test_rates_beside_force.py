@@ -1,0 +1,94 @@
+"""Where the force is measured too, what of a displacement is too fast to show in it is no motion.
+
+The truth is the motion in closed form; disturbances are those of rigs: the jitter of a clock, mains hum, noise.
+"""
+
+import numpy as np
+import pytest
+from seeds import seed_of
+
+from dashpot.data.coherence import highest_coherent
+from dashpot.data.drive import drive_from_samples
+
+RATE, COUNT = 300.0, 6000
+TIME = np.arange(COUNT) / RATE
+STIFFNESS, DAMPING, NOISE = 4e3, 900.0, 1.5  # of a damper on a dynamometer
+INSIDE = slice(COUNT // 10, -COUNT // 10)
+
+
+def sine(hertz, amplitude=25e-3):
+    angle = 2.0 * np.pi * hertz * TIME
+    return amplitude * np.sin(angle), amplitude * 2.0 * np.pi * hertz * np.cos(angle)
+
+
+def measured_force(x, v, rng):
+    return STIFFNESS * x + DAMPING * v + NOISE * rng.standard_normal(COUNT)
+
+
+def hum(x, v, rng):
+    return x + 30e-6 * np.sin(2.0 * np.pi * 60.0 * TIME + rng.uniform(0.0, 6.0))
+
+
+def jitter(x, v, rng):
+    """Samples that were taken up to half a millisecond late or early."""
+    return x + v * rng.uniform(-5e-4, 5e-4, COUNT)
+
+
+def white(x, v, rng):
+    return x + 20e-6 * rng.standard_normal(COUNT)
+
+
+def relative_error(velocity, v):
+    return np.sqrt(np.mean((velocity - v)[INSIDE] ** 2) / np.mean(v[INSIDE] ** 2))
+
+
+@pytest.mark.parametrize("hertz", [0.25, 1.0, 4.0])
+@pytest.mark.parametrize("disturbed", [hum, jitter, white])
+def test_what_does_not_show_in_the_force_is_taken_off(disturbed, hertz):
+    alone, found = errors_of(*sine(hertz), disturbed, f"{disturbed.__name__} {hertz}")
+    assert found < 1.001 * alone and found < 4e-3
+    if disturbed is hum:  # which stands out of the noise as a motion does
+        assert found < 0.02 * alone
+
+
+def errors_of(x, v, disturbed, name):
+    """The relative error of the velocity without and beside the force."""
+    rng = np.random.default_rng(seed_of(f"beside force {name}"))
+    shown, force = disturbed(x, v, rng), measured_force(x, v, rng)
+    alone = relative_error(drive_from_samples(1.0 / RATE, shown).velocity, v)
+    found = relative_error(drive_from_samples(1.0 / RATE, shown, force=force).velocity, v)
+    print(f"{name}: {100.0 * alone:.2g} % alone, {100.0 * found:.2g} % beside the force")
+    return alone, found
+
+
+@pytest.mark.parametrize("hertz", [10.0, 25.0, 60.0])
+@pytest.mark.parametrize("disturbed", [hum, jitter, white])
+def test_a_fast_motion_that_shows_in_the_force_stays(disturbed, hertz):
+    slow, fast = sine(1.0), sine(hertz, 0.2e-3)
+    alone, found = errors_of(slow[0] + fast[0], slow[1] + fast[1], disturbed, f"{disturbed.__name__} fast {hertz}")
+    assert found < 1.2 * alone  # the noise of a jitter is not the same all along
+
+
+@pytest.mark.parametrize("hertz", [2.0, 20.0, 80.0])
+def test_the_highest_coherent_frequency_is_that_of_the_motion(hertz):
+    rng = np.random.default_rng(seed_of(f"coherent {hertz}"))
+    x, v = sine(hertz)
+    found = highest_coherent(white(x, v, rng), measured_force(x, v, rng))
+    assert found * RATE == pytest.approx(hertz, abs=1.1 * 16 * RATE / COUNT)
+
+
+def test_signals_that_have_nothing_in_common_are_coherent_by_chance_in_one_of_a_hundred_records():
+    rng = np.random.default_rng(seed_of("by chance"))
+    found = sum(highest_coherent(*rng.standard_normal((2, 500))) is not None for _ in range(1000))
+    assert 1 <= found <= 22  # 10 expected; more than 22 in one of ten thousand
+
+
+def test_a_short_or_silent_record_tells_nothing():
+    assert highest_coherent(*np.random.default_rng(0).standard_normal((2, 100))) is None
+    assert highest_coherent(sine(1.0)[0], np.zeros(COUNT)) is None
+
+
+def test_a_clean_motion_keeps_its_spline():
+    x, v = sine(20.0)
+    clean = drive_from_samples(1.0 / RATE, x, force=STIFFNESS * x + DAMPING * v)
+    assert np.array_equal(clean.velocity, drive_from_samples(1.0 / RATE, x).velocity)
