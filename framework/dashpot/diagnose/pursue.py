@@ -163,12 +163,14 @@ class Pursuer:
 
         A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
         """
-        present, found, unproven = scores.score(Structure()), list[Scored](), set[Form]()
-        different = {_key(scores, one): one for one in reversed([*ranked]) if one.size and scores.score(one) < present}
-        waiting, kept, tried = list(reversed(different.items())), Counter[bool](), Counter[bool]()
+        present, waiting = scores.score(Structure()), dict[Key, Structure]()
+        for structure in ranked:
+            if structure.size and scores.score(structure) < present:
+                waiting.setdefault(_key(scores, structure), structure)
+        found, unproven, kept, tried = list[Scored](), set[Form](), Counter[bool](), Counter[bool]()
         while few := _few(waiting, kept, tried, unproven):
-            for (key, structure), trial in zip(few, self.refitted(scores, [one for _, one in few]), strict=True):
-                waiting.remove((key, structure))
+            structures = [waiting.pop(key) for key in few]
+            for structure, trial in zip(structures, self.refitted(scores, structures), strict=True):
                 tried[structure.size == 1] += 1
                 if trial:
                     kept[structure.size == 1] += not trial.unproven
@@ -296,12 +298,12 @@ class Pursuer:
 
 
 def _few(
-    waiting: Sequence[tuple[Key, Structure]], kept: Mapping[bool, int], tried: Mapping[bool, int], unproven: set[Form]
-) -> list[tuple[Key, Structure]]:
-    """Of structures with one change, and of those with more, as many as are missing."""
+    waiting: Mapping[Key, Structure], kept: Mapping[bool, int], tried: Mapping[bool, int], unproven: set[Form]
+) -> list[Key]:
+    """Of structures with one change, and of those with more, as many as are missing; best first."""
     found = []
     for single in (True, False):
-        mine = [one for one in waiting if (one[1].size == 1) == single and (single or not unproven & one[0])]
+        mine = [key for key, one in waiting.items() if (one.size == 1) == single and (single or not unproven & key)]
         found += mine[: min(REFITTED - kept[single], TRIED - tried[single])]
     return found
 
