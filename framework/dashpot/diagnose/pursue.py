@@ -6,10 +6,10 @@ structure without it is refitted, and so are those with another cause in its pla
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +30,8 @@ from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
-REFITTED = 2  # structures with one change, and as many with more, at each look
-TRIED = 5  # for these, and for each rival; some cannot be written, or have no evidence
+REFITTED = 2  # structures with one change, and as many with more, at a time
+TRIED = 5  # of these at a look, and of the rivals of a term, until one is better
 MOST_LOOKS = 12
 DRAWS = 200
 Key = frozenset[tuple[object, ...]]  # numbers of terms that go, and forms that join
@@ -104,11 +104,14 @@ class Pursuer:
         while not self.ended and self.looks < MOST_LOOKS:
             self.looks += 1
             self.watch(self.looks, len(look.model.terms))
-            scores = Scores(look)
-            present = scored_by(scores, scores.odds)
-            trials = self.trials(scores, search(scores))
+            scores, onward = Scores(look), None
+            present, trials = scored_by(scores, scores.odds), []
+            for few in self.trials(scores, search(scores)):
+                trials += few
+                onward = self._onward(look, few, present)
+                if onward is not None:
+                    break
             del scores
-            onward = self._onward(look, trials, present)
             self.ended = onward is None
             if onward is not None:
                 del look  # a look is large
@@ -116,9 +119,9 @@ class Pursuer:
         return look, trials
 
     def _onward(self, look: Look, trials: Iterable[Scored], present: Scored) -> Model | None:
-        """The best of some structures that is better than the present one, under the noise that either leaves.
+        """The best of some structures that is better than the present one, and likelier under the noise that it leaves.
 
-        Under each of them both are refitted, and the terms keep their evidence.
+        Under each noise both are refitted, and the terms keep their evidence.
         """
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
@@ -128,7 +131,7 @@ class Pursuer:
                 if any(self._lacking(scores)):
                     continue
                 before = self.scored(settled, self.refitted_under(settled, present.model), odds)
-                if self._better(scored_by(scores, odds), before):
+                if self._likelier(scored_by(scores, odds), before):
                     return settled.model
         return None
 
@@ -158,25 +161,20 @@ class Pursuer:
         known = of_names(look.candidates, model.names)
         return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
 
-    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> list[Scored]:
-        """The best few structures of different terms that score better than the present one, refitted.
+    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[list[Scored]]:
+        """The best structures of different terms that score better than the present one, a few at a time, refitted.
 
         A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
         """
-        present, waiting = scores.score(Structure()), dict[Key, Structure]()
+        present, waiting, unproven = scores.score(Structure()), dict[Key, Structure](), set[Form]()
         for structure in ranked:
             if structure.size and scores.score(structure) < present:
                 waiting.setdefault(_key(scores, structure), structure)
-        found, unproven, kept, tried = list[Scored](), set[Form](), Counter[bool](), Counter[bool]()
-        while few := _few(waiting, kept, tried, unproven):
-            structures = [waiting.pop(key) for key in few]
-            for structure, trial in zip(structures, self.refitted(scores, structures), strict=True):
-                tried[structure.size == 1] += 1
-                if trial:
-                    kept[structure.size == 1] += not trial.unproven
-                    unproven |= trial.unproven
-                    found.append(trial)
-        return found
+        for tried in range(0, TRIED, REFITTED):
+            few = list(_few(waiting, unproven, min(REFITTED, TRIED - tried)))
+            found = [trial for trial in self.refitted(scores, [waiting.pop(key) for key in few]) if trial]
+            unproven.update(*(trial.unproven for trial in found))
+            yield found
 
     def refitted(self, scores: Scores, structures: Sequence[Structure]) -> list[Scored | None]:
         """Structures refitted; None for one that cannot be written, or that the data do not tell."""
@@ -265,17 +263,20 @@ class Pursuer:
         return float(np.mean(worse)) if self._matters(present, without) else 0.0
 
     def _better(self, trial: Scored, present: Scored) -> bool:
-        """Whether a structure is more likely than the present one, and predicts better with the laws as they are.
+        """Whether a structure is likelier than the present one, and predicts better with the laws as they are.
 
-        This in more than half of the draws, in nine of ten if it is the larger one; another fit of the same terms has
-        to be more likely by the odds of a number.
+        This in more than half of the draws, in nine of ten if it is the larger one.
         """
-        least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
-        if trial.unproven or not trial.score < present.score - least:
+        if trial.unproven or not self._likelier(trial, present):
             return False
         weights = self.weights(present.samples.size)
         better = float(np.mean(trial.drawn_exactly(weights) < present.drawn_exactly(weights)))
         return better > 0.5 if trial.price <= present.price else better >= NAMED
+
+    def _likelier(self, trial: Scored, present: Scored) -> bool:
+        """Whether a structure scores better; another fit of the same terms has to by the odds of a number."""
+        least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
+        return trial.score < present.score - least
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""
@@ -297,15 +298,10 @@ class Pursuer:
         return [(term, trial) for term, trials in found.items() for trial in trials]
 
 
-def _few(
-    waiting: Mapping[Key, Structure], kept: Mapping[bool, int], tried: Mapping[bool, int], unproven: set[Form]
-) -> list[Key]:
-    """Of structures with one change, and of those with more, as many as are missing; best first."""
-    found = []
-    for single in (True, False):
-        mine = [key for key, one in waiting.items() if (one.size == 1) == single and (single or not unproven & key)]
-        found += mine[: min(REFITTED - kept[single], TRIED - tried[single])]
-    return found
+def _few(waiting: Mapping[Key, Structure], unproven: set[Form], many: int) -> Iterator[Key]:
+    """The best so many structures with one change, and as many with more that have nothing ``unproven``."""
+    yield from islice((key for key, one in waiting.items() if one.size == 1), many)
+    yield from islice((key for key, one in waiting.items() if one.size > 1 and not unproven & key), many)
 
 
 def _exchanges(scores: Scores, ranked: Sequence[Structure], number: int) -> list[Structure]:
