@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from glob import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from dashpot.cli.output import OutputFolder
 
@@ -162,13 +163,17 @@ def comparison_text(comparison: Comparison) -> str:
     from dashpot.report.tables import plain_table
 
     content = comparison.as_dict()
-    told = [
+    return "\n".join([plain_table(comparison_grid(content)), comparison_headline(content), *told_of_models(content)])
+
+
+def told_of_models(content: Mapping[str, Any]) -> list[str]:
+    """What the data do not tell of the parameters of compared models, and which branches may go, in sentences."""
+    return [
         f"{model['name']}: {sentence}"
         for model in content["models"]
         for known in [model.get("identifiability") or {"weak": (), "may_go": ()}]
         for sentence in (*known["weak"], *known["may_go"])
     ]
-    return "\n".join([plain_table(comparison_grid(content)), comparison_headline(content), *told])
 
 
 def look_text(look: Look) -> str:

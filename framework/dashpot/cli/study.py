@@ -137,6 +137,7 @@ def conduct(planned: StudySpec, measured: Dataset, folder: OutputFolder, session
 
 def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> None:
     """Write the networks, the result file, the table and the report."""
+    from dashpot.cli.results import told_of_models
     from dashpot.report.grids import comparison_grid
     from dashpot.report.json_text import json_text
     from dashpot.report.page import render
@@ -157,5 +158,6 @@ def write_study(result: StudyResult, folder: OutputFolder, session: Session) -> 
         report = results.write("report.html", page)
     answers = [mass_sentence(mass) for mass in content["masses"]]
     answers += [step["reason"] for step in content["ladder"] if step["reason"]]
+    answers += told_of_models(content)
     session.talk.result("\n".join([plain_table(grid), *answers]), content)
     session.tell_report(report)

@@ -48,7 +48,7 @@ from dashpot.fit.seen_range import seen_range
 from dashpot.fit.spare import spare_branches
 from dashpot.fit.starts import Best, refine_from_starts
 from dashpot.fit.thinned import thinned
-from dashpot.fit.uncertainty import assess_uncertainty, effective_error
+from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
 from dashpot.kernel.workers import finished, result_of, threads
@@ -62,7 +62,6 @@ Array = NDArray[np.float64]
 Progress = Callable[..., None]
 
 REFINEMENT_STEPS = 120
-REFIT_STEPS = 40  # of a network with a branch less, which begins near to where it ends
 
 
 def silent(*_: Any, **__: Any) -> None:
@@ -243,10 +242,9 @@ def fit_prepared(
         fitted,
         coordinates,
         errors_of_numbers,
-        setting.train,
-        effective_error(objective, coordinates, coordinates.start, setting.floor.value),
-        lambda less: _refitted(less, setting, jobs),
-        jobs,
+        lambda less: Objective(compile_network(less), setting.train, jobs),
+        lambda slot: True,
+        setting.floor.value,
     )
     return FitResult(
         declared=spec,
@@ -271,13 +269,6 @@ def fit_prepared(
         priors=told_priors(fitted, coordinates, known.errors),
         spare=spare,
     )
-
-
-def _refitted(spec: NetworkSpec, setting: Setting, jobs: int) -> NetworkSpec:
-    objective = Objective(compile_network(spec), setting.train, jobs)
-    whole = refinement(spec, objective, lambda slot: True)
-    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, setting.floor.value)
-    return whole.at(found.point)
 
 
 def _polish(spec: NetworkSpec, setting: Setting, jobs: int, watch: _Watch) -> tuple[NetworkSpec, Refined]:

@@ -6,7 +6,7 @@ degrees of freedom as the branch has free numbers, or less where they cannot be 
 distribution of the likelihood ratio, 1938). So of branches that are not needed 95 % are found. One that is needed is
 taken for spare only where it shows no more than the noise does in all but 5 % of measurements.
 
-Only branches are tried of which some number may as well be zero: the others show too clearly.
+Only branches are tried of which some number may as well be zero, or all knots of a curve: the others show too clearly.
 """
 
 from __future__ import annotations
@@ -18,16 +18,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.fit.coordinates import Coordinates
+from dashpot.fit.coordinates import Coordinates, search_coordinates
+from dashpot.fit.kept_curves import refinement
 from dashpot.fit.objective import Objective
+from dashpot.fit.prior import refine_beside_priors
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.network import compile_network
-from dashpot.model.network import Branch, NetworkSpec
+from dashpot.fit.uncertainty import effective_error
+from dashpot.model.network import Branch, NetworkSpec, Slot
 from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
 MISSED = 0.05  # of the branches that are not needed
+REFIT_STEPS = 40  # of a network with a branch less, which begins near to where it ends
 EXACT = 1e-6  # of the swing of the force: where there is no noise nothing is told from what a refit leaves over
 
 
@@ -35,47 +38,76 @@ def spare_branches(
     fitted: NetworkSpec,
     coordinates: Coordinates,
     errors: Array,
-    runs: Sequence[ScoredRun],
-    error: float,
-    refit: Callable[[NetworkSpec], NetworkSpec],
-    jobs: int = 1,
+    objective_of: Callable[[NetworkSpec], Objective],
+    chosen: Callable[[Slot], bool],
+    noise: float | None,
 ) -> tuple[str, ...]:
     """The names of branches that may go together, tried from the last one to the first.
 
-    ``errors`` (p,) are the standard errors of the free numbers in SI, ``error`` is what a sample counts for in N;
-    ``refit`` fits a network from its numbers.
+    ``errors`` (p,) are the standard errors of the free numbers in SI; those that are ``chosen`` are refitted, beside a
+    ``noise`` in N. The network with all branches is refitted as the others are: what a search has left over counts for
+    none of them.
     """
-    exact = EXACT * float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in runs])))
-    present, found = fitted, []
-    whole = _square(fitted, runs, jobs)
-    for name, numbers in reversed(_candidates(fitted, coordinates, errors).items()):
-        kept = tuple(member for member in present.root.members if member.name != name)
-        if not kept:
+    candidates = _candidates(fitted, coordinates, errors)
+    if not candidates:
+        return ()
+    present, found = _refitted(fitted, objective_of(fitted), chosen, noise), []
+    objective, among = objective_of(present), search_coordinates(present)
+    error = max(effective_error(objective, among, among.start, noise), _exact(objective.runs))
+    whole = _square(objective)
+    for name, numbers in reversed(candidates.items()):
+        without = _without(present, name)
+        if not without.root.members:
             break  # a network has a branch
         with suppress(InputError):  # another branch asks for it, or a node needs it
-            less = refit(replace(present, root=replace(present.root, members=kept)))
-            square = _square(less, runs, jobs)
-            if square - whole <= _quantile(numbers) * max(error, exact) ** 2:
+            less = _refitted(without, objective_of(without), chosen, noise)
+            square = _square(objective_of(less))
+            if square - whole <= _quantile(numbers) * error**2:
                 present, whole = less, square
                 found.append(name)
     return tuple(found[::-1])
 
 
+def _without(spec: NetworkSpec, name: str) -> NetworkSpec:
+    """The network without a branch, and without those that have their numbers from it."""
+    kept = tuple(each for each in spec.root.members if not (isinstance(each, Branch) and each.numbers == name))
+    ends = {each.name: spec.ends[each.name] for each in kept if each.name in spec.ends}
+    return replace(spec, root=replace(spec.root, members=kept), ends=ends)
+
+
+def _exact(runs: Sequence[ScoredRun]) -> float:
+    return EXACT * float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in runs])))
+
+
+def _refitted(
+    spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool], noise: float | None
+) -> NetworkSpec:
+    whole = refinement(spec, objective, chosen)
+    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, noise)
+    return whole.at(found.point)
+
+
 def _candidates(fitted: NetworkSpec, coordinates: Coordinates, errors: Array) -> dict[str, int]:
-    """Branches by name, with how many free numbers, one of which is no farther from zero than it may err."""
-    values = coordinates.to_values(coordinates.start)[0][coordinates.which]
+    """Branches by name, with how many free numbers, one of which is no farther from zero than it may err.
+
+    A curve is zero only where all of its knots are.
+    """
+    values = np.abs(coordinates.to_values(coordinates.start)[0][coordinates.which])
+    aways = np.divide(values, errors, out=np.full(values.shape, np.inf), where=errors > 0.0)
     found = {}
     for branch in (member.name for member in fitted.root.members if isinstance(member, Branch)):
-        own = np.array([path.startswith(f"{branch}.") for path in coordinates.paths], dtype=bool)
-        numbers = int(own.sum())
-        if numbers and np.any(np.abs(values[own]) < np.sqrt(_quantile(numbers)) * errors[own]):
-            found[branch] = numbers
+        own = {path: away for path, away in zip(coordinates.paths, aways, strict=True) if path.startswith(f"{branch}.")}
+        farthest: dict[str, float] = {}
+        for path, away in own.items():
+            number = path.partition("[")[0]
+            farthest[number] = max(away, farthest.get(number, 0.0))
+        if own and min(farthest.values()) < np.sqrt(_quantile(len(own))):
+            found[branch] = len(own)
     return found
 
 
-def _square(network: NetworkSpec, runs: Sequence[ScoredRun], jobs: int) -> float:
+def _square(objective: Objective) -> float:
     """The sum of the squares of the residual in N^2; infinite for a network that cannot be solved."""
-    objective = Objective(compile_network(network), runs, jobs)
     return float(objective.losses(objective.network.start)[0]) ** 2 * objective.total
 
 

@@ -194,7 +194,7 @@ def _known(model: Json) -> Iterator[Part]:
     if grid.rows:
         yield replace(grid, caption=f"Condition number {condition}.")
     told = [f"{path} is at the end of its range" for path in model["at_bound"]]
-    told += model["identifiability"]["weak"]
+    told += [*model["identifiability"]["weak"], *model["identifiability"]["may_go"]]
     if told:
         yield Notice("warning", f"{model['name']}: {'; '.join(told)}.")
 

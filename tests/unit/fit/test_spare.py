@@ -110,7 +110,8 @@ def test_without_noise_what_shows_at_all_is_kept_and_the_rest_may_go():
     assert fitted(with_spare("inerter"), quiet(1e-2)).spare == ()
 
 
-def test_a_branch_between_inner_nodes_may_go_and_one_that_holds_a_node_stays():
+@pytest.mark.parametrize("copy", ["", "  rub_behind: {same_as: rub, between: [hub, wall]}\n"])
+def test_a_branch_between_inner_nodes_may_go_with_its_copies_and_one_that_holds_a_node_stays(copy):
     text = """
         nodes: {{base: driven, wall: ground, hub: {{mass: 3 kg}}}}
         branches:
@@ -128,5 +129,5 @@ def test_a_branch_between_inner_nodes_may_go_and_one_that_holds_a_node_stays():
     data = Dataset("mass", tuple(replace(run, channels=dict(run.channels, force=force)) for run, force in pairs))
     started = text.format(leg="{start: 4e4 N/m}", back="{start: 1e5 N/m}", oil="{start: 100 N*s/m}")
     more = "  rub: {element: dahl, stiffness: {start: 1e5 N/m}, limit: {start: 20 N}, between: [base, hub]}\n"
-    found = fit_network(parse_network(head + dedent(started) + more, REGISTRY.elements), data, registry=REGISTRY)
+    found = fit_network(parse_network(head + dedent(started) + more + copy, REGISTRY.elements), data, registry=REGISTRY)
     assert found.spare == ("rub",)

@@ -41,7 +41,12 @@ def model(row: dict) -> dict:
         **row,
         "parameters": {"a.k": NUMBER, "a.fixed": {**NUMBER, "role": "fixed"}, **knots},
         "at_bound": ["a.k"],
-        "identifiability": {"condition": 1234.5, "deviations": {}, "weak": ["a and b trade off"]},
+        "identifiability": {
+            "condition": 1234.5,
+            "deviations": {},
+            "weak": ["a and b trade off"],
+            "may_go": ["c may go"],
+        },
         "stages": [STAGE],
         "masses": [MASS],
         "start_from": None,
@@ -79,7 +84,7 @@ def test_stages_tell_how_many_starts_agree():
 def test_what_is_not_well_known_is_a_warning():
     page = study_page(study(), comparison_evidence())
     said = [part.text for section in page.sections for part in section.parts if isinstance(part, Notice)]
-    assert any("a.k is at the end of its range; a and b trade off" in text for text in said)
+    assert any("a.k is at the end of its range; a and b trade off; c may go" in text for text in said)
 
 
 def test_the_page_holds_the_stiffness_at_the_amplitude_of_the_study_only():

@@ -9,6 +9,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 import dashpot
 from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
@@ -20,7 +23,7 @@ from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.identifiability import Identifiability, identifiability
-from dashpot.fit.known import known_numbers
+from dashpot.fit.known import KnownNumber, known_numbers
 from dashpot.fit.noise_of_runs import noise_of_runs
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import interchangeable, ordered
@@ -31,6 +34,7 @@ from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, with_intervals
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.seen_range import seen_range
+from dashpot.fit.spare import spare_branches
 from dashpot.fit.study.allowance import Owed, OwedToKnown, allowance, effect, force_error
 from dashpot.fit.study.carry import carry_over
 from dashpot.fit.study.checkpoint import Checkpoint
@@ -49,6 +53,8 @@ from dashpot.text.problem import InputError, Place
 
 if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
+
+Array = NDArray[np.float64]
 
 SLOW = ("quasi_static", "hold")
 
@@ -233,6 +239,7 @@ class _Conduct:
         intervals = dict(zip(coordinates.paths, known.intervals, strict=True))
         noise = noise_of_runs(self.setting.dataset.runs, self.setting.floor)
         told = identifiability(objective, coordinates, coordinates.start, noise)
+        errors_of_numbers = known.errors * coordinates.slopes(coordinates.start) * coordinates.unit
         fit = FitResult(
             declared=plan.network,
             fitted=with_intervals(spec, intervals | derived_intervals(spec.slots(), coordinates, known)),
@@ -250,18 +257,13 @@ class _Conduct:
             history=_joined(stages),
             seen=seen_range(plan.network, train),
             known=told,
-            errors_of_numbers=known.errors * coordinates.slopes(coordinates.start) * coordinates.unit,
+            errors_of_numbers=errors_of_numbers,
             priors=told_priors(spec, coordinates, known.errors),
+            spare=self._spare(plan, spec, coordinates, errors_of_numbers, stages),
         )
         effects = [effect(coordinates, moved) for moved in known.moved]
         owed = tuple(
             Owed(each.branch, each.model, each.share, numbers) for each, numbers in zip(allowed, effects, strict=False)
-        )
-        curves = set(spec.data_curves())
-        to_known = tuple(
-            OwedToKnown.of(each, numbers)
-            for each, numbers in zip(known_before, effects[len(allowed) :], strict=True)
-            if each.path.partition("[")[0] not in curves
         )
         return ModelResult(
             self.setting,
@@ -271,7 +273,28 @@ class _Conduct:
             self._resampled(plan, spec, objective, coordinates),
             self._profiles(plan, objective, coordinates),
             owed,
-            to_known,
+            _owed_to_known(spec, known_before, effects[len(allowed) :]),
+        )
+
+    def _spare(
+        self,
+        plan: ModelPlan,
+        spec: NetworkSpec,
+        coordinates: Coordinates,
+        errors: Array,
+        stages: Sequence[StageResult],
+    ) -> tuple[str, ...]:
+        """The branches that may go: without them, all else refitted that some stage searched, nothing is lost."""
+        self._tell(plan, "branches that may go")
+        train, searched = self.setting.train, {path for stage in stages for path in stage.free}
+        weights = run_weights(self.study, train)
+        return spare_branches(
+            spec,
+            coordinates,
+            errors,
+            lambda less: Objective(compile_network(less), train, self.here, weights=weights),
+            lambda slot: slot.path in searched,
+            self.setting.floor.value,
         )
 
     def _resampled(
@@ -314,6 +337,15 @@ def ending_of(stages: Sequence[StageResult]) -> str:
         if not stage.converged and not any(each.converged and {*stage.free} <= {*each.free} for each in later):
             return stage.ending
     return Outcome.CONVERGED.value
+
+
+def _owed_to_known(
+    spec: NetworkSpec, known: Sequence[KnownNumber], effects: Sequence[Mapping[str, float]]
+) -> tuple[OwedToKnown, ...]:
+    """What the parameters owe to each number known from elsewhere, but to the knots of curves from data."""
+    curves = set(spec.data_curves())
+    pairs = zip(known, effects, strict=True)
+    return tuple(OwedToKnown.of(each, moved) for each, moved in pairs if each.path.partition("[")[0] not in curves)
 
 
 @single_threaded_algebra

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from dashpot import load_registry
+from dashpot.cli.results import told_of_models
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.fit.replay import Block
@@ -17,6 +18,9 @@ from dashpot.fit.study.preview import preview_study
 from dashpot.fit.study.reading import parse_study
 from dashpot.fit.study.run import run_study
 from dashpot.fit.study.stage import StageResult
+from dashpot.report.page import render
+from dashpot.report.study import study_page
+from dashpot.study.study import study_content, study_evidence
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError
 
@@ -29,10 +33,12 @@ NETWORKS = {
 SPRING, DAMPING = 2e5, 300.0
 
 
-def sine(name: str, frequency: float, noise: float = 2.0, spring: float = SPRING, seed: int = 3) -> Run:
+def sine(
+    name: str, frequency: float, noise: float = 2.0, spring: float = SPRING, seed: int = 3, damping: float = DAMPING
+) -> Run:
     omega, rng = 2.0 * np.pi * frequency, np.random.default_rng([seed, round(10 * frequency)])
     x, v = 1e-3 * np.sin(omega * TIME), 1e-3 * omega * np.cos(omega * TIME)
-    force = spring * x + DAMPING * v + noise * rng.standard_normal(TIME.size)
+    force = spring * x + damping * v + noise * rng.standard_normal(TIME.size)
     return Run(name, "harmonic", TIME, {"displacement": x, "force": force}, group=name)
 
 
@@ -301,3 +307,29 @@ def test_what_a_stage_left_unfinished_is_finished_by_a_later_one_that_searches_a
     assert conduct.ending_of((stage("ab", False), stage("abc", True))) == "converged"
     assert conduct.ending_of((stage("abc", False), stage("ab", True))) == "the budget is spent"
     assert conduct.ending_of((stage("ab", True), stage("ab", False))) == "the budget is spent"
+
+
+def test_each_model_tells_the_branches_that_may_go_as_a_fit_does(study, tmp_path):
+    # a spring and a damper made the forces; a slider beside them has nothing to explain
+    (tmp_path / "three.yaml").write_text(
+        "format: dashpot-network/1\nname: three\nbranches:\n  "
+        + NETWORKS["two"]
+        + "  rub: {element: dahl, stiffness: {start: 100 N/mm}, limit: {start: 20 N}}\n"
+    )
+    made = study("stages: [{name: all, free: '*'}]\nmodels: [two.yaml, three.yaml]\n")
+    found = run(made)
+    sentence = "rub may go: without it, all else refitted, these data are explained as well"
+    assert [model.fit.spare for model in found.models] == [(), ("rub",)]
+    content = study_content(found)
+    assert [model["identifiability"]["may_go"] for model in content["models"]] == [[], [sentence]]
+    assert told_of_models(content)[-1] == f"three: {sentence}"
+    assert sentence in render(study_page(content, study_evidence(found)))
+
+
+def test_what_a_stage_left_over_makes_no_branch_superfluous(study):
+    # a damper of 30 N s/m, 40 times its standard error, hardly shows beside a stiffness that stays half of what it was
+    data = Dataset("bench", tuple(sine(f"f{f}", float(f), damping=30.0) for f in (2, 5, 9, 14)))
+    stages = "[{name: oil, free: oil.*}, {name: rubber, free: rubber.*, budget: 1}]"
+    [model] = run(study(f"stages: {stages}\nmodels: [two.yaml]\n"), data).models
+    assert model.fit.errors.train > 20.0  # N, of which 2 N are noise
+    assert model.fit.spare == ()
