@@ -9,6 +9,9 @@ from typing import Any
 import click
 
 from dashpot.cli.switches import Switches
+from dashpot.text.name import visible
+
+LINES = "\n\t"  # of a text of several lines
 
 
 @dataclass(frozen=True)
@@ -20,11 +23,12 @@ class Talk:
     def say(self, text: str) -> None:
         """Something good to know."""
         if not self.switches.quiet:
-            click.echo(text, err=self.switches.json)
+            click.echo(visible(text, LINES), err=self.switches.json)
 
     def warn(self, text: str) -> None:
         """Something the user should see, even when quiet."""
-        click.echo(text if text.startswith("warning") else f"warning: {text}", err=True)
+        told = text if text.startswith("warning") else f"warning: {text}"
+        click.echo(visible(told, LINES), err=True)
 
     def result(self, text: str, content: Mapping[str, Any]) -> None:
         """What the user asked for: text to read or, with ``--json``, the content."""

@@ -27,8 +27,16 @@ def is_name(text: str) -> bool:
 
 def shown(text: str) -> str:
     """A text in quotes, with what cannot be seen written out, and not all of it where it is too long."""
-    seen = "".join(sign if category(sign) not in UNSEEN else f"\\u{ord(sign):04x}" for sign in text[:LONGEST])
+    seen = visible(text[:LONGEST])
     return f"'{seen}'" if len(text) <= LONGEST else f"'{seen}...' of {len(text)} characters"
+
+
+def visible(text: str, kept: str = "") -> str:
+    """A text with what cannot be seen written out, but for the signs that are ``kept``.
+
+    A terminal obeys control characters, and a text that turns its direction reads as another one.
+    """
+    return "".join(sign if sign in kept or category(sign) not in UNSEEN else f"\\u{ord(sign):04x}" for sign in text)
 
 
 def joined_name(name: str, words: Sequence[str]) -> str:

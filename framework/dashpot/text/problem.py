@@ -9,6 +9,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from dashpot.text.name import visible
+
 # more runs than these with the same fault are counted, so that what else is wrong stays on the screen
 RUNS_ALIKE = 3
 _RUN = re.compile(r"run '[^']*' \([^)]*\)")
@@ -51,7 +53,7 @@ class Problem:
     def __str__(self) -> str:
         word = "warning: " if self.severity == "warning" else ""
         sentences = ". ".join(part.rstrip(".") for part in (self.message, self.hint) if part)
-        return ": ".join(part for part in (str(self.place), word + sentences) if part)
+        return visible(": ".join(part for part in (str(self.place), word + sentences) if part))
 
 
 class InputError(Exception):

@@ -29,6 +29,12 @@ def test_it_shows_what_is_declared(call, tmp_path):
     assert "force over deflection" in " ".join(rubber) and "T \N{ALMOST EQUAL TO} 160 ms" in out
 
 
+def test_what_turns_the_direction_of_writing_is_written_out(call, tmp_path):
+    (tmp_path / "mount.yaml").write_text(NETWORK.replace("drawing 7", "drawing \u202e7"), encoding="utf-8")
+    code, out, _ = call("show", tmp_path / "mount.yaml")
+    assert code == 0 and r"Source: drawing \u202e7" in out.splitlines() and "\u202e" not in out
+
+
 def test_numbers_for_programs_are_si(call, tmp_path):
     (tmp_path / "mount.yaml").write_text(NETWORK)
     content = json.loads(call("show", tmp_path / "mount.yaml", "--json")[1])

@@ -20,6 +20,15 @@ def test_a_problem_reads_as_place_message_and_hint():
     assert str(Problem(Place("a.csv"), "gaps", severity="warning")) == "a.csv: warning: gaps"
 
 
+def test_a_problem_shows_no_terminal_what_it_would_obey():
+    # ESC ] 0 ; ... BEL renames the window, U+202E turns what follows; a line end would begin another message
+    name = "\x1b]0;owned\x07\u202eb\n"
+    told = str(Problem(Place(name), f"unknown unit '{name}'", f"known: '{name}'"))
+    assert all(sign.isprintable() for sign in told)
+    assert told.count(r"\u001b]0;owned\u0007\u202eb\u000a") == 3
+    assert str(Problem(Place(), "Maße in µm, \u65e5\u672c")) == "Maße in µm, \u65e5\u672c"
+
+
 def test_an_input_error_has_a_line_for_each_problem_in_the_order_of_the_text():
     late, early = Problem(Place("a", 10, 1), "late"), Problem(Place("a", 2, 1), "early")
     error = InputError([late, early])
