@@ -20,8 +20,7 @@ def holds(cases, state):
         f"{len(cases)} random networks: error {np.median(errors):.1e} in the median, {errors.max():.1e} at most; "
         f"within the bounds {100 * held:.0f} % (RMS), {100 * held_peak:.0f} % (peak)"
     )
-    # of three hundred truths one misses by how far the driven node goes beyond a step in which it turns
-    assert np.sum(errors > LARGEST) <= len(cases) // CASES
+    assert errors.max() <= LARGEST
     assert held >= HELD and held_peak >= HELD
 
 
@@ -40,6 +39,19 @@ def test_nodes_between_stiff_friction_and_contacts_are_balanced(state):
     case = measure(settled_case(147))
     state(f"two nodes between stiff friction and a contact: {case.error:.1e} of the RMS force, bound {case.bound:.1e}")
     assert case.error < LARGEST and case.inside and case.inside_peak
+
+
+def test_the_integrator_passes_no_reversal_of_the_driven_node():
+    # a slider at its limit on the ground, alone: F = limit - stiffness * way back, from the turn at 0.3 of a sample on
+    k, limit, amplitude, dt, turn = 2e6, 10.0, 3e-3, 1e-3, 0.0503
+    kinds, ends = np.array([law.LOOSE]), np.array([[-1, -2]])
+    numbers = np.array([[k, limit, 0.0, 0.0, 0.0, 0.0]])
+    waves = np.array([[amplitude, 0.5 * np.pi / turn, -0.5 * np.pi]])
+    motion = waves, np.zeros((0, 3)), np.array([0.0, 1.0, 0.0])
+    found = hybrid_force(60, dt, np.zeros(0), kinds, ends, numbers, motion, 3e-3, 1e-8)
+    back = amplitude * (1.0 - np.sin(0.5 * np.pi / turn * dt * np.arange(60)))
+    exact = np.maximum(limit - k * back, -limit)
+    assert np.abs(found - exact)[51:].max() < 1e-8 * limit
 
 
 def test_the_integrator_finds_a_closed_form():

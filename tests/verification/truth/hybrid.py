@@ -4,7 +4,8 @@ An integrator of its own. A step is made with 1, 2, ... 5 equal backward Euler s
 their errors away in turn (Deuflhard, SIAM Review 27 (1985) 505), and the last two columns tell the error that is left.
 A law that bends within a step (a reversal, a stop, a gap, a slider that gives way) shows by its branch, which is not
 the same in all of these small steps. There no order is relied on: the step has to be so short that one and two steps
-give the same, down to 1e-9 s, so that the bend is located, and passed in a step that is too short to matter.
+give the same, down to 1e-9 s, so that the bend is located, and passed in a step that is too short to matter. Where the
+driven node turns is known ahead, and a step ends there: its way beyond would show in none of the small steps.
 
 In a backward Euler step the velocities at its end are the unknowns. The forces of laws that never fall with speed are
 the slope of a convex potential of them: Newton's way, and along it the place where the pull ends, between two bounds.
@@ -241,6 +242,22 @@ def _set_scale(scale, mass, kinds, span, largest):
     scale[-1] = largest
 
 
+@inner
+def _until_turn(t, step, motion):
+    """The step, or as much of it as ends where the driven node turns."""
+    before = place_and_speed(t, *motion)[1]
+    low, high = 0.0, step
+    if before * place_and_speed(t + step, *motion)[1] >= 0.0:
+        return step
+    while high - low > SHORTEST:
+        middle = 0.5 * (low + high)
+        if before * place_and_speed(t + middle, *motion)[1] > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
 @njit(cache=True)
 def hybrid_force(samples, dt, mass, kinds, ends, numbers, motion, span, tolerance):
     """The force on the driven node at every sample (samples,), from rest with all nodes at zero; NaN from where none is
@@ -256,7 +273,9 @@ def hybrid_force(samples, dt, mass, kinds, ends, numbers, motion, span, toleranc
         goal = sample * dt
         while t < goal:
             last = step >= 0.999 * (goal - t)
-            trial, made = goal - t if last else step, made + 1
+            whole, made = goal - t if last else step, made + 1
+            trial = _until_turn(t, whole, motion)
+            last = last and trial == whole
             _set_scale(scale, mass, kinds, span, largest)
             error = _extrapolated(t, trial, y, mass, kinds, ends, numbers, motion, scale, answer)
             if error <= tolerance or (trial <= SHORTEST and math.isfinite(error)):
