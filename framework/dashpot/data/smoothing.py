@@ -86,7 +86,7 @@ def best_rates(x: Array, noise: float, shown: float | None = None) -> Choice:
     quintic, high = response_of_spline(QUINTIC), response_of_spline(HIGH)
     degree = HIGH if expected(high) + mistaken(high) < expected(quintic) + mistaken(quintic) else QUINTIC
     error, half = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
-    noisy = np.sqrt(0.5 * np.mean(passing)) > NOISE_OF_SPAN * np.ptp(x)
+    noisy = noise > NOISE_OF_SPAN * np.ptp(x)
     return Choice(half, bool(noisy) and error < expected(response_of_spline(degree)), degree)
 
 
