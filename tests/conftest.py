@@ -24,9 +24,9 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
-def pytest_report_header() -> str | None:
+def pytest_report_header() -> list[str]:
     drawn = os.environ.get("DRAW_SEEDS")
-    return f"seeds drawn anew: DRAW_SEEDS={drawn} repeats them" if drawn else None
+    return [f"seeds drawn anew: DRAW_SEEDS={drawn} repeats them"] if drawn else []
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -42,5 +42,6 @@ def pytest_runtest_makereport(item: pytest.Item) -> Iterator[None]:
     if report.failed:
         # also what was drawn when the module was imported
         module = getattr(item, "module", None)
-        report.sections.append(("seeds", "\n".join(dict.fromkeys(seeds.DRAWN[getattr(module, "__name__", "")]))))
+        drawn = [*pytest_report_header(), *seeds.DRAWN[getattr(module, "__name__", "")]]
+        report.sections.append(("seeds", "\n".join(dict.fromkeys(drawn))))
     return report

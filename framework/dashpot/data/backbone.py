@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .loop import Loop, mean_loop
-from .monotone import fit_rising
+from .monotone import fit_rising, noise_of_rising
 
 _KNOT_DISTANCE = 1e-3
 _FEWEST_KNOTS, _MOST_KNOTS = 16, 24
@@ -21,8 +21,8 @@ class Backbone:
 
     half_width: (m,) N, half the width of the loop at the knots; friction: N, its value in the interior, the sum of the
     friction limits; both NaN when only one direction was measured (`complete` is False): the force then still holds the
-    friction of that direction. loops: full loops in the record; error: standard error of the force at a knot, N, from
-    the scatter of the mid line about the table.
+    friction of that direction. loops: full loops in the record; error: (m,) N, standard errors of the force at knots,
+    from the scatter of the mid line about the table; infinite where they are not known.
     """
 
     deflection: np.ndarray
@@ -31,7 +31,7 @@ class Backbone:
     friction: float
     complete: bool
     loops: int
-    error: float = 0.0
+    error: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -56,16 +56,18 @@ def extract_backbone(displacement: np.ndarray, force: np.ndarray, knots: int | N
     """
     loop = mean_loop(displacement, force)
     places = _knots(loop, knots)
-    line = Backbone(
+    force = fit_rising(loop.deflection, loop.middle, places)
+    left = loop.middle - _between(places, force, loop.deflection)
+    errors, freedom = noise_of_rising(loop.deflection, places)
+    return Backbone(
         deflection=places,
-        force=fit_rising(loop.deflection, loop.middle, places),
+        force=force,
         half_width=np.interp(places, loop.deflection, loop.half_width),
         friction=interior_width(loop),
         complete=loop.complete,
         loops=loop.count,
+        error=np.sqrt(np.sum(left**2) / max(left.size - freedom, 1.0)) * errors,
     )
-    scatter = np.sqrt(np.mean((loop.middle - backbone_force(line, loop.deflection)) ** 2))
-    return replace(line, error=float(scatter * np.sqrt(len(places) / len(loop.deflection))))
 
 
 def correct_backbone(
@@ -83,10 +85,13 @@ def correct_backbone(
 
 def backbone_force(backbone: Backbone, deflection: np.ndarray) -> np.ndarray:
     """Force of the table between its knots, monotone cubic (PCHIP); the range is not left."""
+    return _between(backbone.deflection, backbone.force, deflection)
+
+
+def _between(knots: np.ndarray, force: np.ndarray, deflection: np.ndarray) -> np.ndarray:
     from scipy.interpolate import PchipInterpolator
 
-    inside = np.clip(deflection, backbone.deflection[0], backbone.deflection[-1])
-    return PchipInterpolator(backbone.deflection, backbone.force)(inside)
+    return np.asarray(PchipInterpolator(knots, force)(np.clip(deflection, knots[0], knots[-1])))
 
 
 def friction_start(displacement: np.ndarray, force: np.ndarray) -> FrictionStart:

@@ -50,6 +50,19 @@ def fit_rising(places: np.ndarray, values: np.ndarray, at: np.ndarray) -> np.nda
     return np.maximum.accumulate(height * (constant + basis.columns(at) @ steps))
 
 
+def noise_of_rising(places: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, float]:
+    """For `fit_rising` of values with independent errors of one: the standard errors (m,) of its own values, and how
+    many degrees of freedom it takes from the points. What is known by its never falling makes them no smaller.
+    """
+    basis = RisingBasis(float(at[0]), float(at[-1]), max(1, len(at) - 1))
+    columns = basis.columns(places)
+    means, count = columns.mean(axis=0), len(places)
+    stacked = np.vstack([columns - means, _STIFFNESS * np.sqrt(count) * basis.slope_changes()])
+    weights = np.linalg.pinv(stacked)[:, :count]
+    gains = (basis.columns(at) - means) @ weights + 1.0 / count
+    return np.linalg.norm(gains, axis=1), 1.0 + float(np.sum((columns - means) * weights.T))
+
+
 def solve_rising(columns: np.ndarray, values: np.ndarray, penalty: np.ndarray) -> tuple[float, np.ndarray]:
     """Least squares of values (n,) with a free constant and columns (n, c) with weights that are not negative.
 

@@ -70,7 +70,7 @@ def correct_ends(spec: NetworkSpec, runs: Sequence[ScoredRun]) -> NetworkSpec:
     simulated = compile_network(spec).along(slow.drive)()
     for path, curve in spec.data_curves().items():
         at, force = np.array(curve.at), np.array([value.number for value in curve.values])
-        line = Backbone(at, force, np.zeros(at.size), 0.0, True, 1)
+        line = Backbone(at, force, np.zeros(at.size), 0.0, True, 1, np.full(at.size, np.inf))
         corrected = correct_backbone(line, slow.drive.displacement, slow.force, simulated).force
         spec = spec.with_curve(path, moved_curve(curve, np.where(_covered(at, slow), corrected, force)))
     return spec
@@ -136,7 +136,7 @@ def _taken(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:
         curve = curve_from_sweeps(motions, knots) if knots else curve_from_sweeps(motions)
         return TakenCurve(curve.deflection, curve.force, np.full(curve.force.size, np.inf))
     line = extract_backbone(slow.drive.displacement, slow.force, knots)
-    return TakenCurve(line.deflection, line.force, np.full(line.force.size, line.error))
+    return TakenCurve(line.deflection, line.force, line.error)
 
 
 def _taken_from_rows(runs: Sequence[ScoredRun], knots: int | None) -> TakenCurve:

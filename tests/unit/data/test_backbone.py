@@ -214,3 +214,12 @@ def test_the_matrix_of_the_mid_line_keeps_what_both_directions_share_and_drops_w
     shared = middle @ (2e5 * path)
     assert shared[inner] == pytest.approx(mean_loop(path, 2e5 * path + 100.0 * side).middle[inner], abs=10.0)
     assert np.all(np.diff(shared) > 0.0)
+
+
+def test_the_errors_of_the_knots_are_those_of_many_measurements():
+    rng, x, draws = np.random.default_rng(seed_of("errors of knots")), path(0.0, 0.02, 0.0, 0.02, 0.0), 400
+    tables = [extract_backbone(x, 2e5 * x + rng.standard_normal(x.size)) for _ in range(draws)]
+    scatter = np.std([table.force for table in tables], axis=0)
+    told = np.sqrt(np.mean([table.error**2 for table in tables], axis=0))
+    # a standard deviation of 400 draws is known to 3.5 %
+    assert told == pytest.approx(scatter, rel=0.15)

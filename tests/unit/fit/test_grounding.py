@@ -143,6 +143,7 @@ def test_the_intervals_of_kept_knots_are_those_of_the_mean_of_noise():
         curve = curve_of(ground_curves(network(SPRING), [noisy]))
         inner = range(2, len(curve.at) - 2)
         found += [low <= progressive(curve.at[k]) <= high for k in inner for low, high in [curve.values[k].interval]]
+    # 94 % in 800 loops, with a standard deviation of 1 % for 40 of them
     assert 0.9 < np.mean(found) < 0.99
 
 
