@@ -46,6 +46,7 @@ TIMES = 50.0  # autocorrelation times that a converged chain has at least
 R_HAT = 1.05  # of a converged chain at most; halves of 25 autocorrelation times alone give 1.02
 HALVINGS = 40  # of the distance of a walker from the fit, until its start is likely enough
 WIDEST = 0.25  # of the range of a parameter: the deviation of the starts
+NARROWEST = 1e-3  # of the intervals: how far walkers are apart at least, in every direction
 JUMPS = 0.1  # of the steps are as long as the distance of two walkers
 
 
@@ -243,7 +244,9 @@ def sample_posterior(
         rest = at_rest(draws)
         return all(_settled(len(draws), *each) for each in zip(rest.r_hat, rest.time, strict=True))
 
-    chain, acceptance = _walk(density, _starts(density, fit, rng), steps, fit.seed, settled, progress)
+    assert fit.errors_of_numbers is not None and fit.correlation is not None
+    starts = scattered_starts(density, fit.errors_of_numbers, fit.correlation, rng)
+    chain, acceptance = _walk(density, starts, steps, fit.seed, settled, progress)
     discarded = round(DISCARDED * len(chain))
     shown, draws = _numbers(fit, coordinates, chain[discarded:])
     return Posterior(
@@ -251,16 +254,17 @@ def sample_posterior(
     )
 
 
-def _starts(density: LogPosterior, fit: FitResult, rng: np.random.Generator) -> Array:
-    """Where the walkers (walkers, p) start: scattered as the intervals say, nearer to the fit where unlikely."""
+def scattered_starts(density: LogPosterior, errors: Array, correlation: Array, rng: np.random.Generator) -> Array:
+    """Where the walkers (walkers, p) start: scattered as the intervals say, nearer to the fit where unlikely.
+
+    ``errors`` (p,) are the standard errors of the numbers in SI, ``correlation`` (p, p) theirs.
+    """
     coordinates = density.coordinates
     point, size = coordinates.start, len(coordinates.paths)
-    assert fit.errors_of_numbers is not None and fit.correlation is not None
-    widths = np.minimum(
-        fit.errors_of_numbers / coordinates.slopes(point), WIDEST * (coordinates.high - coordinates.low)
-    )
-    values, vectors = np.linalg.eigh(fit.correlation)
-    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    widths = np.minimum(errors / coordinates.slopes(point), WIDEST * (coordinates.high - coordinates.low))
+    values, vectors = np.linalg.eigh(correlation)
+    # where the data tell two numbers by their sum alone, the walkers still have to span every direction
+    root = vectors * np.sqrt(np.maximum(values, NARROWEST**2))
     walkers = max(FEWEST_WALKERS, WALKERS_EACH * size)
     moves = widths * (rng.standard_normal((walkers, size)) @ root.T)
     # of a normal posterior nearly all draws are less far below the top

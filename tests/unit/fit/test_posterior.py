@@ -12,7 +12,7 @@ from unit.fit.bench import ready, runs
 import dashpot as dp
 from dashpot.fit.api import prepare
 from dashpot.fit.objective import Objective
-from dashpot.fit.posterior import LogPosterior, require_sampler
+from dashpot.fit.posterior import LogPosterior, require_sampler, scattered_starts
 from dashpot.notebook.progress import Cancelled
 from dashpot.text.problem import InputError
 
@@ -256,6 +256,16 @@ def test_interchangeable_branches_keep_their_order_in_every_draw():
     assert np.all(quick <= slow)
     # of both, some draws are above a draw of the other: without an order they would change places
     assert quick.max() > slow.min()
+
+
+def test_walkers_span_every_direction_where_a_sum_alone_is_told():
+    """The sampler refuses walkers on a line: of two springs in parallel the data tell the sum."""
+    springs = "\n".join(f"{name}: {{element: spring, stiffness: {{start: 5e4}}}}" for name in ("one", "other"))
+    spec, objective, coordinates = ready(springs, runs())
+    density, errors = LogPosterior(objective, coordinates, spec, 1e3), np.array([2e4, 2e4])
+    starts = scattered_starts(density, errors, np.array([[1.0, -1.0], [-1.0, 1.0]]), np.random.default_rng(0))
+    spread = np.linalg.svd((starts - starts.mean(axis=0)) / starts.std(axis=0), compute_uv=False)
+    assert spread[1] > 1e-4 * spread[0]
 
 
 def test_numbers_known_from_elsewhere_are_held_and_named():
