@@ -9,10 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-TAPERS, BANDWIDTH = (
-    9,
-    8.0,
-)  # their number, all but free of leakage, and half the width in lines over which each averages
+TAPERS, BANDWIDTH = 9, 8.0  # all but free of leakage; half the width in lines of the band of each
 FEWEST, LONGEST = 128, 1 << 15  # samples of a piece
 BY_CHANCE = 0.01  # of records of which some line seems coherent that is not
 
