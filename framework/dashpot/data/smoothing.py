@@ -19,6 +19,7 @@ from dashpot.data.white_noise import white_noise
 Array = NDArray[np.float64]
 
 DEGREE = 8
+# of windows, in samples
 HALF_WIDTHS = (6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 35, 42, 50, 60, 72, 86, 104, 125, 150, 180, 216, 260, 312, 375)
 NOISE_OF_SPAN = 1e-6  # of the path: what is less is rounding
 STANDS_OUT = 3.0  # times the density of the white noise
@@ -92,6 +93,7 @@ def best_rates(x: Array, noise: float, shown: float | None = None) -> Choice:
 
 def _noise_of(frequency: Array, power: Array, noise: float, shown: float | None) -> Array:
     """The density (f,) of the noise: white, or what is faster than what is ``shown`` in the force."""
+    # a line of the path and one of its coherence are both widened
     faster = frequency > (0.5 if shown is None else shown + 2 * WIDENED * frequency[1])
     if not faster.any():
         return np.full(frequency.size, 2.0 * noise**2)
