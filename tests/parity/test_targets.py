@@ -18,6 +18,7 @@ from dashpot import declare
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
+from dashpot.kernel.ir.system import TOLERANCE as NEWTON
 from dashpot.kernel.jit import jit_network
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.solution import Status
@@ -191,9 +192,16 @@ def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
     expected = network.solve(network.prepare(drive))
     assert expected.status == (Status.GOOD,)
     outputs, status = Library.build(network.spec, tmp_path).along([drive], network.start)
-    assert status == 0 and error(outputs[:, 0], expected.force[0, 0]) <= 1e-6
-    assert error(jitted(network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
-    assert error(on_numba(monkeypatch, network.spec, drive, network.start), expected.force[0, 0]) <= 1e-6
+    # a step ends where the next one of Newton's method is short: so far may the end of the spring be off, on either side
+    left, force = 2.0 * NEWTON * np.ptp(drive.displacement) * network.start[0], expected.force[0, 0]
+    for found in (
+        outputs[:, 0],
+        jitted(network.spec, drive, network.start),
+        on_numba(monkeypatch, network.spec, drive, network.start),
+    ):
+        assert np.sqrt(np.mean((found - force) ** 2)) <= 1e-6 * np.sqrt(np.mean(force**2))
+        assert np.max(np.abs(found - force)) <= left
+    assert status == 0
 
 
 def test_every_target_catches_masses_at_rigid_stops(tmp_path, monkeypatch):
