@@ -192,7 +192,7 @@ def test_every_target_solves_stiff_friction_in_series(tmp_path, monkeypatch):
     expected = network.solve(network.prepare(drive))
     assert expected.status == (Status.GOOD,)
     outputs, status = Library.build(network.spec, tmp_path).along([drive], network.start)
-    # a step ends where the next one of Newton's method is short: so far may the end of the spring be off, on either side
+    # a step ends where the next one of Newton's method is short: so far may the end of the spring be off either way
     left, force = 2.0 * NEWTON * np.ptp(drive.displacement) * network.start[0], expected.force[0, 0]
     for found in (
         outputs[:, 0],

@@ -65,7 +65,7 @@ def peak(count, jobs):
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_memory_does_not_grow_with_the_number_of_runs(no_room, jobs):
     one_at_a_time = peak(12, 1)
-    # each thread has one run in its hands, and one more is being added up: whatever threads do when, 48 runs take no more
+    # each thread has one run in its hands, and one more is being added up, whatever threads do when
     assert peak(48, jobs) < (jobs + 1) * one_at_a_time
 
 
