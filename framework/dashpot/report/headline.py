@@ -118,8 +118,8 @@ def cause_phrase(cause: Json) -> str:
     """The cause with its first parameter: what, how much, how sure; no number that says nothing."""
     parameters = cause.get("parameters") or {}
     branches = {name.rpartition(".")[0] for name in parameters}
-    if len(branches) > 1:
-        return f"{cause_title(cause)} in {len(branches)} branches"
+    if len(branches) > 1:  # "": the numbers of the first branch that it adds; else it changes numbers that were there
+        return f"{cause_title(cause)} in {len(branches)} branches" if "" in branches else cause_title(cause)
     first: Json = next(iter(parameters.values()), {})
     if first.get("value") is None or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)

@@ -380,6 +380,22 @@ def test_the_friction_force_is_told_from_the_normal_force(tmp_path):
     assert not any("about as well" in remark for remark in found.confirm)
 
 
+def test_columns_with_the_same_names_mean_the_same_in_all_files(tmp_path):
+    """Under load a normal force that breathes with the stroke is smoother than the friction it causes, unloaded not."""
+    motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)
+    units = {"t": "s", "Position": "mm", "Normal Force": "N", "Friction Force": "N"}
+    tables = {}
+    for load in (10, 20, 400):
+        normal = load * (1 + 0.02 * np.sin(2 * np.pi * 0.5 * TIME + 0.4))
+        normal += np.random.default_rng(load).normal(0, 0.3, TIME.size)
+        sensors = TIME, motion, normal, noisy(friction(motion), load, 0.05)
+        tables[f"N{load}.tab"] = Table(dict(zip(units, sensors, strict=True)), units)
+    found = imported(tmp_path, tables)
+    assert [channels(found, k)["force"][0] for k in range(3)] == ["Friction Force"] * 3
+    (about,) = [runs for remark, runs in found.confirm.items() if "'Normal Force' about as well" in remark]
+    assert about == ("N400",)
+
+
 def test_newtons_are_taken_and_not_their_volts(tmp_path):
     """Two columns of one signal, without names: the larger numbers are the force, and that is to be confirmed."""
     motion = 5 * np.sin(2 * np.pi * 0.5 * TIME)

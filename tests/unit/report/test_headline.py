@@ -176,6 +176,19 @@ def test_a_cause_in_several_branches_is_not_given_the_number_of_one_of_them():
     assert "is dry friction in 2 branches, missing" in headline(diagnosis(causes=[friction(parameters=sliders)]))
 
 
+def test_a_cause_that_changes_numbers_of_the_network_has_no_branches_of_its_own():
+    """A zero that moves by 5 N from run to run is one fault, no two branches, and its fixed start is not its size."""
+    session = {
+        "force.offset": {"value": 0.0, "interval": None, "unit": "N"},
+        "force.offset.slope": {"value": -5.0, "interval": [-5.1, -4.9], "unit": "N"},
+    }
+    fault = friction(cause="drift", title=None, **{"class": "measurement"}, parameters=session)
+    assert "drift, a fault" in headline(diagnosis(causes=[fault]))
+    slopes = {name: {"value": 3.0, "interval": [2.0, 4.0], "unit": "N"} for name in ("a.limit.slope", "b.force.slope")}
+    current = friction(cause="setting_dependence", title="dependence on a setting", parameters=slopes)
+    assert "is dependence on a setting, missing" in headline(diagnosis(causes=[current]))
+
+
 def test_a_fault_of_a_channel_is_one_number():
     lag = {"force.delay": {"value": 2e-3, "interval": [1e-3, 3e-3], "unit": "s"}}
     fault = friction(cause="delay", title=None, **{"class": "measurement"}, parameters=lag)

@@ -15,6 +15,7 @@ from dashpot.data.importing.finding import NEEDED, Agreed, Finding, find_all
 from dashpot.data.importing.likeness import find_repeats
 from dashpot.data.importing.names import stated_by_all
 from dashpot.data.importing.pairs import explained
+from dashpot.data.importing.roles import GUESSED as BY_MOTION
 from dashpot.data.importing.roles import Role, named_roles
 from dashpot.data.importing.rows import numeric
 from dashpot.data.importing.stiffness import StiffnessFound, find_stiffness
@@ -170,7 +171,8 @@ def _with_numbers(table: Table) -> Table:
 def _of_one_mind(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, _Part]:
     """Files with the same columns have displacement and force in the columns that explain most of all their forces.
 
-    A file keeps its own if the common ones clearly do not fit it: its channels may have been plugged otherwise.
+    Columns whose names tell what they are mean the same in all files. Of others a file keeps its own if the common ones
+    clearly do not fit it: its channels may have been plugged otherwise.
     """
     alike: dict[object, list[str]] = {}
     for name, part in parts.items():
@@ -187,8 +189,7 @@ def _of_one_mind(parts: Mapping[str, _Part], sampling: float | None) -> dict[str
         # to two digits: one signal in volts and in newtons is explained alike
         usual = max(told.values(), key=lambda roles: (round(shares[_names_of(roles)], 2), counts[_names_of(roles)]))
         for name, roles in told.items():
-            share = _share(parts[name].table, roles)
-            if _names_of(roles) != _names_of(usual) and _share(parts[name].table, usual) >= 2.0 * share - 1.0:
+            if _names_of(roles) != _names_of(usual) and (_are_named(usual) or _fit(parts[name].table, usual, roles)):
                 rivals = tuple({*roles[1].rivals, roles[1].column} - {usual[1].column})
                 known = {usual[0].channel: usual[0], usual[1].channel: replace(usual[1], rivals=rivals)}
                 settled[name] = replace(parts[name], finding=find_all(parts[name].table, sampling, None, known))
@@ -197,6 +198,15 @@ def _of_one_mind(parts: Mapping[str, _Part], sampling: float | None) -> dict[str
 
 def _names_of(roles: Sequence[Role]) -> tuple[str, ...]:
     return tuple(role.column for role in roles)
+
+
+def _are_named(roles: Sequence[Role]) -> bool:
+    return all(role.by != BY_MOTION for role in roles)
+
+
+def _fit(table: Table, usual: Sequence[Role], own: Sequence[Role]) -> bool:
+    """Whether the common columns explain a force as well as those of the file itself, as far as these leave open."""
+    return _share(table, usual) >= 2.0 * _share(table, own) - 1.0
 
 
 def _share(table: Table, roles: Sequence[Role]) -> float:
