@@ -213,8 +213,16 @@ def _view(train: Sequence[Record]) -> _View:
 
 def _conditions(settings: Mapping[str, float], channels: Mapping[str, Array]) -> dict[str, float | Array]:
     chosen = {name: value for name, value in settings.items() if name not in OF_THE_MOTION}
-    own = {name: values for name, values in channels.items() if not name.split("@")[0].endswith(OF_THE_RIG)}
-    return {**chosen, **own}
+    own = {name: values for name, values in channels.items() if name.split("@")[0] not in OF_THE_RIG}
+    return {**chosen, **{name: _known(name, values) for name, values in own.items()}}
+
+
+def _known(name: str, values: Array) -> float | Array:
+    """Of a further force or motion, such as a normal force, the mean alone, as a network knows it.
+
+    As a signal it may be an answer of the specimen.
+    """
+    return float(np.mean(values)) if name.split("@")[0].endswith(OF_THE_RIG) else values
 
 
 def _folds(groups: Sequence[str], taught: Sequence[_Sampled], rng: np.random.Generator) -> tuple[NDArray[np.intp], str]:

@@ -81,6 +81,23 @@ def test_a_setting_explains_what_the_motion_does_not():
     assert unknown.held_out > 3.0 * known.held_out
 
 
+def test_a_second_force_tells_its_level_and_not_its_course():
+    """A normal force sets a friction as a setting does; a second load cell would answer in place of the model."""
+    dataset = sweeps(pressures=(0.0, 2.0, 5.0))
+    rng = np.random.default_rng(3)
+
+    def beside(signal_of):
+        runs = [
+            replace(run, settings={}, channels={**run.channels, "normal_force": signal_of(run)}) for run in dataset.runs
+        ]
+        return explainable_error(prepare(Dataset("beside", tuple(runs))))
+
+    level = beside(lambda run: 40.0 * (1.0 + run.settings["pressure"]) + rng.normal(0.0, 2.0, run.force.size))
+    course = beside(lambda run: run.force - np.mean(run.force) + 40.0)
+    assert level.held_out < 3.0 * NOISE
+    assert course.held_out > 3.0 * level.held_out
+
+
 def test_without_held_out_runs_training_runs_are_left_out_in_turn():
     runs = tuple(replace(run, held_out=False) for run in sweeps().runs)
     told = explainable_error(prepare(Dataset("all", runs)))
