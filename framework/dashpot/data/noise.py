@@ -12,7 +12,7 @@ from .noise_spectrum import NoiseSpectrum, collect_spectrum
 from .order_tracking import Oscillation, follow, read_noise
 from .phase import NotOscillatingError
 from .repeats import compare_repeats
-from .white_noise import white_noise
+from .white_noise import FASTER, LENGTH, share_everywhere, white_noise
 
 # Harmonics of the motion are looked for up to this order.
 _HARMONICS = 4.0
@@ -21,6 +21,7 @@ _ABOVE_NOISE = 30.0
 _SPECTRUM_END = 1e-7
 _SEGMENTS = 4
 _LINES_OF_TREND = 4
+_PIECES = 16
 _FEWEST_SAMPLES = 256
 
 
@@ -84,7 +85,8 @@ def noise_from_orders(force: np.ndarray, oscillation: Oscillation) -> NoiseFloor
 def noise_above_motion(displacement: np.ndarray, force: np.ndarray, sample_time: float) -> NoiseFloor:
     """Noise of any run, from the force above the frequencies of the motion and its harmonics, taken as white below.
 
-    A lower bound: slow noise hides under the motion. Unknown when the motion leaves no frequencies free.
+    Only what is there at all times counts: friction, valves and stops have harmonics without end, at the places where
+    they bend. A lower bound: slow noise hides under the motion. Unknown when the motion leaves no frequencies free.
     """
     spectrum = spectrum_above_motion(displacement, force, sample_time)
     return UNKNOWN if spectrum is None else replace(_floor(spectrum, len(force)), lower_bound=True)
@@ -104,7 +106,15 @@ def spectrum_above_motion(displacement: np.ndarray, force: np.ndarray, sample_ti
         return None
     seen = frequency > free
     densities = _densities(force, sample_time)[1][:, seen]
+    densities *= min(share_everywhere(force, length) for length in _lengths(free * sample_time, len(force))) ** 2
     return collect_spectrum(np.tile(frequency[seen], len(densities)), densities.ravel(), sample_time).flat_below()
+
+
+def _lengths(free: float, samples: int) -> list[int]:
+    """Samples of pieces of a record in which what is above `free` (1/sample) shows, each longer by half at the most."""
+    longest = max(LENGTH, int(min(FASTER / max(free, 1e-12), samples / _PIECES)))
+    steps = int(np.log(longest / LENGTH) / np.log(1.5)) + 1
+    return np.unique(np.geomspace(LENGTH, longest, steps + 1).astype(int)).tolist()
 
 
 def pool_noise(floors: Sequence[NoiseFloor]) -> NoiseFloor:
