@@ -231,10 +231,7 @@ def remarks_on(pursuit: Pursuit) -> list[str]:
             f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
             "whether the causes hold under other conditions is not known."
         )
-    refused = dict.fromkeys(
-        f"'{term.cause.word}' could not be written into the network: {reason}" for term, reason in pursuit.refused
-    )
-    return [*found, *refused]
+    return [*found, *dict.fromkeys(pursuit.refused)]
 
 
 def next_runs(refitter: Refitter, pursuit: Pursuit) -> dict[tuple[str, str], NextRun]:

@@ -53,7 +53,7 @@ class Pursuer:
     watch: Callable[[int, int], None] = lambda looks, terms: None
     doubted: Sequence[Doubt] = ()
     looked: Look | None = field(default=None, init=False)
-    refused: list[tuple[Term, str]] = field(default_factory=list, init=False)
+    refused: list[str] = field(default_factory=list, init=False)
     looks: int = field(default=0, init=False)
     ended: bool = field(default=False, init=False)
 
@@ -182,8 +182,7 @@ class Pursuer:
         terms = dict.fromkeys(term for mine, _ in each for term in (*scores.look.model.terms, *mine))
         found = forked(partial(self._refitted, scores), each, self.refitter.jobs, (*terms,))
         for (mine, _), (_, refusal) in zip(each, found, strict=True):
-            new = [term for term in mine if term not in scores.look.model.terms]
-            self.refused += [(term, refusal) for term in new if refusal]
+            self.refused += refusals(scores.look.model.terms, mine, refusal) if refusal else []
         return [scored for scored, _ in found]
 
     def _refitted(self, scores: Scores, asked: tuple[Sequence[Term], Array]) -> tuple[Scored | None, str]:
@@ -296,6 +295,14 @@ class Pursuer:
             for (term, _), trial in zip(few, self.refitted(scores, [one for _, one in few]), strict=True):
                 found[term] += [trial] if trial else []
         return [(term, trial) for term, trials in found.items() for trial in trials]
+
+
+def refusals(before: Sequence[Term], after: Sequence[Term], reason: str) -> list[str]:
+    """What to say of each term that could not join: in place of which ones, since others may need what these added."""
+    gone = " and ".join(f"'{term.cause.word}'" for term in before if term not in after)
+    place = f" in place of {gone}" if gone else ""
+    words = [term.cause.word for term in after if term not in before]
+    return [f"'{word}' could not be written into the network{place}: {reason}" for word in words]
 
 
 def _few(waiting: Mapping[Key, Structure], unproven: set[Form], many: int) -> Iterator[Key]:

@@ -95,7 +95,7 @@ class Pursuit:
     weights: Array
     looks: int
     ended: bool
-    refused: tuple[tuple[Term, str], ...] = ()
+    refused: tuple[str, ...] = ()
 
     @cached_property
     def winners(self) -> Counter[Names]:

@@ -121,7 +121,7 @@ def cause_phrase(cause: Json) -> str:
     if len(branches) > 1:  # "": the numbers of the first branch that it adds; else it changes numbers that were there
         return f"{cause_title(cause)} in {len(branches)} branches" if "" in branches else cause_title(cause)
     first: Json = next(iter(parameters.values()), {})
-    if first.get("value") is None or not _is_known(first) or "[" in next(iter(parameters)):
+    if not first.get("value") or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
     size = with_interval(first["value"], first.get("interval"), first.get("unit") or "")
     return " ".join(filter(None, [cause_name(cause), "of", size, cause.get("place")]))

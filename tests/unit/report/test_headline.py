@@ -195,6 +195,12 @@ def test_a_fault_of_a_channel_is_one_number():
     assert "delay of 2.0 ms [1.0, 3.0], a fault" in headline(diagnosis(causes=[fault]))
 
 
+def test_a_force_that_ends_at_zero_has_no_size():
+    """Lift-off is a least force of nothing, which no fit has found."""
+    least = {"force.least": {"value": 0.0, "interval": None, "unit": "N"}}
+    assert "is lift-off, missing" in headline(diagnosis(causes=[friction(title="lift-off", parameters=least)]))
+
+
 def test_a_number_that_the_data_leave_open_is_not_quoted():
     unknown = {"limit": {"value": 9.0, "interval": [1e-3, 1e6], "unit": "N"}}
     assert "is dry friction, missing" in headline(diagnosis(causes=[friction(parameters=unknown)]))

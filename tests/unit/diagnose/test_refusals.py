@@ -1,0 +1,24 @@
+"""What is said of structures that cannot be written."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from dashpot.diagnose.pursue import refusals
+
+
+def term(word):
+    return SimpleNamespace(cause=SimpleNamespace(word=word))
+
+
+def test_a_term_that_joins_alone_is_told_with_the_reason():
+    known, new = term("friction"), term("delay")
+    said = refusals([known], [known, new], "the force has a delay already")
+    assert said == ["'delay' could not be written into the network: the force has a delay already"]
+
+
+def test_a_term_in_the_place_of_another_is_told_with_it():
+    """Without the valve the dependence on current, which changes its numbers, finds no branch: no fault of friction."""
+    valve, current, friction = map(term, ("valve", "setting_dependence", "friction"))
+    (said,) = refusals([valve, current], [current, friction], "the network has no branch 'valve'")
+    assert "'friction' could not be written into the network in place of 'valve': " in said
