@@ -21,7 +21,8 @@ _ABOVE_NOISE = 30.0
 _SPECTRUM_END = 1e-7
 _SEGMENTS = 4
 _LINES_OF_TREND = 4
-_PIECES = 16
+_PIECES = 16  # of a record at least, a quarter of which is to be quiet
+_LONGER = 1.5  # each length of pieces over the one before, at the most
 _FEWEST_SAMPLES = 256
 
 
@@ -111,9 +112,9 @@ def spectrum_above_motion(displacement: np.ndarray, force: np.ndarray, sample_ti
 
 
 def _lengths(free: float, samples: int) -> list[int]:
-    """Samples of pieces of a record in which what is above `free` (1/sample) shows, each longer by half at the most."""
+    """Samples of pieces of a record in which what is above `free` (1/sample) shows."""
     longest = max(LENGTH, int(min(FASTER / max(free, 1e-12), samples / _PIECES)))
-    steps = int(np.log(longest / LENGTH) / np.log(1.5)) + 1
+    steps = int(np.log(longest / LENGTH) / np.log(_LONGER)) + 1
     return np.unique(np.geomspace(LENGTH, longest, steps + 1).astype(int)).tolist()
 
 

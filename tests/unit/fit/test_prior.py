@@ -16,7 +16,7 @@ from dashpot.fit.uncertainty import assess_uncertainty, effective_error
 from dashpot.model.identified import Identified
 from dashpot.text.problem import InputError
 
-NOISE, DRAWS = 40.0, 25
+NOISE, DRAWS = 40.0, 60
 MIDDLES, DEVIATIONS = np.array([2.02e5, 310.0]), np.array([800.0, 20.0])
 NORMAL = f"""
     rubber:
