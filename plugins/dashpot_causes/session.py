@@ -42,9 +42,13 @@ def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDAr
 
 
 def _predicted(conditions: NDArray[np.float64], places: NDArray[np.float64]) -> float:
-    """The share of the variance of the places (runs,) that a straight line over the conditions explains."""
+    """The share of the variance of the places (runs,) that a straight line over the conditions explains.
+
+    Adjusted for the degrees of freedom: many conditions follow any order of few runs by chance. 1 where none are left.
+    """
     spread, size = np.std(conditions, axis=0), np.sqrt(np.mean(conditions**2, axis=0))
     known = (conditions - conditions.mean(axis=0))[:, spread > CHANGES * size] / spread[spread > CHANGES * size]
     centred = places - places.mean()
-    rest = centred - known @ np.linalg.lstsq(known, centred, rcond=1e-6)[0]
-    return 1.0 - float(rest @ rest) / float(centred @ centred)
+    slopes, _, rank, _ = np.linalg.lstsq(known, centred, rcond=1e-6)
+    rest, left = centred - known @ slopes, places.size - 1 - int(rank)
+    return 1.0 - float(rest @ rest) / left / float(np.var(places, ddof=1)) if left > 0 else 1.0

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.kernel.settings import with_settings
 from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
@@ -99,18 +100,26 @@ class Setting:
 class Number:
     """A number of a branch, and what the branch has besides."""
 
+    network: NetworkSpec
     branch: Branch
     key: str
     value: Value
 
     def column(self, view: View, run: str) -> Array:
-        """The change of the force (n,) when the number changes by all of its size."""
-        told = view.settings(run)
-        known = {key: told.get(value.setting, value.number) for key, value in self.branch.values.items()}
-        known |= {key: curve.values[0].number for key, curve in self.branch.curves.items()}
-        moved = [{**known, self.key: known[self.key] * (1.0 + side * NUDGE)} for side in (-1.0, 1.0)]
-        less, more = view.respond(run, self.branch.element.word, moved)
-        return (more - less) / (2.0 * NUDGE)
+        """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
+        known, size = self._in(view.settings(run)), self.value.number
+        near = known[self.key] + NUDGE * abs(size) * np.array([-1.0, 1.0])
+        ends = np.clip(near, *self.value.sensible).tolist()
+        less, more = view.respond(run, self.branch.element.word, [{**known, self.key: end} for end in ends])
+        return np.asarray((more - less) / (ends[1] - ends[0]) * size)
+
+    def _in(self, told: Mapping[str, float]) -> dict[str, float]:
+        """All numbers of the branch, as they are in a run with some settings."""
+        slots = self.network.slots()
+        values = with_settings(self.network, np.array([[slot.value.number for slot in slots]]), told)[0].tolist()
+        found = {slot.path: value for slot, value in zip(slots, values, strict=True)}
+        keys = (*self.branch.values, *self.branch.curves)
+        return {key: found[f"{self.branch.numbers}.{key}"] for key in keys}
 
 
 def _settings(view: View) -> Iterator[Setting]:
@@ -123,7 +132,10 @@ def _settings(view: View) -> Iterator[Setting]:
 
 
 def numbers_of(network: NetworkSpec) -> Iterator[Number]:
-    """The parameters of a network with two ends that may be written as dependent on a setting."""
+    """The parameters of a network with two ends that may be written as dependent on a setting.
+
+    One that depends on another may be written so in place of that.
+    """
     if network.document is None or network.joints:
         return
     for branch in network.leaves():
@@ -131,8 +143,8 @@ def numbers_of(network: NetworkSpec) -> Iterator[Number]:
             continue
         known = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
         for key, value in known.items():
-            if value.number and not value.over and not value.setting and _stands(network, branch, key):
-                yield Number(branch, key, value)
+            if value.number and not value.setting and (value.over or _stands(network, branch, key)):
+                yield Number(network, branch, key, value)
 
 
 def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:

@@ -28,6 +28,7 @@ from dashpot.diagnose.single_runs import corrected, faults_beside, floor_of_corr
 from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
+from dashpot.diagnose.trials import Trials
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
 from dashpot.fit.grounding import free_curves
@@ -149,7 +150,7 @@ def find_causes(
     kinds = kinds_of(causes, seen)
     doubted = doubts(recorded, seen, kinds, groups) if recorded.runs else []
     pairs = repeats_of(refitter, groups)
-    pursuit = Pursuer(refitter, causes, folds, relevance, seed, watch, doubted).run(model)
+    pursuit = Pursuer(Trials(refitter, folds, doubted), causes, relevance, seed, watch).run(model)
     if not recorded.runs:
         return pursuit, []
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
@@ -161,7 +162,7 @@ def find_causes(
     for _ in range(SEARCHES if accused else 0):
         again = put_right(refitter, accused)
         start = again.fit(pursuit.best.model, pursuit.look.noise)
-        pursuit = Pursuer(again, causes, folds, relevance, seed, watch).run(start)
+        pursuit = Pursuer(Trials(again, folds), causes, relevance, seed, watch).run(start)
         before, accused = accused, faults_beside(refitter, pursuit.look, pairs, accuse_beside)
         if names_of(before) == names_of(accused):
             break

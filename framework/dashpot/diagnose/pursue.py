@@ -7,26 +7,23 @@ structure without it is refitted, and so are those with another cause in its pla
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import dataclass, field
 from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause
+from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.evidence import has_evidence, is_determined
-from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.location import of_names
-from dashpot.diagnose.look import Doubt, Look, look_at, look_settled
+from dashpot.diagnose.look import Look, look_at, look_settled
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
-from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
 from dashpot.diagnose.search import search
 from dashpot.diagnose.term import Model, Term
-from dashpot.fit.refine import Outcome
+from dashpot.diagnose.trials import Trials, scored_by
 from dashpot.kernel.workers import forked
-from dashpot.text.problem import InputError
 
 Array = NDArray[np.float64]
 
@@ -45,15 +42,12 @@ class Pursuer:
     search came to its end.
     """
 
-    refitter: Refitter
+    trials: Trials
     causes: Sequence[type[Cause]]
-    folds: Folds
     relevance: float
     seed: int
     watch: Callable[[int, int], None] = lambda looks, terms: None
-    doubted: Sequence[Doubt] = ()
     looked: Look | None = field(default=None, init=False)
-    refused: list[str] = field(default_factory=list, init=False)
     looks: int = field(default=0, init=False)
     ended: bool = field(default=False, init=False)
 
@@ -72,7 +66,8 @@ class Pursuer:
             if onward is None:
                 weights = self.weights(len(look.folds.names))
                 found = (present, look, model, without, tuple(rivals), tuple(others), weights)
-                return Pursuit(*found, self.looks, self.ended, tuple(self.refused))
+                likeliest = self.likeliest(look, present, without)
+                return Pursuit(*found, *likeliest, self.looks, self.ended, tuple(self.trials.refused))
             del look  # a look is large
             self.looked = self._all_candidates(onward)
 
@@ -106,7 +101,7 @@ class Pursuer:
             self.watch(self.looks, len(look.model.terms))
             scores, onward = Scores(look), None
             present, trials = scored_by(scores, scores.odds), []
-            for few in self.trials(scores, search(scores)):
+            for few in self.tried(scores, search(scores)):
                 trials += few
                 onward = self._onward(look, few, present)
                 if onward is not None:
@@ -126,42 +121,31 @@ class Pursuer:
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
                 known = of_names(look.candidates, (*trial.model.names, *present.model.names))
-                settled = look_settled(self.refitter, trial.model, self.causes, self.folds, self.doubted, known)
+                settled = self.look(trial.model, known)
                 scores, odds = Scores(settled), Odds(look.layout.bank)
-                if any(self._lacking(scores)):
+                if any(self.trials.lacking(scores)):
                     continue
-                before = self.scored(settled, self.refitted_under(settled, present.model), odds)
+                before = self.trials.scored(settled, self.trials.refitted_under(settled, present.model), odds)
                 if self._likelier(scored_by(scores, odds), before):
                     return settled.model
         return None
 
     def _all_candidates(self, model: Model) -> Look:
         """All candidates beside a model that was fitted under the noise that it leaves."""
-        return look_at(self.refitter, model, self.causes, self.folds, doubted=self.doubted)
+        at = self.trials
+        return look_at(at.refitter, model, self.causes, at.folds, doubted=at.doubted)
 
-    def look(self, model: Model) -> Look:
-        """All candidates beside a model, refitted under the noise that it leaves."""
-        return look_settled(self.refitter, model, self.causes, self.folds, self.doubted)
-
-    def refitted_under(self, look: Look, model: Model) -> Model:
-        """A model, its parameters fitted under the noise of a look."""
-        return self.refitter.refit(model, model.terms, look.noise)
+    def look(self, model: Model, known: Sequence[Candidate] | None = None) -> Look:
+        """All candidates beside a model, or the known ones, refitted under the noise that it leaves."""
+        at = self.trials
+        return look_settled(at.refitter, model, self.causes, at.folds, at.doubted, known)
 
     def weights(self, folds: int) -> Array:
         """Random weights (draws, folds) of the folds, exponential with mean one (Bayesian bootstrap; Rubin 1981)."""
         draws = np.random.default_rng(self.seed).exponential(size=(DRAWS, folds))
         return draws / draws.mean(axis=1, keepdims=True)
 
-    def scored(self, look: Look, model: Model, odds: Odds) -> Scored:
-        """What a fitted model predicts under the noise of a look, its numbers left free to first order."""
-        return scored_by(self.scores_of(look, model), odds)
-
-    def scores_of(self, look: Look, model: Model) -> Scores:
-        """A fitted model under the noise of a look, with the forms of its own causes where they are."""
-        known = of_names(look.candidates, model.names)
-        return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
-
-    def trials(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[list[Scored]]:
+    def tried(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[list[Scored]]:
         """The best structures of different terms that score better than the present one, a few at a time, refitted.
 
         A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
@@ -172,90 +156,62 @@ class Pursuer:
                 waiting.setdefault(_key(scores, structure), structure)
         for tried in range(0, TRIED, REFITTED):
             few = list(_few(waiting, unproven, min(REFITTED, TRIED - tried)))
-            found = [trial for trial in self.refitted(scores, [waiting.pop(key) for key in few]) if trial]
+            found = [trial for trial in self.trials.refitted(scores, [waiting.pop(key) for key in few]) if trial]
             unproven.update(*(trial.unproven for trial in found))
             yield found
-
-    def refitted(self, scores: Scores, structures: Sequence[Structure]) -> list[Scored | None]:
-        """Structures refitted; None for one that cannot be written, or that the data do not tell."""
-        each = [(tuple(terms_of(scores, one)), scores.moves(one)) for one in structures]
-        terms = dict.fromkeys(term for mine, _ in each for term in (*scores.look.model.terms, *mine))
-        found = forked(partial(self._refitted, scores), each, self.refitter.jobs, (*terms,))
-        for (mine, _), (_, refusal) in zip(each, found, strict=True):
-            self.refused += refusals(scores.look.model.terms, mine, refusal) if refusal else []
-        return [scored for scored, _ in found]
-
-    def _refitted(self, scores: Scores, asked: tuple[Sequence[Term], Array]) -> tuple[Scored | None, str]:
-        """The model with other terms, refitted, and why it cannot be written, if that is so."""
-        (terms, moves), look = asked, scores.look
-        try:
-            model = self.refitter.refit(look.model, terms, look.noise, moves)
-            found = self._tenable(look, model, {term for term in terms if term not in look.model.terms})
-        except InputError as error:
-            return None, str(error)
-        if found is None:
-            return None, ""
-        seen, lacking = found
-        unproven = frozenset((one.name, one.suspect.form) for one in lacking)
-        return replace(scored_by(seen, scores.odds), unproven=unproven), ""
-
-    def _tenable(self, look: Look, model: Model, new: set[Term]) -> tuple[Scores, set[Term]] | None:
-        """A refitted model under the noise of a look, and those of its new terms that lack evidence.
-
-        Its former terms go that are no longer what they are called, or are not told or shown any more, as a moving mass
-        where a delay has come in. A new term that is not what it is called or is not told refuses the structure.
-        """
-        while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
-            gone = {term for k, term in enumerate(model.terms) if not term.suspect.admits(model.numbers_of(k))}
-            if not gone:
-                seen = self.scores_of(look, model)
-                untold, unproven = self._lacking(seen)
-                gone = untold | unproven - new
-                if not gone:
-                    return seen, unproven
-            if gone & new:
-                return None
-            kept = self.refitter.writable(model, [term for term in model.terms if term not in gone])
-            model = self.refitter.refit(model, kept, look.noise)
-        return None
-
-    def _lacking(self, seen: Scores) -> tuple[set[Term], set[Term]]:
-        """The terms of a refitted model that the data do not tell, and those that have no evidence."""
-        terms = list(enumerate(seen.look.model.terms))
-        untold = {term for number, term in terms if not is_determined(seen, number)}
-        return untold, {term for number, term in terms if not has_evidence(self.refitter, seen, number)}
 
     def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
         odds = Odds(look.layout.bank)
-        present = self.scored(look, self.refitter.fit(look.model, look.noise), odds)
+        present = self.trials.scored(look, self.trials.refitter.fit(look.model, look.noise), odds)
         while True:
-            seen = self.scores_of(look, present.model)
+            seen = self.trials.scores_of(look, present.model)
             found = self._without(look, present, [(term,) for term in present.model.terms], odds)
             worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
             if min(worth, default=1.0) >= NAMED:
-                return present, self._without_causes(look, present, found, odds)
+                return present, self._without_causes(look, present, odds, found)
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
     def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
         """The structure without each of some sets of terms, refitted."""
 
+        refitter = self.trials.refitter
+
         def refitted(gone: tuple[Term, ...]) -> Without:
-            rest = self.refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
-            return Without(gone, self.scored(look, self.refitter.refit(present.model, rest, look.noise), odds))
+            rest = refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
+            return Without(gone, self.trials.scored(look, refitter.refit(present.model, rest, look.noise), odds))
 
-        return forked(refitted, each, self.refitter.jobs, present.model.terms)
+        return forked(refitted, each, refitter.jobs, present.model.terms)
 
-    def _without_causes(self, look: Look, present: Scored, found: Sequence[Without], odds: Odds) -> tuple[Without, ...]:
-        """The structure without all terms of each cause; that without a single one is ``found``."""
-        every = {name: tuple(t for one in found if one.name == name for t in one.terms) for name in _names(found)}
-        more = self._without(look, present, [terms for terms in every.values() if len(terms) > 1], odds)
-        known = {one.terms: one for one in (*found, *more)}
-        return tuple(known[terms] for terms in every.values())
+    def _without_causes(
+        self, look: Look, present: Scored, odds: Odds, found: Sequence[Without] = ()
+    ) -> tuple[Without, ...]:
+        """The structure without all terms of each cause; that without a single one may be ``found`` already."""
+        terms = present.model.terms
+        every = [tuple(t for t in terms if t.name == name) for name in dict.fromkeys(present.model.names)]
+        known = {one.terms: one for one in found}
+        known |= {one.terms: one for one in self._without(look, present, [e for e in every if e not in known], odds)}
+        return tuple(known[terms] for terms in every)
+
+    def likeliest(
+        self, look: Look, present: Scored, without: tuple[Without, ...]
+    ) -> tuple[Scored, tuple[Without, ...]]:
+        """The present structure less the causes without which it scores better, and that without each of the others.
+
+        Such causes stay, since the laws as they are predict worse without them; they make up for the form of another
+        law, and beside them that law explains little alone.
+        """
+        odds = Odds(look.layout.bank)
+        while without:
+            best = min((one.scored for one in without), key=lambda one: one.score)
+            if best.score >= present.score:
+                break
+            present, without = best, self._without_causes(look, best, odds)
+        return present, without
 
     def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
-        if not (is_determined(seen, number) and has_evidence(self.refitter, seen, number)):
+        if not (is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)):
             return 0.0
         weights = self.weights(present.samples.size)
         worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
@@ -292,17 +248,9 @@ class Pursuer:
         while few := [
             (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])
         ]:
-            for (term, _), trial in zip(few, self.refitted(scores, [one for _, one in few]), strict=True):
+            for (term, _), trial in zip(few, self.trials.refitted(scores, [one for _, one in few]), strict=True):
                 found[term] += [trial] if trial else []
         return [(term, trial) for term, trials in found.items() for trial in trials]
-
-
-def refusals(before: Sequence[Term], after: Sequence[Term], reason: str) -> list[str]:
-    """What to say of each term that could not join: in place of which ones, since others may need what these added."""
-    gone = " and ".join(f"'{term.cause.word}'" for term in before if term not in after)
-    place = f" in place of {gone}" if gone else ""
-    words = [term.cause.word for term in after if term not in before]
-    return [f"'{word}' could not be written into the network{place}: {reason}" for word in words]
 
 
 def _few(waiting: Mapping[Key, Structure], unproven: set[Form], many: int) -> Iterator[Key]:
@@ -324,10 +272,6 @@ def _promises(scores: Scores, waiting: Sequence[Structure], found: Sequence[Scor
     return bool(waiting) and len(found) < REFITTED and scores.score(waiting[0]) < best
 
 
-def _names(found: Iterable[Without]) -> Iterable[tuple[str, str]]:
-    return dict.fromkeys(one.name for one in found)
-
-
 def _joins_alone(scores: Scores, structure: Structure) -> bool:
     """Whether one cause joins that is not there."""
     names = [scores.look.candidates[k].name for k, _ in structure.added]
@@ -338,30 +282,7 @@ def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:
     return removal[0], removal[1].score
 
 
-def scored_by(scores: Scores, odds: Odds) -> Scored:
-    """What the model of a look predicts, as it is."""
-    found, model = scores.predicted(Structure()), scores.look.model
-    assert found is not None
-    return Scored(model, *found, scores.exact(), scores.look.samples, odds.of_model(model))
-
-
 def _key(scores: Scores, structure: Structure) -> Key:
     """Terms that go and forms that join, whatever their places."""
     joins = ((scores.look.candidates[k].name, scores.look.candidates[k].suspect.form) for k, _ in structure.added)
     return frozenset([*((number,) for number in structure.dropped), *joins])
-
-
-def terms_of(scores: Scores, structure: Structure) -> list[Term]:
-    """The terms of a structure: those of the model that stay, then the new ones at the strengths that are foreseen."""
-    look = scores.look
-    found = [term for number, term in enumerate(look.model.terms) if number not in structure.dropped]
-    strengths = scores.strengths(structure)
-    at = strengths.size - len(scores.atoms(structure))
-    for k, places in sorted(structure.added):
-        candidate = look.candidates[k]
-        mine = strengths[at : at + len(places)]
-        at += len(places)
-        grid = candidate.suspect.grid
-        atoms = tuple((float(strength), grid[place]) for strength, place in zip(mine, places, strict=True))
-        found.append(Term(candidate.cause, candidate.suspect, atoms, candidate.site))
-    return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -82,8 +82,9 @@ class Pursuit:
     """The best structure, the last look at it, and what was refitted beside it at the end.
 
     ``without`` has the structures without each cause, all terms of it, ``rivals`` those with another cause in the place
-    of a term, ``others`` what else was refitted at the last look. ``first`` is the model that was diagnosed, ``ended``
-    whether the search came to its end, ``refused`` what could not be written.
+    of a term, ``others`` what else was refitted at the last look. ``likeliest`` is the best one less the causes without
+    which it scores better, ``without_one`` that without each of its causes. ``first`` is the model that was diagnosed,
+    ``ended`` whether the search came to its end, ``refused`` what could not be written.
     """
 
     best: Scored
@@ -93,6 +94,8 @@ class Pursuit:
     rivals: tuple[tuple[Term, Scored], ...]
     others: tuple[Scored, ...]
     weights: Array
+    likeliest: Scored
+    without_one: tuple[Without, ...]
     looks: int
     ended: bool
     refused: tuple[str, ...] = ()
@@ -145,23 +148,37 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause alone explains over that and what stays unexplained, which might be its own."""
-        alone = self.explained(name, forms_err=True)
+        """What a cause alone explains over that and what stays unexplained, which might be its own.
+
+        A cause without which the structure scores better takes nothing from the others.
+        """
+        alone = self.explained_alone(name)
         whole = alone + unexplained
         if np.isinf(alone):
             return 1.0
         return alone / whole if whole > 0.0 else float(self.without_cause(name) is None)
 
-    def explained(self, name: tuple[str, str], forms_err: bool = False) -> float:
-        """By what share the square of the residual grows without a cause, all else refitted.
+    def explained(self, name: tuple[str, str]) -> float:
+        """By what share the square of the residual grows without a cause, all else refitted."""
+        return _growth(self.best, self.without_cause(name), forms_err=False)
 
-        Where the forms of the other terms may err, they take up a part of it.
-        """
-        gone = self.without_cause(name)
-        cost = gone.likelihood(forms_err) - self.best.likelihood(forms_err) if gone else 0.0
-        with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
-            return float(np.expm1(2.0 * max(cost, 0.0) / float(self.best.samples.sum())))
+    def explained_alone(self, name: tuple[str, str]) -> float:
+        """The same where the forms of the other terms may err: what none of these can take up."""
+        if gone := _without(self.without_one, name):
+            return _growth(self.likeliest, gone, forms_err=True)
+        return _growth(self.best, self.without_cause(name), forms_err=True)
 
     def without_cause(self, name: tuple[str, str]) -> Scored | None:
         """The structure without all terms of a cause, refitted; None where it has none."""
-        return next((one.scored for one in self.without if one.name == name), None)
+        return _without(self.without, name)
+
+
+def _without(found: Sequence[Without], name: tuple[str, str]) -> Scored | None:
+    return next((one.scored for one in found if one.name == name), None)
+
+
+def _growth(whole: Scored, less: Scored | None, forms_err: bool) -> float:
+    """By what share the square of what is not predicted is larger in ``less``; 0 where there is none."""
+    cost = less.likelihood(forms_err) - whole.likelihood(forms_err) if less else 0.0
+    with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
+        return float(np.expm1(2.0 * max(cost, 0.0) / float(whole.samples.sum())))

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from dashpot.diagnose.pursue import Pursuer
+from dashpot.diagnose.trials import Trials
 from dashpot.fit.refine import Outcome
 
 
@@ -33,14 +33,14 @@ class Refits:
         )
 
 
-class Seen(Pursuer):
+class Seen(Trials):
     """Looks that know what each term needs."""
 
     def scores_of(self, look, model):
         """The terms."""
         return model
 
-    def _lacking(self, seen):
+    def lacking(self, seen):
         names = {term.name for term in seen.terms}
         return {one for one in seen.terms if not one.told <= names}, {
             one for one in seen.terms if not one.shown <= names
@@ -50,7 +50,7 @@ class Seen(Pursuer):
 def kept(former, new):
     """What stays of a structure of former terms and a new one, and what of it lacks evidence."""
     look = SimpleNamespace(model=SimpleNamespace(terms=former), noise=None)
-    found = Seen(Refits(), (), None, 0.0, 0)._tenable(look, Refits().refit(None, [*former, new], None), {new})
+    found = Seen(Refits(), None)._tenable(look, Refits().refit(None, [*former, new], None), {new})
     return found and ([term.name for term in found[0].terms], {term.name for term in found[1]})
 
 

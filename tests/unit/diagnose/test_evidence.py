@@ -11,8 +11,8 @@ from unit.diagnose.rig import MOTIONS, NETWORK, STIFFNESS, TIME, bench, causes, 
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
-from dashpot.diagnose.pursue import terms_of
 from dashpot.diagnose.score import Added, Scores, Structure
+from dashpot.diagnose.trials import terms_of
 
 
 def refitter_of(made, sheet):

@@ -31,7 +31,7 @@ def scored(nats, *names, price=0.0):
 def pursuit(best, without, *others):
     term = SimpleNamespace(name=("a", ""))
     missing = tuple(Without((term,), one) for one in without)
-    return Pursuit(best, None, None, missing, (), others, WEIGHTS, 1, True)
+    return Pursuit(best, None, None, missing, (), others, WEIGHTS, best, missing, 1, True)
 
 
 def test_a_cause_that_every_fold_needs_is_certain():
@@ -50,6 +50,19 @@ def test_a_structure_without_evidence_is_a_rival_too():
     fault = Scored(**{**vars(scored(-2.0, "delay")), "unproven": {(("delay", ""), "delay")}})
     found = pursuit(scored(0.0, "a"), [scored(20.0)], fault)
     assert found.probability(("a", "")) == 0.0 and found.replacements(("a", "")) == (("delay", ""),)
+
+
+def test_a_correction_that_the_score_does_without_hides_nothing_of_another_law():
+    """Beside it a law explains little, in the structure that scores better without it all that there is."""
+    best, law = scored(0.0, "law", "correction"), ("law", "")
+    term = SimpleNamespace(name=law)
+    missing = tuple(Without((SimpleNamespace(name=(name, "")),), scored(1.0)) for name in ("law", "correction"))
+    alone = (Without((term,), scored(30.0)),)
+    hidden = Pursuit(best, None, None, missing, (), (), WEIGHTS, best, missing, 1, True)
+    seen = replace(hidden, likeliest=scored(0.0, "law"), without_one=alone)
+    explained = np.expm1(2.0 * 30.0 / SAMPLES)
+    assert hidden.probability(law, 0.1) < 0.2
+    assert seen.probability(law, 0.1) == pytest.approx(explained / (explained + 0.1))
 
 
 @pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from dashpot.diagnose.pursue import refusals
+from dashpot.diagnose.trials import refusals
 
 
 def term(word):
