@@ -63,12 +63,13 @@ class Trials:
         A former term that changes what is not there any more, as the dependence of a friction limit on a setting where
         another law takes the place of friction, is looked for again beside the new terms.
         """
+        new = [term for term in terms if term not in look.model.terms]
         former = [term for term in terms if term in look.model.terms]
-        new = [term for term in terms if term not in former]
-        written = self.refitter.writable(look.model, [*new, *former])
-        stranded = [term for term in former if term not in written]
-        kept = [term for term in terms if term not in stranded]
+        orders = [self.refitter.writable(look.model, order) for order in (terms, [*new, *former])]
+        written = max(orders, key=len)
+        kept = written if set(new) <= set(written) else terms
         model = self.refitter.refit(look.model, kept, look.noise, moves)
+        stranded = [term for term in former if term not in kept]
         for cause in dict.fromkeys(term.cause for term in stranded):
             scores = Scores(look_at(self.refitter, model, [cause], self.folds, look.noise, self.doubted))
             found = min(self._with_one_more(scores), key=scores.score)

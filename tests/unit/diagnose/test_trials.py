@@ -1,0 +1,81 @@
+"""Structures refitted: a term that changes another one is found again where that has become another law."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from unit.diagnose.rig import MOTIONS, bench, causes, dataset, friction, plain, with_force
+
+from dashpot.diagnose.folds import folds_of
+from dashpot.diagnose.look import look_at
+from dashpot.diagnose.score import Added, Scores, Structure
+from dashpot.diagnose.search import additions
+from dashpot.diagnose.trials import Trials, terms_of
+from dashpot_causes.setting_dependence import numbers_of
+
+LIMITS = dict(zip(MOTIONS, (20.0, 60.0, 40.0, 60.0, 20.0, 40.0), strict=True))
+TEMPERATURE = dict(zip(MOTIONS, (1.0, 0.2, 0.7, 0.5, 0.1, 0.9), strict=True))
+
+
+def measured():
+    """Dry friction with a limit that follows the current: 20 N and 20 N for each A; the temperature does nothing."""
+    data, rng = dataset(), np.random.default_rng(1)
+    forces = {
+        name: plain(motion) + friction(motion, limit=LIMITS[name], travel=0.1e-3) + rng.normal(0.0, 2.0, 1000)
+        for name, motion in MOTIONS.items()
+    }
+    told = with_force(data, forces).runs
+    runs = [
+        replace(
+            run,
+            settings={**run.settings, "current": LIMITS[run.name] / 20.0 - 1.0, "warmth": TEMPERATURE[run.name]},
+            held_out=False,
+        )
+        for run in told
+    ]
+    return replace(data, runs=tuple(runs))
+
+
+@pytest.fixture(scope="module")
+def found():
+    """The trials on these runs, and scores beside friction and the dependence of its limit."""
+    made = bench(measured())
+    folds = folds_of(made.refitter.runs, made.groups)
+    trials, model = Trials(made.refitter, folds), made.model
+    for word in ("friction", "setting_dependence"):
+        scores = Scores(look_at(made.refitter, model, causes(word), folds))
+        best = min((Structure(added=frozenset({one})) for one in additions(scores, Structure())), key=scores.score)
+        model = made.refitter.refit(model, terms_of(scores, best), scores.look.noise, scores.moves(best))
+    return trials, Scores(look_at(made.refitter, model, causes("friction", "setting_dependence"), folds))
+
+
+def best_of(scores, gone, form, places=None):
+    """The structure without a term and with the best place of a form."""
+    number = next(k for k, one in enumerate(scores.look.candidates) if one.suspect.form == form)
+    every = range(len(scores.look.candidates[number].suspect.grid)) if places is None else places
+    return min((Structure(frozenset({gone}), frozenset({Added(number, (k,))})) for k in every), key=scores.score)
+
+
+def test_the_dependence_of_a_law_is_found_again_in_the_law_that_takes_its_place(found):
+    trials, scores = found
+    former = scores.look.model
+    assert [term.cause.word for term in former.terms] == ["friction", "setting_dependence"]
+    form = next(form for form in ("dahl", "prandtl") if form != former.terms[0].suspect.form)
+    (trial,) = trials.refitted(scores, [best_of(scores, 0, form)])
+    assert [term.cause.word for term in trial.model.terms] == ["friction", "setting_dependence"]
+    assert trial.model.terms[0].suspect.form == form and not trials.refused
+    limits = [
+        slot.value.over.numbers[0].number
+        for slot in trial.model.fitted.slots()
+        if slot.value.over and slot.path.endswith(".limit")
+    ]
+    assert limits == pytest.approx([20.0], rel=0.1)
+
+
+def test_a_dependence_may_take_the_place_of_one_of_the_same_number(found):
+    """Nothing follows the warmth: with it in place of the current the runs are predicted worse."""
+    trials, scores = found
+    numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
+    (trial,) = trials.refitted(scores, [best_of(scores, 1, "a number over warmth", [numbers.index("limit")])])
+    assert [term.suspect.form for term in trial.model.terms][1] == "a number over warmth"
+    assert trial.score > scores.score(Structure()) + 10.0
