@@ -33,6 +33,7 @@ class SettingDependence(Cause):
     kind = "specimen"
     about = "dependence on a setting or on a measured channel"
     shows = "the residual depends on the setting: alike in runs of one setting, opposite in those of another"
+    changes_numbers = True
     confused_with = {
         "gain": "the same setting once more: a gain of single runs does not come back with it",
         "drift": "settings in another order: drift follows the clock",

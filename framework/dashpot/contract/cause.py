@@ -161,7 +161,8 @@ class Cause(ABC):
     how to correct a fault of the measurement; ``evidence_of`` names the evidence that it needs: ``phase`` that its
     parameters are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
     sheet of the channel admits it, under the key that is the ``quantity`` of its suspects and the last word of its
-    path. ``faults`` are the kinds of faults found by triage that the cause stands for.
+    path. ``faults`` are the kinds of faults found by triage that the cause stands for. A cause that ``changes_numbers``
+    of branches with the settings of runs is looked for beside each further law as well, whose numbers it may change.
 
     Examples:
         >>> class MissingBumper(dp.Cause):
@@ -181,6 +182,7 @@ class Cause(ABC):
     cure: ClassVar[str] = ""
     evidence_of: ClassVar[Literal["phase", "range", "data_sheet"]] = "phase"
     faults: ClassVar[tuple[str, ...]] = ()
+    changes_numbers: ClassVar[bool] = False
     confused_with: ClassVar[Mapping[str, str]] = {}
 
     @abstractmethod

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,14 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 
+class _Asked(NamedTuple):
+    """A model that is to have other ``terms``; natural steps ``moves`` (p,) of its numbers are foreseen."""
+
+    model: Model
+    terms: tuple[Term, ...]
+    moves: Array
+
+
 @dataclass(eq=False)
 class Trials:
     """Refits on ``folds``, beside faults that each run may have; ``refused`` collects what could not be written."""
@@ -35,20 +44,38 @@ class Trials:
     refused: list[str] = field(default_factory=list)
 
     def refitted(self, scores: Scores, structures: Sequence[Structure]) -> list[Scored | None]:
-        """Structures refitted; None for one that cannot be written, or that the data do not tell."""
-        each = [(tuple(terms_of(scores, one)), scores.moves(one)) for one in structures]
-        terms = dict.fromkeys(term for mine, _ in each for term in (*scores.look.model.terms, *mine))
-        found = forked(partial(self._refitted, scores), each, self.refitter.jobs, (*terms,))
-        for (mine, _), (_, refusal) in zip(each, found, strict=True):
-            self.refused += refusals(scores.look.model.terms, mine, refusal) if refusal else []
+        """Structures refitted; None for one that cannot be written, or that the data do not tell.
+
+        Numbers of a new law may follow a setting: such a dependence, which can be written only now that the law is
+        there, is looked for beside it, and so is one that the model had of a law which is gone. The likelier of the
+        two structures counts.
+        """
+        asked = [_Asked(scores.look.model, tuple(terms_of(scores, one)), scores.moves(one)) for one in structures]
+        found = self._each(scores, asked)
+        further = {
+            k: more
+            for k, (one, trial) in enumerate(zip(asked, found, strict=True))
+            if trial and (more := self._with_dependence(scores, one, trial))
+        }
+        for k, trial in zip(further, self._each(scores, list(further.values())), strict=True):
+            found[k] = min((one for one in (found[k], trial) if one), key=lambda one: one.score)
+        return found
+
+    def _each(self, scores: Scores, asked: Sequence[_Asked]) -> list[Scored | None]:
+        """Each of some models with other terms, refitted."""
+        terms = dict.fromkeys(term for one in asked for term in (*scores.look.model.terms, *one.terms))
+        found = forked(partial(self._refitted, scores), asked, self.refitter.jobs, (*terms,))
+        for one, (_, refusal) in zip(asked, found, strict=True):
+            self.refused += refusals(scores.look.model.terms, one.terms, refusal) if refusal else []
         return [scored for scored, _ in found]
 
-    def _refitted(self, scores: Scores, asked: tuple[Sequence[Term], Array]) -> tuple[Scored | None, str]:
-        """The model with other terms, refitted, and why it cannot be written, if that is so."""
-        (terms, moves), look = asked, scores.look
+    def _refitted(self, scores: Scores, asked: _Asked) -> tuple[Scored | None, str]:
+        """A model with other terms, refitted, and why it cannot be written, if that is so."""
+        look, new = scores.look, {term for term in asked.terms if term not in scores.look.model.terms}
         try:
-            model = self._with_terms(look, terms, moves)
-            found = self._tenable(look, model, {term for term in terms if term not in look.model.terms})
+            kept = self._writable(asked)
+            model = self.refitter.refit(asked.model, kept, look.noise, asked.moves)
+            found = self._tenable(look, model, new)
         except InputError as error:
             return None, str(error)
         if found is None:
@@ -57,32 +84,33 @@ class Trials:
         unproven = frozenset((one.name, one.suspect.form) for one in lacking)
         return replace(scored_by(seen, scores.odds), unproven=unproven), ""
 
-    def _with_terms(self, look: Look, terms: Sequence[Term], moves: Array) -> Model:
-        """The model of a look with other terms, refitted. Raises InputError for a new one that cannot be written.
-
-        A former term that changes what is not there any more, as the dependence of a friction limit on a setting where
-        another law takes the place of friction, is looked for again beside the new terms.
-        """
-        new = [term for term in terms if term not in look.model.terms]
-        former = [term for term in terms if term in look.model.terms]
-        orders = [self.refitter.writable(look.model, order) for order in (terms, [*new, *former])]
+    def _writable(self, asked: _Asked) -> Sequence[Term]:
+        """All terms, without those of the model that cannot be written any more beside new ones."""
+        new = [term for term in asked.terms if term not in asked.model.terms]
+        former = [term for term in asked.terms if term in asked.model.terms]
+        orders = [self.refitter.writable(asked.model, order) for order in (asked.terms, [*new, *former])]
         written = max(orders, key=len)
-        kept = written if set(new) <= set(written) else terms
-        model = self.refitter.refit(look.model, kept, look.noise, moves)
-        stranded = [term for term in former if term not in kept]
-        for cause in dict.fromkeys(term.cause for term in stranded):
-            scores = Scores(look_at(self.refitter, model, [cause], self.folds, look.noise, self.doubted))
-            found = min(self._with_one_more(scores), key=scores.score)
-            if found.size:
-                model = self.refitter.refit(model, terms_of(scores, found), look.noise, scores.moves(found))
-        return model
+        return written if set(new) <= set(written) else asked.terms
 
-    def _with_one_more(self, scores: Scores) -> list[Structure]:
-        """The structure of a look as it is, and with each of its best candidates that can be written beside it."""
-        found = [Structure(added=frozenset({one})) for one in additions(scores, Structure())]
-        model = scores.look.model
-        lengths = [len(self.refitter.writable(model, terms_of(scores, one))) for one in found]
-        return [Structure(), *(one for one, n in zip(found, lengths, strict=True) if n > len(model.terms))]
+    def _with_dependence(self, scores: Scores, asked: _Asked, trial: Scored) -> _Asked | None:
+        """A refitted structure with the best dependence of its numbers, where it scores better to first order."""
+        look, terms = scores.look, trial.model.terms
+        causes = [term.cause for term in asked.terms if term not in terms]
+        if any(term.cause.kind == "specimen" for term in terms if term not in look.model.terms):
+            causes += [one.cause for one in look.candidates if one.cause.changes_numbers]
+        if not causes:
+            return None
+        beside = Scores(
+            look_at(self.refitter, trial.model, [*dict.fromkeys(causes)], self.folds, look.noise, self.doubted)
+        )
+        found = [Structure(added=frozenset({one})) for one in additions(beside, Structure())]
+        written = [one for one in found if self._can_be_written(trial.model, terms_of(beside, one))]
+        best = min([Structure(), *written], key=beside.score)
+        return _Asked(trial.model, tuple(terms_of(beside, best)), beside.moves(best)) if best.size else None
+
+    def _can_be_written(self, model: Model, terms: Sequence[Term]) -> bool:
+        """Whether terms can be written, all of them."""
+        return len(self.refitter.writable(model, terms)) == len(terms)
 
     def _tenable(self, look: Look, model: Model, new: set[Term]) -> tuple[Scores, set[Term]] | None:
         """A refitted model under the noise of a look, and those of its new terms that lack evidence.
