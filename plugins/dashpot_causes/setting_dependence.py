@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
 MOST_PLACES = 5  # of a table
+RUNS_KEPT = 4  # one after the other, all forms ask for the same changes of a run
 
 
 class SettingDependence(Cause):
@@ -44,8 +46,9 @@ class SettingDependence(Cause):
         """Each parameter of each branch along a straight line over each setting, or with a factor at each of its
         values; a stiffness over it, where the spring has a curve; and a force.
         """
-        for setting in _settings(view):
-            numbers = list(numbers_of(network))
+        settings = list(_settings(view))
+        numbers = list(numbers_of(view, network)) if settings else []
+        for setting in settings:
             if numbers:
                 yield changed(setting, numbers)
             if len(setting.places) > 2:
@@ -97,30 +100,59 @@ class Setting:
         return f"{kind}: {plain_or_quoted(self.name.removeprefix(MEAN))}"
 
 
-@dataclass(frozen=True)
-class Number:
-    """A number of a branch, and what the branch has besides."""
+class Changes:
+    """What the numbers of a branch do to the force, those with ``keys``, as kept for the last few runs."""
 
-    network: NetworkSpec
-    branch: Branch
-    key: str
-    value: Value
+    def __init__(self, view: View, network: NetworkSpec, branch: Branch) -> None:
+        self._view, self._network, self._branch = view, network, branch
+        self._values = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
+        self.keys = [key for key, value in self._values.items() if self._may_depend(key, value)]
+        self.columns = lru_cache(RUNS_KEPT)(self._columns)
 
-    def column(self, view: View, run: str) -> Array:
-        """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
-        known, size = self._in(view.settings(run)), self.value.number
-        near = known[self.key] + NUDGE * abs(size) * np.array([-1.0, 1.0])
-        ends = np.clip(near, *self.value.sensible).tolist()
-        less, more = view.respond(run, self.branch.element.word, [{**known, self.key: end} for end in ends])
-        return np.asarray((more - less) / (ends[1] - ends[0]) * size)
+    def numbers(self) -> Iterator[Number]:
+        """Each of them."""
+        return (Number(self._branch, key, self._values[key], self) for key in self.keys)
+
+    def _may_depend(self, key: str, value: Value) -> bool:
+        found = value.number and not value.setting
+        return bool(found) and (value.over is not None or _stands(self._network, self._branch, key))
+
+    def _columns(self, run: str) -> Mapping[str, Array]:
+        """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
+        known = self._in(self._view.settings(run))
+        ends = {key: self._ends(key, known[key]) for key in self.keys}
+        moved = [{**known, key: end} for key in self.keys for end in ends[key]]
+        forces = self._view.respond(run, self._branch.element.word, moved)
+        return {
+            key: (more - less) / (ends[key][1] - ends[key][0]) * self._values[key].number
+            for key, less, more in zip(self.keys, forces[::2], forces[1::2], strict=True)
+        }
+
+    def _ends(self, key: str, number: float) -> list[float]:
+        value = self._values[key]
+        near = number + NUDGE * abs(value.number) * np.array([-1.0, 1.0])
+        return np.clip(near, *value.sensible).tolist()
 
     def _in(self, told: Mapping[str, float]) -> dict[str, float]:
         """All numbers of the branch, as they are in a run with some settings."""
-        slots = self.network.slots()
-        values = with_settings(self.network, np.array([[slot.value.number for slot in slots]]), told)[0].tolist()
+        slots = self._network.slots()
+        values = with_settings(self._network, np.array([[slot.value.number for slot in slots]]), told)[0].tolist()
         found = {slot.path: value for slot, value in zip(slots, values, strict=True)}
-        keys = (*self.branch.values, *self.branch.curves)
-        return {key: found[f"{self.branch.numbers}.{key}"] for key in keys}
+        return {key: found[f"{self._branch.numbers}.{key}"] for key in self._values}
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a branch."""
+
+    branch: Branch
+    key: str
+    value: Value
+    changes: Changes
+
+    def column(self, run: str) -> Array:
+        """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
+        return self.changes.columns(run)[self.key]
 
 
 def _settings(view: View) -> Iterator[Setting]:
@@ -132,7 +164,7 @@ def _settings(view: View) -> Iterator[Setting]:
             yield setting
 
 
-def numbers_of(network: NetworkSpec) -> Iterator[Number]:
+def numbers_of(view: View, network: NetworkSpec) -> Iterator[Number]:
     """The parameters of a network with two ends that may be written as dependent on a setting.
 
     One that depends on another may be written so in place of that.
@@ -140,12 +172,8 @@ def numbers_of(network: NetworkSpec) -> Iterator[Number]:
     if network.document is None or network.joints:
         return
     for branch in network.leaves():
-        if branch.scale or any(curve.form != "constant" for curve in branch.curves.values()):
-            continue
-        known = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
-        for key, value in known.items():
-            if value.number and not value.setting and (value.over or _stands(network, branch, key)):
-                yield Number(network, branch, key, value)
+        if not branch.scale and all(curve.form == "constant" for curve in branch.curves.values()):
+            yield from Changes(view, network, branch).numbers()
 
 
 def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
@@ -160,7 +188,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     """One or two of the parameters along a straight line over the setting."""
 
     def columns(view: View, run: str) -> Array:
-        return setting.share(run) * np.array([number.column(view, run) for number in numbers])
+        return setting.share(run) * np.array([number.column(run) for number in numbers])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
@@ -189,7 +217,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
 
     def columns(view: View, run: str) -> Array:
         shares = np.array([np.interp(setting.values[run], places, one) for one in np.eye(len(places))])
-        return shares[:, None] * number.column(view, run)
+        return shares[:, None] * number.column(run)
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         factors, reference = factors_of([strength for strength, _ in at_all_places(places, atoms)])
