@@ -100,7 +100,16 @@ def diagnose(
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
     return Diagnosis(
         setting=setting,
-        triage=replace(triage, remarks=(*triage.remarks, *restarts, *limits_of(spec), *remarks_on(pursuit))),
+        triage=replace(
+            triage,
+            remarks=(
+                *triage.remarks,
+                *restarts,
+                *settings_in_words(triage.dataset),
+                *limits_of(spec),
+                *remarks_on(pursuit),
+            ),
+        ),
         fit=fit,
         pursuit=pursuit,
         accused=tuple(accused),
@@ -221,6 +230,20 @@ def limits_of(spec: NetworkSpec) -> list[str]:
     if spec.joints:
         found.append("No further run is simulated to tell causes apart: that is done for networks with two ends only.")
     return found
+
+
+def settings_in_words(dataset: Dataset) -> list[str]:
+    """What no parameter can follow, though runs differ in it."""
+    found: dict[str, dict[str, None]] = {}
+    for run in dataset.runs:
+        for key, word in run.notes.items():
+            found.setdefault(key, {})[word] = None
+    return [
+        f"The setting '{key}' is told in words ({', '.join(words)}), which no parameter can follow: give numbers "
+        "(clicks, 0 and 1) in their place to have a dependence on it looked for."
+        for key, words in found.items()
+        if len(words) > 1
+    ]
 
 
 def remarks_on(pursuit: Pursuit) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from dashpot.text.compose import compose, place_at
@@ -12,6 +13,7 @@ from dashpot.text.problem import InputError, Place
 __all__ = ["Document", "Mapping", "Node", "Scalar", "Sequence"]
 
 MAX_BYTES = 4 * 1024 * 1024
+TEXTS_KEPT = 8  # of no file: each change of a text begins with reading it
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +38,12 @@ class Document:
         """Parse a text; `file` is the name used in messages. Raises InputError."""
         if len(text) > MAX_BYTES:
             raise _too_large(file)
-        return cls(text, file, compose(text, file, ours))
+        return cls(text, file, _composed(text) if file is None else compose(text, file, ours))
+
+
+@lru_cache(TEXTS_KEPT)
+def _composed(text: str) -> Node:
+    return compose(text, None)
 
 
 def _read_bytes(path: Path, file: str) -> bytes:

@@ -1,9 +1,13 @@
-"""What is said of structures that cannot be written."""
+"""What is said of structures that cannot be written, and of settings that cannot be followed."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
+from unit.diagnose.rig import dataset
+
+from dashpot.diagnose.diagnose import settings_in_words
 from dashpot.diagnose.trials import refusals
 
 
@@ -22,3 +26,12 @@ def test_a_term_in_the_place_of_another_is_told_with_it():
     valve, current, friction = map(term, ("valve", "setting_dependence", "friction"))
     (said,) = refusals([valve, current], [current, friction], "the network has no branch 'valve'")
     assert "'friction' could not be written into the network in place of 'valve': " in said
+
+
+def test_a_setting_in_words_is_told_where_runs_differ_in_it():
+    """Numbers in their place may be followed; what is the same in all runs says nothing."""
+    made = dataset()
+    words = [{"valve": ("soft", "hard")[k % 2], "oil": "new"} for k in range(len(made.runs))]
+    runs = [replace(run, notes=note) for run, note in zip(made.runs, words, strict=True)]
+    (said,) = settings_in_words(replace(made, runs=tuple(runs)))
+    assert "'valve'" in said and "soft, hard" in said
