@@ -15,6 +15,8 @@ look          residual, terms and candidates as Gram matrices by group of runs
 score         what a structure predicts of runs left out, and its prior odds
 search        beam search over structures
 evidence      what has to show a fault of the measurement in all runs
+pursuit       the best structure, those beside it, and how sure its causes are
+trials        structures refitted, and what they predict
 pursue        look, search and refit until no structure scores better
 spare         branches of the diagnosed network that may go
 repeats       what repeats of a run tell of faults of its force channel

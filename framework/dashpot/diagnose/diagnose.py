@@ -100,16 +100,7 @@ def diagnose(
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
     return Diagnosis(
         setting=setting,
-        triage=replace(
-            triage,
-            remarks=(
-                *triage.remarks,
-                *restarts,
-                *settings_in_words(triage.dataset),
-                *limits_of(spec),
-                *remarks_on(pursuit),
-            ),
-        ),
+        triage=replace(triage, remarks=(*triage.remarks, *restarts, *remarks_on(spec, triage.dataset, pursuit))),
         fit=fit,
         pursuit=pursuit,
         accused=tuple(accused),
@@ -246,9 +237,10 @@ def settings_in_words(dataset: Dataset) -> list[str]:
     ]
 
 
-def remarks_on(pursuit: Pursuit) -> list[str]:
-    """What to say of the search."""
-    found = [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
+def remarks_on(spec: NetworkSpec, dataset: Dataset, pursuit: Pursuit) -> list[str]:
+    """What the diagnosis could not do, and how the search ended."""
+    found = [*settings_in_words(dataset), *limits_of(spec)]
+    found += [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
     groups = pursuit.look.folds.groups
     if groups < FEWEST:
         found.append(

@@ -20,17 +20,8 @@ Json = Mapping[str, Any]
 
 POINTS = 1200
 ENERGIES = {"J": 1.0, "mJ": 1e-3}
-FEW = (
-    "run",
-    "amplitude",
-    "peak_speed",
-    "least_force",
-    "largest_force",
-    "energy",
-    "stiffness",
-    "loss",
-    "remark",
-)  # for a terminal
+# for a terminal
+FEW = ("run", "amplitude", "peak_speed", "least_force", "largest_force", "energy", "stiffness", "loss", "remark")
 
 COLUMNS = (
     Column("run", "run"),
