@@ -62,11 +62,16 @@ class Trials:
         return found
 
     def _each(self, scores: Scores, asked: Sequence[_Asked]) -> list[Scored | None]:
-        """Each of some models with other terms, refitted."""
+        """Each of some models with other terms, refitted.
+
+        What could not be written is told, but for a term that only lacks another one, which is to go.
+        """
         terms = dict.fromkeys(term for one in asked for term in (*scores.look.model.terms, *one.terms))
         found = forked(partial(self._refitted, scores), asked, self.refitter.jobs, (*terms,))
         for one, (_, refusal) in zip(asked, found, strict=True):
-            self.refused += refusals(scores.look.model.terms, one.terms, refusal) if refusal else []
+            laws = [term for term in one.model.terms if not term.cause.changes_numbers]
+            if refusal and not self._can_be_written(one.model, list(dict.fromkeys((*laws, *one.terms)))):
+                self.refused += refusals(scores.look.model.terms, one.terms, refusal)
         return [scored for scored, _ in found]
 
     def _refitted(self, scores: Scores, asked: _Asked) -> tuple[Scored | None, str]:
