@@ -102,7 +102,7 @@ def look_at(
         noise = weighed(searched_noise(left, plain, runs), columns.residual, runs)
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
         faults = _shapes(kinds, view, runs, plain)
-        alone, rich = recorded_noise(rows, grams.sum(axis=0), first, plain, runs, faults)
+        alone, rich = recorded_noise(rows, grams, folds, first, plain, runs, faults)
         alone = stated(alone, refitter.sensors, runs)
     else:
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
@@ -214,7 +214,8 @@ def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[S
 
 def recorded_noise(
     rows: Mapping[str, Array],
-    gram: Array,
+    grams: Array,
+    folds: Folds,
     first: int,
     plain: Noise,
     runs: Sequence[ScoredRun],
@@ -222,25 +223,44 @@ def recorded_noise(
 ) -> tuple[Noise, float]:
     """The noise of the records alone, an autoregressive model of what all columns together leave, and its RMS in N.
 
-    The residual is row ``first``, ``gram`` (c, c) that of all runs; ``faults`` (k, kept) that a run may have by itself
-    are no noise. What the columns take up of the noise itself is made up for by the degrees of freedom, where more than
-    half of them are left.
+    The residual is row ``first``, ``grams`` (folds, c, c) are those of all rows; ``faults`` (k, kept) that a run may
+    have by itself are no noise. What the columns and faults take up of the noise itself is made up for by the degrees
+    of freedom of each run, where more than half of them are left.
     """
     from scipy.linalg import cho_factor, cho_solve
 
+    gram = grams.sum(axis=0)
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    matrix, others = gram / np.outer(scale, scale), np.arange(len(scale)) != first
-    factor = cho_factor(matrix[np.ix_(others, others)] + RIDGE * np.eye(len(scale) - 1))
+    others = np.flatnonzero(np.arange(len(scale)) != first)
+    unit = np.outer(scale, scale)
+    factor = cho_factor((gram / unit)[np.ix_(others, others)] + RIDGE * np.eye(others.size))
     strengths = np.zeros(len(scale))
-    strengths[others] = cho_solve(factor, matrix[others, first])
+    strengths[others] = cho_solve(factor, (gram / unit)[others, first])
     strengths *= scale[first] / scale
-    used = len(scale) - 1 - RIDGE * float(np.trace(cho_solve(factor, np.eye(len(scale) - 1))))
-    rests, residuals = {}, {}
+    inverse = np.zeros_like(gram)
+    inverse[np.ix_(others, others)] = cho_solve(factor, np.eye(others.size))
+    used = np.array([np.sum(inverse * (part / unit)) for part in grams])
+    left = _degrees_left(used, folds, {run.name: plain.kept(run.name, run.samples) for run in runs})
+    noise = {}
     for run in runs:
-        found = rows[run.name]
-        rests[run.name], residuals[run.name] = found[first] - strengths @ found, found[first].copy()
-    left = 1.0 - used / sum(rest.size for rest in rests.values())
-    freed = {run: rest / np.sqrt(left) for run, rest in rests.items()} if left > LEFT else residuals
-    noise = {run.name: _beside_shapes(freed[run.name], faults[run.name]) for run in runs}
+        found, shapes = rows[run.name], faults[run.name]
+        enough = left[run.name] > LEFT
+        rest = (found[first] - strengths @ found) / np.sqrt(left[run.name]) if enough else found[first].copy()
+        free = 1.0 - np.linalg.matrix_rank(shapes) / rest.size if shapes.size else 1.0
+        noise[run.name] = _beside_shapes(rest, shapes) / np.sqrt(free) if free > LEFT else rest
     filters = {run.name: learn_filter(noise[run.name], _smallest(run)) for run in runs}
     return replace(plain, filters=filters), float(np.sqrt(np.mean([np.mean(rest**2) for rest in noise.values()])))
+
+
+def _degrees_left(used: Array, folds: Folds, kept: Mapping[str, int]) -> dict[str, float]:
+    """The share of the ``kept`` samples of each run that is left by columns which ``used`` (folds,) of each fold."""
+    parts = {run: folds.of_run(run, size) for run, size in kept.items()}
+    samples = np.zeros(used.size)
+    for found in parts.values():
+        for fold, part in found:
+            samples[fold] += part.stop - part.start
+    share = used / np.maximum(samples, 1.0)
+    return {
+        run: 1.0 - sum(share[fold] * (part.stop - part.start) for fold, part in found) / max(kept[run], 1)
+        for run, found in parts.items()
+    }

@@ -109,7 +109,7 @@ def reduction(dt: float, highest_frequency: float) -> int:
 
 
 def learn_filter(rest: Array, smallest: float) -> Array:
-    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N.
+    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N, of the order with the lowest BIC.
 
     ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
     Source: the Yule-Walker equations.
@@ -119,8 +119,11 @@ def learn_filter(rest: Array, smallest: float) -> Array:
     lags = range(min(ORDER + 1, max(rest.size, 1)))
     covariance = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
     covariance[0] = max(covariance[0] * (1.0 + 1e-9), smallest**2)
-    if rest.size <= 4 * ORDER:
-        return np.concatenate([[1.0 / np.sqrt(covariance[0])], np.zeros(ORDER)])
-    prediction = np.concatenate([[1.0], -solve_toeplitz(covariance[:-1], covariance[1:])])
-    variance = max(float(prediction @ covariance), smallest**2)
-    return prediction / np.sqrt(variance)
+    best, lowest = np.zeros(0), np.inf
+    for order in range(covariance.size if rest.size > 4 * ORDER else 1):
+        past = solve_toeplitz(covariance[:order], covariance[1 : order + 1]) if order else np.zeros(0)
+        variance = max(float(covariance[0] - past @ covariance[1 : order + 1]), smallest**2)
+        bic = rest.size * np.log(variance) + order * np.log(max(rest.size, 1))
+        if bic < lowest:
+            best, lowest = np.concatenate([[1.0], -past, np.zeros(ORDER - order)]) / np.sqrt(variance), bic
+    return best
