@@ -14,6 +14,7 @@ from dashpot.diagnose.term import first_model
 from dashpot.kernel.eager import simulate_eagerly
 from dashpot.model.patch import add_branch, replace_branch
 from dashpot.model.reading import parse_network
+from dashpot.text.problem import InputError
 
 DAMPERS = {
     "damper": "damping: 300 N*s/m",
@@ -231,8 +232,21 @@ def test_settings_that_do_not_change_or_are_not_known_give_nothing():
     assert dependence(view=Silent()) == []
 
 
-def test_a_number_that_depends_already_is_left_alone():
+def test_a_number_that_depends_already_may_depend_on_something_else_in_its_place():
+    """Not beside it: that cannot be written."""
     over = "{fixed: 300 N*s/m, over: {setting: pressure, at: 0, slope: 1}}"
     text = NETWORK.replace("damping: 300 N*s/m", f"damping: {over}")
     numbers, _ = dependence(text)
-    assert len(numbers.grid) == 1
+    assert len(numbers.grid) == 2
+    with pytest.raises(InputError, match="without 'over'"):
+        numbers.extend(text, [(0.5, 1.0)])
+    assert "over" in numbers.extend(NETWORK, [(0.5, 1.0)])
+
+
+def test_what_a_number_does_is_the_derivative_of_the_force_where_the_run_has_it():
+    """300 N*s/m and 1 N*s/m for each Pa: a dashpot at the pressure of each run, by the size that the file tells."""
+    over = "{fixed: 300 N*s/m, over: {setting: pressure, at: 0, slope: 1}}"
+    numbers, _ = dependence(NETWORK.replace("damping: 300 N*s/m", f"damping: {over}"))
+    plain, _ = dependence()
+    for run in VIEW.runs:
+        assert numbers.columns(VIEW, run)[1] == pytest.approx(plain.columns(VIEW, run)[1], rel=1e-6)
