@@ -66,7 +66,7 @@ class Heating(Cause):
 
 
 def _from_run_to_run(view: View, network: NetworkSpec) -> Iterable[Suspect]:
-    places, numbers = order_of(view), list(numbers_of(view, network))
+    places, numbers = order_of(view), list(numbers_of(network))
     if not places:
         return
     order = Setting.of(ORDER, {run: view.settings(run)[ORDER] for run in places})

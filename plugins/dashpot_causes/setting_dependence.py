@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
 MOST_PLACES = 5  # of a table
-RUNS_KEPT = 4  # one after the other, all forms ask for the same changes of a run
+RUNS_KEPT = 2  # all forms ask for the same changes of a run, one after the other; runs may be seen at once
 
 
 class SettingDependence(Cause):
@@ -47,7 +47,7 @@ class SettingDependence(Cause):
         values; a stiffness over it, where the spring has a curve; and a force.
         """
         settings = list(_settings(view))
-        numbers = list(numbers_of(view, network)) if settings else []
+        numbers = list(numbers_of(network)) if settings else []
         for setting in settings:
             if numbers:
                 yield changed(setting, numbers)
@@ -101,36 +101,47 @@ class Setting:
 
 
 class Changes:
-    """What the numbers of a branch do to the force, those with ``keys``, as kept for the last few runs."""
+    """What the numbers of a branch with ``keys`` do to the force, as kept for the last runs of a view."""
 
-    def __init__(self, view: View, network: NetworkSpec, branch: Branch) -> None:
-        self._view, self._network, self._branch = view, network, branch
+    def __init__(self, network: NetworkSpec, branch: Branch) -> None:
+        self._network, self._branch = network, branch
         self._values = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
         self.keys = [key for key, value in self._values.items() if self._may_depend(key, value)]
-        self.columns = lru_cache(RUNS_KEPT)(self._columns)
+        self._view: Callable[[], View | None] = lambda: None
+        self._kept: dict[str, Mapping[str, Array]] = {}
 
     def numbers(self) -> Iterator[Number]:
         """Each of them."""
         return (Number(self._branch, key, self._values[key], self) for key in self.keys)
 
+    def columns(self, view: View, run: str) -> Mapping[str, Array]:
+        """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
+        if self._view() is not view:
+            self._view, self._kept = ref(view), {}
+        found = self._kept.get(run)
+        if found is None:
+            found = self._columns(view, run)
+            self._kept = dict([*self._kept.items(), (run, found)][-RUNS_KEPT:])
+        return found
+
     def _may_depend(self, key: str, value: Value) -> bool:
         found = value.number and not value.setting
         return bool(found) and (value.over is not None or _stands(self._network, self._branch, key))
 
-    def _columns(self, run: str) -> Mapping[str, Array]:
-        """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
-        known = self._in(self._view.settings(run))
+    def _columns(self, view: View, run: str) -> Mapping[str, Array]:
+        known = self._in(view.settings(run))
         ends = {key: self._ends(key, known[key]) for key in self.keys}
         moved = [{**known, key: end} for key in self.keys for end in ends[key]]
-        forces = self._view.respond(run, self._branch.element.word, moved)
+        forces = view.respond(run, self._branch.element.word, moved)
         return {
             key: (more - less) / (ends[key][1] - ends[key][0]) * self._values[key].number
             for key, less, more in zip(self.keys, forces[::2], forces[1::2], strict=True)
         }
 
     def _ends(self, key: str, number: float) -> list[float]:
+        """A little less and more than a number, on the same side of zero."""
         value = self._values[key]
-        near = number + NUDGE * abs(value.number) * np.array([-1.0, 1.0])
+        near = number + NUDGE * (abs(number) or abs(value.number)) * np.array([-1.0, 1.0])
         return np.clip(near, *value.sensible).tolist()
 
     def _in(self, told: Mapping[str, float]) -> dict[str, float]:
@@ -150,9 +161,9 @@ class Number:
     value: Value
     changes: Changes
 
-    def column(self, run: str) -> Array:
+    def column(self, view: View, run: str) -> Array:
         """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
-        return self.changes.columns(run)[self.key]
+        return self.changes.columns(view, run)[self.key]
 
 
 def _settings(view: View) -> Iterator[Setting]:
@@ -164,7 +175,7 @@ def _settings(view: View) -> Iterator[Setting]:
             yield setting
 
 
-def numbers_of(view: View, network: NetworkSpec) -> Iterator[Number]:
+def numbers_of(network: NetworkSpec) -> Iterator[Number]:
     """The parameters of a network with two ends that may be written as dependent on a setting.
 
     One that depends on another may be written so in place of that.
@@ -173,7 +184,7 @@ def numbers_of(view: View, network: NetworkSpec) -> Iterator[Number]:
         return
     for branch in network.leaves():
         if not branch.scale and all(curve.form == "constant" for curve in branch.curves.values()):
-            yield from Changes(view, network, branch).numbers()
+            yield from Changes(network, branch).numbers()
 
 
 def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
@@ -188,7 +199,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     """One or two of the parameters along a straight line over the setting."""
 
     def columns(view: View, run: str) -> Array:
-        return setting.share(run) * np.array([number.column(run) for number in numbers])
+        return setting.share(run) * np.array([number.column(view, run) for number in numbers])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
@@ -217,7 +228,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
 
     def columns(view: View, run: str) -> Array:
         shares = np.array([np.interp(setting.values[run], places, one) for one in np.eye(len(places))])
-        return shares[:, None] * number.column(run)
+        return shares[:, None] * number.column(view, run)
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         factors, reference = factors_of([strength for strength, _ in at_all_places(places, atoms)])

@@ -31,6 +31,7 @@ from dashpot.diagnose.term import first_model
 from dashpot.diagnose.trials import Trials
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
+from dashpot.fit.driven import NOTE
 from dashpot.fit.grounding import free_curves
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.refine import Outcome
@@ -224,16 +225,16 @@ def limits_of(spec: NetworkSpec) -> list[str]:
 
 
 def settings_in_words(dataset: Dataset) -> list[str]:
-    """What no parameter can follow, though runs differ in it."""
-    found: dict[str, dict[str, None]] = {}
+    """What no parameter can follow, though groups of runs differ in it; a word for each run only names them."""
+    found: dict[str, list[str]] = {}
     for run in dataset.runs:
         for key, word in run.notes.items():
-            found.setdefault(key, {})[word] = None
+            found.setdefault(key, []).append(word)
     return [
-        f"The setting '{key}' is told in words ({', '.join(words)}), which no parameter can follow: give numbers "
-        "(clicks, 0 and 1) in their place to have a dependence on it looked for."
+        f"The setting '{key}' is told in words ({', '.join(dict.fromkeys(words))}), which no parameter can follow: "
+        "give numbers (clicks, 0 and 1) in their place to have a dependence on it looked for."
         for key, words in found.items()
-        if len(words) > 1
+        if key != NOTE and 1 < len(set(words)) < len(words)
     ]
 
 

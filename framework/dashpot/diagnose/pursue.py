@@ -174,7 +174,6 @@ class Pursuer:
 
     def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
         """The structure without each of some sets of terms, refitted."""
-
         refitter = self.trials.refitter
 
         def refitted(gone: tuple[Term, ...]) -> Without:

@@ -100,14 +100,14 @@ class Trials:
     def _with_dependence(self, scores: Scores, asked: _Asked, trial: Scored) -> _Asked | None:
         """A refitted structure with the best dependence of its numbers, where it scores better to first order."""
         look, terms = scores.look, trial.model.terms
-        causes = [term.cause for term in asked.terms if term not in terms]
+        kept = self._writable(asked)
+        causes = [term.cause for term in asked.terms if term not in kept]
         if any(term.cause.kind == "specimen" for term in terms if term not in look.model.terms):
             causes += [one.cause for one in look.candidates if one.cause.changes_numbers]
         if not causes:
             return None
-        beside = Scores(
-            look_at(self.refitter, trial.model, [*dict.fromkeys(causes)], self.folds, look.noise, self.doubted)
-        )
+        each = [*dict.fromkeys(causes)]
+        beside = Scores(look_at(self.refitter, trial.model, each, self.folds, look.noise, self.doubted))
         found = [Structure(added=frozenset({one})) for one in additions(beside, Structure())]
         written = [one for one in found if self._can_be_written(trial.model, terms_of(beside, one))]
         best = min([Structure(), *written], key=beside.score)

@@ -29,9 +29,9 @@ def test_a_term_in_the_place_of_another_is_told_with_it():
 
 
 def test_a_setting_in_words_is_told_where_runs_differ_in_it():
-    """Numbers in their place may be followed; what is the same in all runs says nothing."""
+    """Numbers in their place may be followed; what is the same in all runs, or another word in each, says nothing."""
     made = dataset()
-    words = [{"valve": ("soft", "hard")[k % 2], "oil": "new"} for k in range(len(made.runs))]
+    words = [{"valve": ("soft", "hard")[k % 2], "oil": "new", "day": f"day {k}"} for k in range(len(made.runs))]
     runs = [replace(run, notes=note) for run, note in zip(made.runs, words, strict=True)]
     (said,) = settings_in_words(replace(made, runs=tuple(runs)))
     assert "'valve'" in said and "soft, hard" in said

@@ -29,7 +29,6 @@ def measured():
         replace(
             run,
             settings={**run.settings, "current": LIMITS[run.name] / 20.0 - 1.0, "warmth": TEMPERATURE[run.name]},
-            held_out=False,
         )
         for run in told
     ]
@@ -75,7 +74,7 @@ def test_the_dependence_of_a_law_is_found_again_in_the_law_that_takes_its_place(
 def test_a_dependence_may_take_the_place_of_one_of_the_same_number(found):
     """Nothing follows the warmth: with it in place of the current the runs are predicted worse."""
     trials, scores = found
-    numbers = [number.key for number in numbers_of(scores.look.view, scores.look.model.fitted)]
+    numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
     (trial,) = trials.refitted(scores, [best_of(scores, 1, "a number over warmth", [numbers.index("limit")])])
     assert [term.suspect.form for term in trial.model.terms][1] == "a number over warmth"
     assert trial.score > scores.score(Structure()) + 10.0
@@ -84,7 +83,7 @@ def test_a_dependence_may_take_the_place_of_one_of_the_same_number(found):
 def test_a_dependence_of_a_law_that_goes_is_refused_without_a_word(found):
     """Nobody asked for it: the search tries what may join in the place of what."""
     trials, scores = found
-    numbers = [number.key for number in numbers_of(scores.look.view, scores.look.model.fitted)]
+    numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
     structure = best_of(scores, 0, "a number over warmth", [numbers.index("limit")])
     assert trials.refitted(scores, [Structure(frozenset({0, 1}), structure.added)]) == [None]
     assert not trials.refused
