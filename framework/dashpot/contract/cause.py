@@ -125,7 +125,8 @@ class ChannelFault:
     the run right. ``evidence_of`` says what shows it: ``repeats`` where runs under the same conditions have to
     disagree, ``at_rest`` where it acts without motion, which ``evidence`` then tells in words. Where it ``scatters``,
     specimens differ like that from one test to the next as well, as in stiffness and zero: then a repeat has to stand
-    out from the scatter of all repeats. ``alike(view, run)`` are shapes (m, k, n) of faults like it that no rig has,
+    out from the scatter of all repeats. Where it does not, it is what no change of the model's numbers from one test
+    to the next explains. ``alike(view, run)`` are shapes (m, k, n) of faults like it that no rig has,
     such as lines beside that of the mains: what these explain is the error of the model. The last ``free`` shapes go
     along with the others, and are no evidence of the fault.
 

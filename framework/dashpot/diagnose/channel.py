@@ -37,6 +37,7 @@ from dashpot.diagnose.repeats import (
     plain_noise,
     repeats_of,
     rows_of,
+    strengths_by_repeats,
 )
 from dashpot.diagnose.score import RIG_ODDS, Odds
 from dashpot.diagnose.whitening import independent_share
@@ -126,7 +127,7 @@ def accuse(
         while superfluous := selection.superfluous(chosen):
             dropped |= superfluous
             chosen = {key: evidence for key, evidence in chosen.items() if key not in superfluous}
-    return _accused(solver, chosen, kinds)
+    return _accused(solver, chosen, kinds, _by_repeats(alone, chosen, pairs))
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,8 +252,21 @@ def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault
     return overdispersion(nats, len(rows.shapes[key]))
 
 
-def _accused(solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind]) -> list[Accused]:
-    strengths = solver.strengths(list(chosen))
+def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) -> dict[Key, Array]:
+    """The strengths of faults that sound repeats show: what the model leaves of both runs is no part of them."""
+    accused, found = {run for run, _ in chosen}, dict[Key, Array]()
+    for run in accused:
+        keys = [key for key, words in chosen.items() if key[0] == run and words.startswith("repeats")]
+        sound = [name for pair in pairs if run in pair for name in pair if name not in accused]
+        if keys and sound:
+            found |= zip(keys, strengths_by_repeats(rows, run, sound, [kind for _, kind in keys]), strict=True)
+    return found
+
+
+def _accused(
+    solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind], known: dict[Key, Array]
+) -> list[Accused]:
+    strengths = solver.strengths(list(chosen)) | known
     found = []
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
@@ -278,7 +292,7 @@ def _evidence(
     run, kind = key
     if kinds[kind].fault.evidence_of != "repeats":
         return f"{kinds[kind].fault.evidence_of}|{kinds[kind].fault.evidence}"
-    demonstrated = pairs_that_differ(rows, pairs, kind, price, kinds[kind].fault.free)
+    demonstrated = pairs_that_differ(rows, pairs, kind, kinds[kind].fault, price)
     if kinds[kind].fault.scatters:
         demonstrated = [pair for pair in demonstrated if outlier(rows, pair, pairs, kind) > price]
     differ = [name for pair in demonstrated if run in pair for name in pair if name != run]

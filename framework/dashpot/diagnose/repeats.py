@@ -70,8 +70,8 @@ def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mappin
     price = Odds(len(kinds) * max(len(pairs), 1)).price("specimen")
     found = []
     for number, kind in enumerate(kinds):
-        if pairs_that_differ(rows, pairs, number, price, kind.fault.free):
-            strengths = np.array([strengths_of(*_difference(rows, *pair, number)) for pair in pairs])
+        if pairs_that_differ(rows, pairs, number, kind.fault, price):
+            strengths = np.array([strengths_of(*_difference(rows, *pair, [number])) for pair in pairs])
             found.append(Doubt(kind.fault, np.sqrt(np.mean(strengths**2, axis=0))))
     return found
 
@@ -101,17 +101,23 @@ def begun_together(runs: Sequence[ScoredRun], groups: Mapping[str, str]) -> list
     return [replace(run, first=first[groups[run.name], run.end, run.force.size]) for run in runs]
 
 
-def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, price: float, free: int = 0) -> list[Pair]:
-    """The pairs of repeats that differ by a kind of fault, and not as all the others do from test to test.
+def pairs_that_differ(rows: Rows, pairs: Sequence[Pair], kind: int, fault: ChannelFault, price: float) -> list[Pair]:
+    """The pairs of repeats that differ by a ``fault`` of a kind, and not as all the others do from test to test.
 
-    The last ``free`` shapes of the fault are no evidence of it.
+    What only goes along with it is no evidence. Where specimens do not differ by such a fault from test to test, it is
+    what their numbers do not explain: dry friction that is another one in a single stroke there and back would else
+    pass for a drift.
     """
-    strengths = {pair: strengths_of(*_difference(rows, *pair, kind)) for pair in pairs}
+    size = len(rows.shapes[next(iter(rows.residual)), kind])
+    differences = {
+        pair: _difference(rows, *pair, [kind], None if fault.scatters else _numbers(rows, *pair)) for pair in pairs
+    }
+    strengths = {pair: strengths_of(*found)[:size] for pair, found in differences.items()}
     found = []
     for pair in pairs:
         others = [strengths[other] for other in pairs if other != pair]
-        usual = np.mean(others, axis=0) if others else np.zeros_like(strengths[pair])
-        if _contrast(*_difference(rows, *pair, kind), usual, free) > price + usual.size - free:
+        usual = np.mean(others, axis=0) if others else np.zeros(size)
+        if _contrast(*differences[pair], usual, size - fault.free) > price + size - fault.free:
             found.append(pair)
     return found
 
@@ -125,7 +131,7 @@ def outlier(rows: Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
     squares = {}
     for one, other in pairs:
         shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
-        shown = strengths_of(*_difference(rows, one, other, kind)) @ shapes
+        shown = strengths_of(*_difference(rows, one, other, [kind])) @ shapes
         squares[one, other] = float(np.mean(shown**2))
     scatter = sum(square for other, square in squares.items() if other != pair)
     if len(pairs) < 2 or scatter <= 0.0:
@@ -133,25 +139,42 @@ def outlier(rows: Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
     return 0.5 * len(rows.shapes[pair[0], kind]) * len(pairs) * float(np.log1p(squares[pair] / scatter))
 
 
-def _difference(rows: Rows, one: str, other: str, kind: int) -> tuple[Array, Array]:
-    """The difference (n,) between two repeats, and the shapes (k, n) of a kind of fault.
+def strengths_by_repeats(rows: Rows, run: str, others: Sequence[str], kinds: Sequence[int]) -> list[Array]:
+    """The strengths (k,) of faults of a run, together, by which it differs from sound repeats: no model takes part."""
+    sizes = [len(rows.shapes[run, kind]) for kind in kinds]
+    each = [np.sqrt(2.0) * strengths_of(*_difference(rows, run, other, kinds)) for other in others]
+    return np.split(np.mean(each, axis=0), np.cumsum(sizes)[:-1])
+
+
+def _difference(
+    rows: Rows, one: str, other: str, kinds: Sequence[int], also: Array | None = None
+) -> tuple[Array, Array]:
+    """The difference (n,) between two repeats over root 2, and the shapes (k, n) of some kinds of faults, others last.
 
     Whitened by what the shapes leave of the difference: the error of the model cancels in it.
     """
-    shapes = (rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0
+    found = [(rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0 for kind in kinds]
+    shapes = np.concatenate(found if also is None else [*found, also])
     difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
     coefficients = learn_filter(beside(difference, shapes), rows.smallest[one])
     return filtered(difference, coefficients), filtered(shapes, coefficients)
 
 
-def _contrast(difference: Array, shapes: Array, usual: Array, free: int) -> float:
-    """The nats that shapes explain of a difference, beyond what nothing and the ``usual`` strengths (k,) do.
+def _numbers(rows: Rows, one: str, other: str) -> Array:
+    """What a change of each number of the model does to two repeats (p, n), of the same size."""
+    tangents = rows.tangents[one] + rows.tangents[other]
+    sizes = np.sqrt(np.mean(tangents**2, axis=1))
+    return np.asarray(tangents[sizes > 0.0] / sizes[sizes > 0.0, None])
 
-    And beyond what the last ``free`` ones explain.
+
+def _contrast(difference: Array, shapes: Array, usual: Array, size: int) -> float:
+    """The nats that the first shapes, so many, explain of a difference beside all others.
+
+    Beyond what nothing and the ``usual`` strengths (k,) of the first ones do.
     """
-    rest, last = beside(difference, shapes), shapes[len(shapes) - free :]
-    before = min(float(left @ left) for left in (beside(difference, last), beside(difference - usual @ shapes, last)))
-    explained = before / max(float(rest @ rest), 1e-300)
+    rest, others = beside(difference, shapes), shapes[size:]
+    lefts = (beside(difference, others), beside(difference - usual @ shapes[: usual.size], others))
+    explained = min(float(left @ left) for left in lefts) / max(float(rest @ rest), 1e-300)
     return 0.5 * difference.size * independent_share(rest) * float(np.log(explained))
 
 

@@ -14,8 +14,9 @@ from dashpot.fit.ranges import Sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
-from dashpot.model.reading import parse_network
+from dashpot.model.reading import build_network
 from dashpot.model.sites import Site
+from dashpot.text.document import Document
 
 Array = NDArray[np.float64]
 
@@ -123,7 +124,8 @@ def extended(
     Raises InputError for a term that cannot be written into the network.
     """
     known = {slot.path for slot in network.slots()}
-    declared = parse_network(term.suspect.extend(network.text, term.atoms), elements, network.file)
+    document = Document.parse(term.suspect.extend(network.text, term.atoms), network.file, ours=True)
+    declared = build_network(document, elements)
     return declared, tuple(slot.path for slot in declared.slots() if slot.path not in known)
 
 

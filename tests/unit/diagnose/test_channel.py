@@ -5,7 +5,21 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from unit.diagnose.rig import MOTIONS, NOISE, SAMPLES, STEP, Motion, bench, causes, dataset, line, plain
+from unit.diagnose.rig import (
+    MOTIONS,
+    NETWORK,
+    NOISE,
+    SAMPLES,
+    STEP,
+    TIME,
+    Motion,
+    bench,
+    causes,
+    dataset,
+    friction,
+    line,
+    plain,
+)
 
 from dashpot.contract.registry import load_registry
 from dashpot.data.run import Run
@@ -28,9 +42,9 @@ FAULTS = {
 }
 
 
-def examined(data, doubted=False):
+def examined(data, doubted=False, text=NETWORK):
     """Accusations by (run, word), of a bench at which nothing is missing in the network."""
-    made = bench(data)
+    made = bench(data, text)
     look = look_at(made.refitter, made.model, causes(*WORDS), folds_of(made.refitter.runs, made.groups))
     kinds = kinds_of(causes(*WORDS), look)
     differ = doubts(made.refitter, look, kinds, made.groups)
@@ -131,6 +145,42 @@ def test_a_difference_of_two_repeats_accuses_one_of_them():
     """What both of them have beside, here 20 N at that preload, is no fault of the other one."""
     fault = {"again": lambda force: 1.03 * force + 20.0, "a3_p8": lambda force: force + 20.0}
     assert len({run for run, _ in examined(dataset(repeats=AGAIN, fault=fault))}) == 1
+
+
+@pytest.mark.parametrize("both", [0.0, 60.0])
+def test_a_fault_is_as_large_as_its_run_differs_from_the_repeat(both):
+    """What both have, a force of the specimen that grows through the run, is no fault of one of them."""
+
+    def drifts(by):
+        return lambda force: force + np.linspace(-0.5 * by, 0.5 * by, force.size)
+
+    found = examined(dataset(repeats=AGAIN, fault={"again": drifts(both + 20.0), "a3_p8": drifts(both)}))
+    assert set(found) == {("again", "drift")}
+    assert found["again", "drift"].strengths == pytest.approx([20.0, -10.0], abs=2.0)
+
+
+class Stroke(Motion):
+    """There and back once."""
+
+    def phase(self, time=TIME):
+        return 2.0 * np.pi * time / TIME[-1] - 0.5 * np.pi
+
+    def v(self, time=TIME):
+        return self.amplitude * np.cos(self.phase(time)) * 2.0 * np.pi / TIME[-1]
+
+
+SLIDER = NETWORK + "  slider: {element: prandtl, stiffness: {start: 100 N/mm}, limit: {start: 20 N}}\n"
+
+
+@pytest.mark.parametrize(("drift", "accused"), [(0.0, False), (60.0, True)])
+def test_friction_that_is_another_one_in_a_single_stroke_there_and_back_is_no_drift(drift, accused):
+    """It changes its sign at the end of the stroke, as a zero that drifts about goes from one side to the other."""
+    strokes = {name: Stroke(motion.amplitude, motion.preload) for name, motion in MOTIONS.items()}
+    more = friction(strokes["a3_p8"], 10.0) + np.linspace(0.0, drift, SAMPLES)
+    data = dataset(
+        lambda motion: plain(motion) + friction(motion), 0, strokes, AGAIN, fault={"again": lambda force: force + more}
+    )
+    assert ("drift" in {word for _, word in examined(data, text=SLIDER)}) == accused
 
 
 def test_a_doubted_fault_is_as_large_as_repeats_differ():
