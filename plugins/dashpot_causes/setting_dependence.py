@@ -15,6 +15,7 @@ from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
+from dashpot.text.quantity import in_unit
 from dashpot_causes.factors import at_all_places, factors_of
 from dashpot_causes.session import HISTORY
 
@@ -60,18 +61,22 @@ class SettingDependence(Cause):
 
 @dataclass(frozen=True)
 class Setting:
-    """A setting by the name under which runs have it, with its mean over them and how far it goes."""
+    """A setting by the name under which runs have it, with its mean over them and how far it goes, all in SI.
+
+    ``unit`` is the one in which they tell it.
+    """
 
     name: str
     middle: float
     spread: float
     values: Mapping[str, float]
+    unit: str = ""
 
     @classmethod
-    def of(cls, name: str, values: Mapping[str, float]) -> Setting:
+    def of(cls, name: str, values: Mapping[str, float], unit: str = "") -> Setting:
         """The setting with its values by run."""
         middle = float(f"{np.mean(list(values.values())):.{DIGITS}g}")
-        return cls(name, middle, max(values.values()) - min(values.values()), values)
+        return cls(name, middle, max(values.values()) - min(values.values()), values, unit)
 
     def share(self, run: str) -> float:
         """How far a run is from the middle, over the spread."""
@@ -86,13 +91,16 @@ class Setting:
 
     def over(self, slope: float) -> str:
         """The dependence as it stands in a file, with a slope to be found."""
-        return f"{self._word}, at: {self.middle:.{DIGITS}g}, slope: {{start: {slope:.{DIGITS}g}}}"
+        return f"{self._word}, at: {self._told(self.middle)}, slope: {{start: {slope:.{DIGITS}g}}}"
 
     def table(self, factors: Sequence[float], reference: int) -> str:
         """The dependence as a table, with factors to be found at all places but one."""
         texts = ["1" if k == reference else f"{{start: {factor:.5g}}}" for k, factor in enumerate(factors)]
-        at = ", ".join(f"{place:.{DIGITS}g}" for place in self.places)
+        at = ", ".join(map(self._told, self.places))
         return f"{self._word}, at: [{at}], factor: [{', '.join(texts)}]"
+
+    def _told(self, value: float) -> str:
+        return in_unit(value, self.unit, DIGITS)
 
     @property
     def _word(self) -> str:
@@ -170,7 +178,7 @@ def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
     for name in sorted(common - OF_THE_MOTION):
-        setting = Setting.of(name, {run: each[name] for run, each in found.items()})
+        setting = Setting.of(name, {run: each[name] for run, each in found.items()}, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
             yield setting
 

@@ -74,6 +74,9 @@ class View(Protocol):
         ``mean of temperature``.
         """
 
+    def unit_of(self, setting: str) -> str:
+        """The unit in which the runs tell a setting, as ``bar``; nothing for a bare number."""
+
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) in N of the present model if the deflection were larger by ``change`` (n,) in m."""
 

@@ -159,5 +159,6 @@ def _like_first(run: Run, known: Mapping[str, Run]) -> Run:
         repeats=name,
         settings={**first.settings, **run.settings},
         notes={**first.notes, **run.notes},
+        units={**first.units, **run.units},
         held_out=held_out,
     )

@@ -13,7 +13,7 @@ from dashpot.text.name import RULE, is_name, shown
 from dashpot.text.node import Mapping as MappingNode
 from dashpot.text.node import Node, Scalar
 from dashpot.text.problem import Place, Problem
-from dashpot.text.quantity import measure
+from dashpot.text.quantity import measure, unit_of
 
 SETTING_UNITS = {
     "amplitude": "m",
@@ -52,6 +52,7 @@ class RunDeclaration:
     channels: tuple[Channel, ...]
     settings: Mapping[str, float]
     notes: Mapping[str, str]
+    units: Mapping[str, str]
     repeats: str | None
     held_out: bool | None
     set_aside: str | None
@@ -105,7 +106,7 @@ def _title(node: Node, file: str | None, order: int) -> str:
 def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
     path = form.text("file") if file is None else form.text("file", file)
     time, sampling, channels = read_channels(form)
-    settings, notes = read_settings(form)
+    settings, notes, units = read_settings(form)
     return RunDeclaration(
         name=read_name(form, path),
         file=path,
@@ -115,6 +116,7 @@ def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
         channels=channels,
         settings=settings,
         notes=notes,
+        units=units,
         repeats=form.text("repeats", None),
         held_out=form.flag("held_out", None),
         set_aside=form.text("set_aside", None),
@@ -144,29 +146,31 @@ def stem_of(file: str) -> str:
     return file.replace("\\", "/").rpartition("/")[2].partition(".")[0] or "run"
 
 
-def read_settings(form: Form) -> tuple[dict[str, float], dict[str, str]]:
-    """The settings that are numbers, in SI, and those that are words."""
+def read_settings(form: Form) -> tuple[dict[str, float], dict[str, str], dict[str, str]]:
+    """The settings that are numbers, in SI, those that are words, and the units in which free numbers are told."""
     below = form.form("settings", default=None)
     settings: dict[str, float] = {}
     notes: dict[str, str] = {}
+    units: dict[str, str] = {}
     for key in below.keys if below else ():
         if key in SETTING_UNITS:
             settings[key] = below.quantity(key, SETTING_UNITS[key])
         else:
-            value = below.take(key, _read_free_setting)
+            value, unit = below.take(key, _read_free_setting, ("", ""))
             if isinstance(value, str):
                 notes[key] = value
             else:
-                settings[key] = value
-    return settings, notes
+                settings[key], units[key] = value, unit
+    return settings, notes, units
 
 
-def _read_free_setting(node: Node) -> float | str:
+def _read_free_setting(node: Node) -> tuple[float | str, str]:
+    """A number in SI and its unit, or a word."""
     text = read_text(node)
     try:
-        return measure(text)
+        return measure(text), unit_of(text)
     except ValueError:
-        return text
+        return text, ""
 
 
 def _read_sensors(form: Form) -> dict[str, dict[str, float]]:

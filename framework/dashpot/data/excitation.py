@@ -36,7 +36,7 @@ class Excitation:
     The node of a network with two ends has the name "". Among the settings are the means of all further channels that
     were measured (temperature, pressure ...), as ``mean_of`` names them, the ``order`` of a run in its dataset, and
     the deflection that was ``reached`` before it.
-    ``name`` is that of the run, ``source`` its file.
+    ``name`` is that of the run, ``source`` its file, ``units`` are those in which settings were told.
     """
 
     motions: Mapping[str, Drive]
@@ -46,6 +46,7 @@ class Excitation:
     samples: int = 0
     name: str = ""
     source: str = ""
+    units: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
     def of_drive(cls, drive: Drive) -> Excitation:
@@ -73,7 +74,8 @@ class Excitation:
             for name, samples in run.channels.items()
             if name.partition("@")[0] == "force" and _node(name) not in motions
         }
-        return cls(motions, loads, settings_of(run), run.sample_time, run.time.size, run.record, run.source)
+        samples = run.time.size
+        return cls(motions, loads, settings_of(run), run.sample_time, samples, run.record, run.source, run.units)
 
     def at(self, driven: Sequence[str], loaded: Sequence[str]) -> Excitation:
         """The excitation of a network with these nodes; a single motion without a name is that of its only driven node.

@@ -61,6 +61,7 @@ def _like_original(declaration: RunDeclaration, original: RunDeclaration | None)
         repeats=original.name,
         settings={**original.settings, **declaration.settings},
         notes={**original.notes, **declaration.notes},
+        units={**original.units, **declaration.units},
         held_out=original.held_out if declaration.held_out is None else declaration.held_out,
     )
 

@@ -7,13 +7,14 @@ from functools import lru_cache
 
 import numpy as np
 
-from dashpot.data.channel import Channel
+from dashpot.data.channel import Channel, unit_of_channel
 from dashpot.data.checks import dead_force, missing_values, no_motion, too_short
 from dashpot.data.clipping import clipped_channels
 from dashpot.data.clock import Clock, lay_on_grid, read_clock
 from dashpot.data.columns import common_length, find_columns, read_si
 from dashpot.data.declaration import RunDeclaration
 from dashpot.data.disturbance import disturbance
+from dashpot.data.excitation import mean_of
 from dashpot.data.resample import advance, decimate, trim
 from dashpot.data.run import Run
 from dashpot.data.table import Table
@@ -160,8 +161,14 @@ def _make_run(declaration: RunDeclaration, step: float, uneven: bool, channels: 
         source=declaration.file,
         order=declaration.order,
         notes=declaration.notes,
+        units={**declaration.units, **{mean_of(each.name): _told(each) for each in declaration.channels}},
         uneven=uneven,
     )
     for values in (run.time, *run.channels.values()):
         values.flags.writeable = False
     return run
+
+
+def _told(channel: Channel) -> str:
+    """The unit in which a channel is told; nothing where its name does not say what is measured, nor the dataset."""
+    return channel.unit or unit_of_channel(channel.name) or ""

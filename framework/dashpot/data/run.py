@@ -17,6 +17,7 @@ class Run:
     time (n,) s; channels: "displacement", "force", "velocity", "force@platform_left", ... -> (n,).
     kind: one of KINDS; of a row of a table, "steady": the fundamental of a steady sine (`dashpot.data.steady`).
     settings: settings of the test procedure in SI ("amplitude", "preload", "start", "stop", ...); notes: its words.
+    units: those in which free settings, and channels by the name of their mean, were told; nothing for bare numbers.
     group: the name of the original; all repeats of a run share it. repeats: the original, None for an original.
     held_out: what the dataset says about it, None when it says nothing.
     sensors: channel -> its specification in SI (gain, zero, delay, noise).
@@ -48,6 +49,7 @@ class Run:
     order: int = 0
     history: Mapping[str, float] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
     uneven: bool = False
     end: str = ""
 

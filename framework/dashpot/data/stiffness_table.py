@@ -49,6 +49,7 @@ class TableDeclaration:
     columns: tuple[Channel, ...]
     settings: Mapping[str, float]
     notes: Mapping[str, str]
+    units: Mapping[str, str]
     scatter: tuple[float, bool] | None
     static: tuple[Array, Array] | None
     held_out: bool | None
@@ -65,7 +66,7 @@ def read_table_declaration(form: Form) -> TableDeclaration | None:
     """The declaration of a table; None when anything is wrong with it, which is noted."""
     before = len(form.problems)
     path = form.text("file")
-    settings, notes = read_settings(form)
+    settings, notes, units = read_settings(form)
     columns = form.take("columns", lambda node: _read_columns(node, form), {})
     declared = TableDeclaration(
         name=read_name(form, path),
@@ -73,6 +74,7 @@ def read_table_declaration(form: Form) -> TableDeclaration | None:
         columns=tuple(columns.values()),
         settings=settings,
         notes=notes,
+        units=units,
         scatter=form.take(SCATTER, _read_scatter, None),
         static=_read_static(form.form("static", default=None)),
         held_out=form.flag("held_out", None),
@@ -291,4 +293,5 @@ def _run(
         source=declaration.file,
         order=order,
         notes=declaration.notes,
+        units=declaration.units,
     )

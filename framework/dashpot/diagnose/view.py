@@ -87,6 +87,11 @@ class ModelView:
         """What was set at a run, and the means of its further channels, SI."""
         return self.scored[run].excitation.settings
 
+    def unit_of(self, setting: str) -> str:
+        """The unit in which the runs tell a setting; nothing for a bare number."""
+        known = (run.excitation.units for run in self.scored.values())
+        return next((units[setting] for units in known if setting in units), "")
+
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) of the model along a changed deflection. ValueError for a view without its network."""
         scored = self.scored[run]

@@ -101,6 +101,9 @@ _RIG_UNITS = (
     "MPa from 1, kPa from 1, Pa from 0",
 )
 
+# what something does per setting, and how a rig engineer writes that
+_PER_SETTING = {"/Pa": "/bar"}
+
 # special hints for what is easily confused: (unit written, dimension wanted)
 _CONFUSED = {
     ("g", "m/s^2"): "multiples of gravity are written g0",
@@ -207,8 +210,20 @@ def measure(quantity: str | float) -> float:
 
 def base_unit_of(quantity: str | float) -> str:
     """The SI base unit of a quantity: `20 degC` gives `K^1`, a bare number `1`. ValueError for an unknown unit."""
-    written = _NUMBER.sub("", quantity.strip(), count=1).strip() if isinstance(quantity, str) else ""
-    return base_unit("1" + written if written.startswith("/") else written) if written else "1"
+    written = unit_of(quantity) if isinstance(quantity, str) else ""
+    return base_unit(written) if written else "1"
+
+
+def unit_of(quantity: str) -> str:
+    """The unit with which a quantity is written: `3 bar` gives `bar`, `2 / s` gives `1/ s`, a bare number nothing."""
+    written = _NUMBER.sub("", quantity.strip(), count=1).strip()
+    return "1" + written if written.startswith("/") else written
+
+
+def in_unit(value: float, unit: str, digits: int) -> str:
+    """A number in SI base units written in a unit: `293.15` in `degC` is `20 degC`. ValueError for an unknown unit."""
+    scale, offset = _exact_factor(unit, base_unit(unit)) if unit else (Decimal(1), Decimal(0))
+    return f"{_format((_finite(value, unit or '1') - offset) / scale, digits)} {unit}".rstrip()
 
 
 @cache
@@ -257,6 +272,10 @@ def pretty_in(value: float, unit: str, shown: str, digits: int = 4) -> str:
 
 def shown_unit(value: float, unit: str) -> str:
     """The unit in which a rig engineer writes a number in `unit`: `N/mm` for 220000 N/m. ValueError as for `pretty`."""
+    for kept, told in _PER_SETTING.items():
+        if unit.endswith(kept):
+            scale = float(_exact_factor(told.removeprefix("/"), kept.removeprefix("/"))[0])
+            return shown_unit(scale * value, unit.removesuffix(kept)) + told
     number, known = _finite(value, unit), _rig_units(unit)
     if not number:
         # nothing has no size: the unit of what is usual

@@ -63,6 +63,9 @@ class SmallView:
     def settings(self, run):
         return {"small": {"pressure": 2e5, "preload": 0.01}, "large": {"pressure": 3e5, "preload": 0.0}}[run]
 
+    def unit_of(self, setting):
+        return ""
+
     def force(self, run):
         return simulate_eagerly(self.network, self.drives[run])
 

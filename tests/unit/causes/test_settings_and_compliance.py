@@ -168,6 +168,21 @@ def test_the_mean_of_a_channel_is_a_setting_too():
     assert (over.word, over.channel, over.at) == ("temperature", True, (303.0,))
 
 
+def test_a_dependence_is_written_in_the_unit_in_which_the_runs_tell_the_setting():
+    class InBar(Pumped):
+        def unit_of(self, setting):
+            return {"pressure": "bar"}[setting]
+
+    numbers, stiffness, _, force = dependence(view=InBar())
+    text = force.extend(numbers.extend(NETWORK, [(0.5, 0.0)]), [(40.0, 0.0)])
+    assert text.count("at: 2.333333333 bar") == 2
+    slopes = {slot.path: slot.value for slot in parse_network(text, REGISTRY.elements).slots()}
+    assert slopes["stiffness.stiffness.slope"].unit == "N/m/Pa"
+    assert slopes["stiffness.stiffness.slope"].number == pytest.approx(0.5 * 200e3 / 3e5)
+    assert slopes["setting_force.force.slope"].unit == "N/Pa"
+    assert "at: [1 bar, 2 bar, 4 bar]" in stiffness.extend(NETWORK, [(-0.3, 1e5), (0.01, 2e5), (0.5, 4e5)])
+
+
 class Pumped(SmallView):
     """Three pressures, the middle one of them not in the middle."""
 

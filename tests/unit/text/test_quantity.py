@@ -14,12 +14,14 @@ from dashpot.text.quantity import (
     base_unit,
     factor,
     force_dimension,
+    in_unit,
     is_unit,
     measure,
     powers,
     pretty,
     pretty_all,
     si,
+    unit_of,
 )
 
 
@@ -144,6 +146,10 @@ def test_a_broken_power_of_the_force_is_refused():
         (1.23456, "Hz", "1.235 Hz"),
         (1e12, "1", "1e+12"),
         (60.0, "kg", "60 kg"),
+        (5.75e-6, "N/Pa", "0.575 N/bar"),
+        (-0.02, "N/m/Pa", "-2 N/mm/bar"),
+        (0.0, "N*s/m/Pa", "0 N*s/mm/bar"),
+        (0.4, "N/K", "0.4 N/K"),
     ],
 )
 def test_a_number_is_shown_in_the_units_of_the_rig(value, unit, text):
@@ -152,7 +158,7 @@ def test_a_number_is_shown_in_the_units_of_the_rig(value, unit, text):
 
 @given(
     value=st.floats(-1e300, 1e300),
-    unit=st.sampled_from(["N/m", "s", "N*s/m", "m", "1", "kg", "Hz", "N*s^2/m^2", "K"]),
+    unit=st.sampled_from(["N/m", "s", "N*s/m", "m", "1", "kg", "Hz", "N*s^2/m^2", "K", "N/Pa", "N/m/Pa"]),
 )
 def test_what_is_shown_reads_back(value, unit):
     assert si(pretty(value, unit, digits=17), unit) == pytest.approx(value, rel=1e-15, abs=1e-320)
@@ -182,6 +188,14 @@ def test_every_unit_has_an_si_base_unit(unit, base):
 )
 def test_a_quantity_of_any_kind_is_measured_in_base_units(text, value):
     assert measure(text) == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"), [("3 bar", "bar"), (" 23 °C", "°C"), ("2 /s", "1/s"), ("5", ""), ("-1.5e3 N/mm", "N/mm")]
+)
+def test_a_quantity_is_written_again_in_its_unit(text, unit):
+    assert unit_of(text) == unit
+    assert measure(in_unit(measure(text), unit, 12)) == pytest.approx(measure(text), rel=1e-12)
 
 
 @pytest.mark.parametrize("text", ["dry", "3 furlong", "", "1,5 mm"])
