@@ -47,11 +47,16 @@ def read_errors(diagnosis: Json) -> Errors:
 
 
 def headline(diagnosis: Json) -> str:
-    """The verdict of a `dashpot-diagnosis/1` as one sentence. Raises ValueError for a verdict it does not know."""
+    """The verdict of a `dashpot-diagnosis/1` as one sentence, and what may go of the diagnosed network as another.
+
+    Raises ValueError for a verdict it does not know.
+    """
     verdict = diagnosis["verdict"]
     if verdict not in SENTENCES:
         raise ValueError(f"verdict: expected one of {', '.join(SENTENCES)}, got {verdict!r}")
-    return SENTENCES[verdict](diagnosis, read_errors(diagnosis))
+    names = [f"'{name}'" for name in diagnosis.get("may_go") or ()]
+    going = f" {join(names)} of the diagnosed network may go." if names else ""
+    return f"{SENTENCES[verdict](diagnosis, read_errors(diagnosis))}{going}"
 
 
 def short_headline(diagnosis: Json) -> str:

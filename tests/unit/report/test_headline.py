@@ -32,6 +32,13 @@ def test_the_short_headline_names_as_many_causes_as_there_is_room_for():
     assert left.endswith("N remain.")
 
 
+@pytest.mark.parametrize("verdict", ["explained", "nothing_missing", "unexplained"])
+def test_what_may_go_of_the_diagnosed_network_is_told(verdict):
+    plain = headline(diagnosis(verdict=verdict))
+    told = headline(diagnosis(verdict=verdict, may_go=["maxwell_1", "friction"]))
+    assert told == f"{plain} 'maxwell_1' and 'friction' of the diagnosed network may go."
+
+
 def test_errors_stand_beside_what_is_explainable_and_the_noise_floor():
     told = diagnosis(explainable={"held_out": 15.1, "by": "ridge"})
     assert beside_references(told) == (
