@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from datetime import datetime, timedelta
 from pathlib import Path
 
@@ -15,6 +16,8 @@ RATE, FINER, CYCLES = 300.0, 8, 6
 STROKE, LIMIT, SLIDER = 25e-3, 18.0, 6e4  # m, N, N/m
 NOISE, HUM = 1.5, 30e-6  # N, m
 SPEEDS, PRESSURES = (0.3, 0.8, 1.5, 3.0), (50, 150)  # Hz, psi
+# of noise that nobody has looked at less is asked: what stays of the gas volume may be too much to be sure of a name
+SURE = ("accepted", "probable") if "DRAW_SEEDS" in os.environ else ("accepted",)
 HEAD = "Timestamp,Force (V),Force (N),Displacement (V),Displacement (mm),Temperature (V),Temperature (C)\n"
 
 
@@ -58,7 +61,7 @@ def test_a_damper_is_diagnosed_from_the_files_of_a_logger(tmp_path, monkeypatch)
     assert main(["import", "."]) == 0
     assert main(["diagnose", "kelvin_voigt", "dataset.yaml", "-o", "out", "--jobs", "2", "--quiet"]) == 0
     told = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
-    named = {cause["cause"]: cause for cause in told["causes"] if cause["accepted"]}
+    named = {cause["cause"]: cause for cause in told["causes"] if cause["standing"] in SURE}
     print(told["verdict"], told["rmse"], {word: cause["probability"] for word, cause in named.items()})
     assert (
         {"friction", "setting_dependence"}

@@ -26,6 +26,7 @@ from dashpot.model.network import NetworkSpec
 from dashpot.testing import random_drive
 
 TOLERANCE = 1e-12
+CARRIED = 1e-11  # rounding that masses and springs carry on from step to step
 RANDOM, JITTED = 50, 8
 SYSTEMS = ("quarter_car", "axle_model_1", "axle_model_2", "axle_model_3", "axle_model_3_top_mount")
 SOON = [name if name == "quarter_car" else pytest.param(name, marks=pytest.mark.slow) for name in SYSTEMS]
@@ -118,8 +119,8 @@ def test_c_agrees_on_networks_with_nodes(name, tmp_path):
     outputs, status = Library.build(spec, tmp_path).along(list(excitation.motions.values()), network.start)
     count = len(expected.driven)
     assert status == 0 and expected.status == (Status.GOOD,)
-    assert error(outputs[:, :count].T, expected.force[0]) <= TOLERANCE
-    assert error(outputs[:, count:].T, expected.motion[0]) <= TOLERANCE
+    assert error(outputs[:, :count].T, expected.force[0]) <= CARRIED
+    assert error(outputs[:, count:].T, expected.motion[0]) <= CARRIED
 
 
 @pytest.mark.parametrize("name", SOON)
@@ -133,11 +134,11 @@ def test_numba_agrees_on_networks_with_nodes(name, monkeypatch):
     other = compile_network(spec)
     found = other.solve(other.prepare(excitation), values)
     assert found.status == expected.status and Status.NOT_FINITE in found.status
-    assert error(found.force[[0, 2]], expected.force[[0, 2]]) <= TOLERANCE
+    assert error(found.force[[0, 2]], expected.force[[0, 2]]) <= CARRIED
     cubic = replace(excitation, motions={node: along_cubics(each) for node, each in excitation.motions.items()})
     stepped, alone = walked(spec, cubic, network.start), network.solve(network.prepare(cubic))
-    assert error(stepped[:, : len(alone.driven)].T, alone.force[0]) <= TOLERANCE
-    assert error(stepped[:, len(alone.driven) :].T, alone.motion[0]) <= TOLERANCE
+    assert error(stepped[:, : len(alone.driven)].T, alone.force[0]) <= CARRIED
+    assert error(stepped[:, len(alone.driven) :].T, alone.motion[0]) <= CARRIED
 
 
 def walked(spec: NetworkSpec, excitation: Excitation, values: np.ndarray) -> np.ndarray:
