@@ -190,8 +190,8 @@ def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
 def given_branches(network: NetworkSpec) -> tuple[Given, ...]:
     """The branches of a network that a search may let go: those with memory and free numbers.
 
-    They do what causes do. Springs and dampers stay, without which there is no specimen; so do branches in groups,
-    those of a network with nodes, what another part of the network refers to, and curves from data.
+    They do what causes do. Springs and dampers stay, without which there is no specimen; so do branches in groups, those
+    of a network with nodes, what another part of the network refers to, and curves from data.
     """
     members = network.root.members
     having = [one for one in members if isinstance(one, Branch) and one.element.declares.states]

@@ -1,4 +1,4 @@
-"""Writing the copies of a repeated branch out, each under its own name, so that one of them can be removed."""
+"""Writing the copies of a repeated branch out, each under its own name, so that one of them can be changed or removed."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ OF_A_COPY = ("start", "value", "fixed", "expression")  # may hold one number for
 def write_out_copies(text: str, name: str) -> str:
     """The text with ``name_1``, ``name_2`` ... in place of an outermost branch that is repeated, each on one line.
 
-    As it is where no branch of that name is repeated; what holds for all copies, as a scaling, is written to each. For
-    a branch with an element: a group is left to the one who wrote it.
+    As it is where no branch of that name is repeated; what holds for all copies, as a scaling, is written to each. For a
+    branch with an element: a group is left to the one who wrote it.
     """
     document = Document.parse(text)
     assert isinstance(document.root, Mapping)
