@@ -58,7 +58,7 @@ class Pursuer:
         while True:
             look, present, without, others = self.local_optimum(seen)
             scores = Scores(look)
-            rivals = self.rivals(scores, search(scores)) if present.model.causes else []
+            rivals = self.rivals(scores, search(scores)) if present.model.terms else []
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
@@ -98,7 +98,7 @@ class Pursuer:
         self.ended = False
         while not self.ended and self.looks < MOST_LOOKS:
             self.looks += 1
-            self.watch(self.looks, len(look.model.causes))
+            self.watch(self.looks, len(look.model.terms))
             scores, onward = Scores(look), None
             present, trials = scored_by(scores, scores.odds), []
             for few in self.tried(scores, search(scores)):
@@ -161,37 +161,32 @@ class Pursuer:
             yield found
 
     def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
-        """The structure without the causes that are not worth their place, the weakest first, and without each one."""
+        """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
         odds = Odds(look.layout.bank)
         present = self.trials.scored(look, self.trials.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.trials.scores_of(look, present.model)
-            found = self._without(look, present, [(term,) for term in present.model.causes], odds)
-            worth = [self._worth(seen, one.terms[0], present, one.scored) for one in found]
+            found = self._without(look, present, [(term,) for term in present.model.terms], odds)
+            worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
             if min(worth, default=1.0) >= NAMED:
                 return present, self._without_causes(look, present, odds, found)
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
     def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
-        """The structure without each of some sets of terms, refitted.
-
-        Where branches of the diagnosed network have gone, they come back if that is likelier: it has them.
-        """
-        refitter, model = self.trials.refitter, present.model
+        """The structure without each of some sets of terms, refitted."""
+        refitter = self.trials.refitter
 
         def refitted(gone: tuple[Term, ...]) -> Without:
-            rest = [one for one in model.terms if one not in gone]
-            ways = [rest, [*model.gone, *rest]] if model.gone else [rest]
-            found = [refitter.refit(model, refitter.writable(model, way), look.noise) for way in ways]
-            return Without(gone, min((self.trials.scored(look, one, odds) for one in found), key=lambda one: one.score))
+            rest = refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
+            return Without(gone, self.trials.scored(look, refitter.refit(present.model, rest, look.noise), odds))
 
-        return forked(refitted, each, refitter.jobs, model.terms)
+        return forked(refitted, each, refitter.jobs, present.model.terms)
 
     def _without_causes(
         self, look: Look, present: Scored, odds: Odds, found: Sequence[Without] = ()
     ) -> tuple[Without, ...]:
         """The structure without all terms of each cause; that without a single one may be ``found`` already."""
-        terms = present.model.causes
+        terms = present.model.terms
         every = [tuple(t for t in terms if t.name == name) for name in dict.fromkeys(present.model.names)]
         known = {one.terms: one for one in found}
         known |= {one.terms: one for one in self._without(look, present, [e for e in every if e not in known], odds)}
@@ -213,9 +208,8 @@ class Pursuer:
             present, without = best, self._without_causes(look, best, odds)
         return present, without
 
-    def _worth(self, seen: Scores, term: Term, present: Scored, without: Scored) -> float:
+    def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
-        number = present.model.terms.index(term)
         if not (is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)):
             return 0.0
         weights = self.weights(present.samples.size)
@@ -244,12 +238,11 @@ class Pursuer:
         return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> list[tuple[Term, Scored]]:
-        """For each cause the best few structures with another one in its place, refitted.
+        """For each term the best few structures with another cause in its place, refitted.
 
         A second one is refitted where it promises more than the refit of the first one has kept.
         """
-        terms = scores.look.model.terms
-        waiting = {term: _exchanges(scores, ranked, terms.index(term)) for term in scores.look.model.causes}
+        waiting = {term: _exchanges(scores, ranked, k) for k, term in enumerate(scores.look.model.terms)}
         found: dict[Term, list[Scored]] = {term: [] for term in waiting}
         while few := [
             (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])

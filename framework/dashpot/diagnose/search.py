@@ -85,14 +85,14 @@ def _same_fault(scores: Scores, structure: Structure) -> set[int]:
     """The other forms of faults of the measurement that are there: one against the other they would be any law."""
     candidates, terms = scores.look.candidates, enumerate(scores.look.model.terms)
     faults = {candidates[k].name for k, _ in structure.added if candidates[k].cause.kind == "measurement"}
-    faults |= {term.name for k, term in terms if term.kind == "measurement" and k not in structure.dropped}
+    faults |= {term.name for k, term in terms if term.cause.kind == "measurement" and k not in structure.dropped}
     return {k for k, one in enumerate(candidates) if one.name in faults}
 
 
 def _gone(scores: Scores, structure: Structure) -> set[int]:
     """The candidates that are terms which go: coming back elsewhere is left to the refit."""
     terms = [scores.look.model.terms[number] for number in structure.dropped]
-    gone = {term.form for term in terms}
+    gone = {(term.name, term.suspect.form) for term in terms}
     return {k for k, one in enumerate(scores.look.candidates) if (one.name, one.suspect.form) in gone}
 
 

@@ -1,10 +1,10 @@
 """Branches of a network that may go."""
 
-from unit.diagnose.rig import NETWORK, bench, causes, dataset, friction, plain
+from unit.diagnose.rig import NETWORK, bench, dataset, friction, plain
 
 from dashpot.diagnose.folds import folds_of
-from dashpot.diagnose.pursue import Pursuer
-from dashpot.diagnose.trials import Trials
+from dashpot.diagnose.look import look_at
+from dashpot.diagnose.spare import spare_branches
 
 RICH = (
     NETWORK
@@ -15,16 +15,15 @@ RICH = (
 )
 
 
-def gone(law):
+def spare(law):
     made = bench(dataset(law), RICH)
-    trials = Trials(made.refitter, folds_of(made.refitter.runs, made.groups))
-    found = Pursuer(trials, causes("bumper"), 0.0015, 0).run(made.model)
-    return [one.branch for one in found.best.model.gone]
+    look = look_at(made.refitter, made.model, (), folds_of(made.refitter.runs, made.groups))
+    return spare_branches(made.refitter, look, made.model)
 
 
 def test_branches_that_nothing_needs_may_go():
-    assert gone(plain) == ["slow", "friction"]
+    assert spare(plain) == ["slow", "friction"]
 
 
 def test_a_branch_that_the_data_need_stays():
-    assert gone(lambda motion: plain(motion) + friction(motion)) == ["slow"]
+    assert spare(lambda motion: plain(motion) + friction(motion)) == ["slow"]
