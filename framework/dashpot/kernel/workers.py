@@ -60,13 +60,18 @@ def streamed(work: Callable[[Item], Result], items: Iterable[Item], jobs: int) -
     if jobs == 1 or _within.thread:
         yield from map(work, items)
         return
-    left, pool = iter(items), _pool(jobs)
-    ahead = deque(pool.submit(work, item) for item in islice(left, jobs))
+    left, pool, ahead = iter(items), _pool(jobs), deque[Future[Result]]()
     try:
+        ahead.extend(pool.submit(work, item) for item in islice(left, jobs))
         while ahead:
             found = ahead.popleft().result()
             ahead.extend(pool.submit(work, item) for item in islice(left, 1))
             yield found
+    except KeyboardInterrupt:
+        # a thread that had just begun may be unknown to the pool: the end of the process would wait for it for ever
+        pool.shutdown(wait=False, cancel_futures=True)
+        _pool.cache_clear()
+        raise
     finally:
         for future in ahead:
             future.cancel()

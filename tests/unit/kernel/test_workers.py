@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import subprocess
 import sys
 import threading
 import time
@@ -128,6 +129,28 @@ def test_what_threads_do_is_not_spread_once_more():
     found = spread(names, range(4), 2)
     assert all(len(set(each)) == 1 for each in found)
     assert 1 < len({each[0] for each in found}) <= 2 and threading.current_thread().name not in found[0]
+
+
+INTERRUPTED = """\
+import threading
+from dashpot.kernel.workers import spread
+start = threading.Thread.start
+def interrupted(self):
+    start(self)
+    raise KeyboardInterrupt
+threading.Thread.start = interrupted
+try:
+    spread(abs, [-1, -2, -3], 2)
+except KeyboardInterrupt:
+    threading.Thread.start = start
+"""
+
+
+@pytest.mark.parametrize("then, answer", [("", ""), ("print(spread(abs, [-1, -2, -3], 2))", "[1, 2, 3]\n")])
+def test_a_key_that_interrupts_while_a_thread_begins_does_not_keep_the_process(then, answer):
+    """The pool does not know such a thread, which then waits for work for ever; the next one has new threads."""
+    command = [sys.executable, "-c", INTERRUPTED + then]
+    assert subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout == answer
 
 
 @pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="there is no fork here")
