@@ -25,7 +25,6 @@ from dashpot.diagnose.pursuit import Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
 from dashpot.diagnose.single_runs import corrected, faults_beside, floor_of_corrected, names_of, put_right
-from dashpot.diagnose.spare import spare_branches
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
 from dashpot.diagnose.term import first_model
 from dashpot.diagnose.trials import Trials
@@ -97,7 +96,6 @@ def diagnose(
     final = known(whole, model, runs, together, jobs, setting.floor.value)
     removals = [Removal(one.name, found) for one, found in zip(pursuit.without, less, strict=True)]
     last = put_right(refitter, accused)
-    spare = spare_branches(last, pursuit.look, pursuit.best.model)
     leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
     return Diagnosis(
         setting=setting,
@@ -109,7 +107,6 @@ def diagnose(
         final=final,
         removals=tuple(removals),
         leftover=leftover,
-        spare=tuple(spare),
         next_runs=next_runs(last, pursuit) if not spec.joints else {},
         causes={cause.word: cause for cause in causes},
         relevance=relevance,

@@ -38,32 +38,33 @@ class Diagnosis(Findings):
     @cached_property
     def terms(self) -> tuple[NamedCause, ...]:
         """All that was added to the files, one entry a word and place: by its standing, then by what it predicts."""
-        names = dict.fromkeys(term.name for term in self.pursuit.best.model.terms)
+        names = dict.fromkeys(self.pursuit.best.model.names)
         found = [self._named(name) for name in names] + self._faults_of_runs()
         return tuple(sorted(found, key=lambda one: (STANDINGS.index(one.standing), -one.nats)))
 
     def _named(self, name: tuple[str, str]) -> NamedCause:
         pursuit, best, model = self.pursuit, self.pursuit.best, self.pursuit.best.model
         mine = [number for number, term in enumerate(model.terms) if term.name == name]
+        terms = tuple(term for term in model.causes if term.name == name)
         without = pursuit.without_cause(name) or best
-        cause, probability = model.terms[mine[0]].cause, self.probability(name)
+        cause, probability = terms[0].cause, self.probability(name)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         gain, removal = self._worth(next((one.network for one in self.removals if one.name == name), None))
         rivals = tuple(word for word, _ in pursuit.replacements(name))
         return NamedCause(
             cause,
-            tuple(model.terms[number] for number in mine),
+            terms,
             slots_of(self.written, [path for number in mine for path in model.owned[number]]),
             (),
             probability,
-            self.presence(model.terms[mine[0]]),
+            self.presence(terms[0]),
             without.likelihood(forms_err=False) - best.likelihood(forms_err=False),
             (int(np.sum(without.exact > best.exact)), best.exact.size),
             gain,
             removal,
             rivals,
             evidence_of,
-            told(model.terms[mine[0]]) if evidence_of else "",
+            told(terms[0]) if evidence_of else "",
         )
 
     def _worth(self, without: NetworkSpec | None) -> tuple[Any, float | None]:
@@ -208,7 +209,11 @@ class Diagnosis(Findings):
         pursuit = self.pursuit
         pool = [pursuit.best, *(one.scored for one in pursuit.without), *(rival for _, rival in pursuit.rivals)]
         found = [
-            {"causes": sorted(word for word, _ in one.model.names), "score": one.score - pursuit.best.score}
+            {
+                "causes": sorted(word for word, _ in one.model.names),
+                "may_go": [given.branch for given in one.model.gone],
+                "score": one.score - pursuit.best.score,
+            }
             for one in pool
         ]
         return sorted(found, key=lambda one: one["score"])
@@ -217,7 +222,7 @@ class Diagnosis(Findings):
         """The causes that were refitted in the place of accepted ones."""
         found = []
         for term, rival in self.pursuit.rivals:
-            new = [other for other in rival.model.terms if other.name not in self.pursuit.best.model.names]
+            new = [other for other in rival.model.causes if other.name not in self.pursuit.best.model.names]
             share = float(np.mean(rival.drawn(self.pursuit.weights) < self.pursuit.best.drawn(self.pursuit.weights)))
             found += [
                 {

@@ -7,11 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.contract.cause import Suspect
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.table_rows import is_row
-from dashpot.diagnose.term import Model, Term
+from dashpot.diagnose.term import Given, Model, Term
 
 Array = NDArray[np.float64]
 
@@ -25,7 +26,9 @@ FEWEST_PEAKS = 2  # excursions that end at the same value: it comes again
 def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether a term of a refitted model is a law of the specimen, or a fault of the measurement that shows as one."""
     term = scores.look.model.terms[number]
-    return term.cause.kind != "measurement" or TESTS[term.cause.evidence_of](refitter, scores, number)
+    if isinstance(term, Given) or term.kind != "measurement":
+        return True
+    return TESTS[term.cause.evidence_of](refitter, scores, number)
 
 
 def is_determined(scores: Scores, number: int) -> bool:
@@ -35,7 +38,7 @@ def is_determined(scores: Scores, number: int) -> bool:
     """
     look = scores.look
     model, paths = look.model, look.model.coordinates.paths
-    if model.terms[number].cause.kind != "measurement":
+    if model.terms[number].kind != "measurement":
         return True
     if any(at and path in model.owned[number] for at, path in zip(model.at_bound, paths, strict=True)):
         return False
@@ -77,7 +80,7 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
         weights = np.einsum("i,gij,j->g", along, grams, along)
         if weights @ in_phase < 0.5 * weights.sum():
             return False
-        if look.model.terms[number].suspect.measured and not _shows_frequency(refitter, look, weights):
+        if _suspect(look.model, number).measured and not _shows_frequency(refitter, look, weights):
             return False
         pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
@@ -183,8 +186,14 @@ def _numbers(model: Model) -> Mapping[str, float]:
 def is_within_the_data_sheet(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the data sheet of the force channel admits what was found."""
     model = scores.look.model
-    quantity = model.terms[number].suspect.quantity
+    quantity = _suspect(model, number).quantity
     return model.numbers_of(number)[quantity] <= refitter.sheet[quantity]
+
+
+def _suspect(model: Model, number: int) -> Suspect:
+    term = model.terms[number]
+    assert isinstance(term, Term)
+    return term.suspect
 
 
 def told(term: Term) -> str:

@@ -60,8 +60,7 @@ class Removal:
 class Findings:
     """Everything that was found, the files that are written of it, and what they give when they are read again.
 
-    ``corrected`` are the training runs with the faults of single runs put right, ``spare`` the branches of the
-    diagnosed network that may go.
+    ``corrected`` are the training runs with the faults of single runs put right.
     """
 
     setting: Setting
@@ -73,7 +72,6 @@ class Findings:
     final: NetworkSpec
     removals: tuple[Removal, ...]
     leftover: Leftover
-    spare: tuple[str, ...]
     next_runs: Mapping[tuple[str, str], NextRun]
     causes: Mapping[str, type[Cause]]
     relevance: float
@@ -96,11 +94,16 @@ class Findings:
     def extended_name(self) -> str | None:
         """File name of the network that goes with the result, None where that is the diagnosed one as it was fitted.
 
-        Where single runs were corrected and nothing was added, it is the network fitted to the corrected runs.
+        Where nothing was added it is the network without the branches that may go, or fitted to corrected runs.
         """
-        words = list(dict.fromkeys(term.cause.word for term in self.pursuit.best.model.terms))
-        words = words or ["corrected"] * bool(self.accused)
+        words = list(dict.fromkeys(term.word for term in self.pursuit.best.model.causes))
+        words = words or ["reduced"] * bool(self.spare) or ["corrected"] * bool(self.accused)
         return f"{joined_name(self.model.name, words)}.yaml" if words else None
+
+    @property
+    def spare(self) -> tuple[str, ...]:
+        """The branches of the diagnosed network that the final one does without."""
+        return tuple(one.branch for one in self.pursuit.best.model.gone)
 
     def probability(self, name: tuple[str, str]) -> float:
         """How sure a cause is, beside the structure that stays unexplained."""
@@ -142,8 +145,10 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        sure = {term.title: standing_of(self.presence(term)) for term in self.pursuit.best.model.terms}
-        what = "extended by a diagnosis" if sure else "fitted to corrected runs"
+        sure = {term.title: standing_of(self.presence(term)) for term in self.pursuit.best.model.causes}
+        what = (
+            "extended by a diagnosis" if sure else "without what may go" if self.spare else "fitted to corrected runs"
+        )
         told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
@@ -282,8 +287,11 @@ class Findings:
             for run in self.setting.split.held_out
             if errors[run] > ALONE * worst
         ]
-        names = " and ".join(f"'{name}'" for name in self.spare)
-        spare = [f"Of the diagnosed network {names} may go: without, all else refitted, nothing is predicted worse."]
+        names = ", ".join(f"'{name}'" for name in self.spare)
+        spare = [
+            f"Of the diagnosed network {names} may go, and the written one does without: all else refitted, nothing is "
+            "predicted worse."
+        ]
         return [*self.triage.remarks, *spare * bool(self.spare), *alone, *self._on_held_out()]
 
     def _on_held_out(self) -> list[str]:

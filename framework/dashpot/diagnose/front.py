@@ -81,11 +81,17 @@ class Front:
 
         Kept are those beside all terms, and of the others what was asked for last, as long as there is room.
         """
+        gone &= self._owning
         found = self._known.pop(gone, None) or self._without(gone)
         self._known[gone] = found
         while len(self._known) > 2 and sum(one.nbytes for one in self._known.values()) > ROOM:
             del self._known[next(known for known in self._known if known)]
         return found
+
+    @cached_property
+    def _owning(self) -> frozenset[int]:
+        """The terms with errors of their form."""
+        return frozenset(self.owners.tolist())
 
     def _without(self, gone: frozenset[int]) -> Beside:
         return self._part(self.beside(), np.isin(self.owners, list(gone))) if gone else self._beside_all()

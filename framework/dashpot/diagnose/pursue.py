@@ -58,11 +58,13 @@ class Pursuer:
         while True:
             look, present, without, others = self.local_optimum(seen)
             scores = Scores(look)
-            rivals = self.rivals(scores, search(scores)) if present.model.terms else []
+            rivals = self.rivals(scores, search(scores, scores.given)) if present.model.causes else []
+            smaller = self.without_given(scores) if self.ended else []
+            others += smaller
             del scores
             seen.add(present.model.forms)
             fresh = [rival for _, rival in rivals if rival.model.forms not in seen]
-            onward = self._onward(look, fresh, present) if self.ended else None
+            onward = self._onward(look, [*fresh, *smaller], present) if self.ended else None
             if onward is None:
                 weights = self.weights(len(look.folds.names))
                 found = (present, look, model, without, tuple(rivals), tuple(others), weights)
@@ -98,10 +100,10 @@ class Pursuer:
         self.ended = False
         while not self.ended and self.looks < MOST_LOOKS:
             self.looks += 1
-            self.watch(self.looks, len(look.model.terms))
+            self.watch(self.looks, len(look.model.causes))
             scores, onward = Scores(look), None
             present, trials = scored_by(scores, scores.odds), []
-            for few in self.tried(scores, search(scores)):
+            for few in self.tried(scores, search(scores, scores.given)):
                 trials += few
                 onward = self._onward(look, few, present)
                 if onward is not None:
@@ -160,33 +162,46 @@ class Pursuer:
             unproven.update(*(trial.unproven for trial in found))
             yield found
 
+    def without_given(self, scores: Scores) -> list[Scored]:
+        """The best structures in which branches of the diagnosed network go or give way to a cause, refitted.
+
+        They are tried when no cause is to join any more: one that is gone could not tell what else follows from it.
+        """
+        found = self.tried(scores, search(scores)) if scores.given else []
+        return [trial for few in found for trial in few]
+
     def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
-        """The structure without the terms that are not worth their place, the weakest first, and without each cause."""
+        """The structure without the causes that are not worth their place, the weakest first, and without each one."""
         odds = Odds(look.layout.bank)
         present = self.trials.scored(look, self.trials.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.trials.scores_of(look, present.model)
-            found = self._without(look, present, [(term,) for term in present.model.terms], odds)
-            worth = [self._worth(seen, number, present, one.scored) for number, one in enumerate(found)]
+            found = self._without(look, present, [(term,) for term in present.model.causes], odds)
+            worth = [self._worth(seen, one.terms[0], present, one.scored) for one in found]
             if min(worth, default=1.0) >= NAMED:
                 return present, self._without_causes(look, present, odds, found)
             present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
 
     def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
-        """The structure without each of some sets of terms, refitted."""
-        refitter = self.trials.refitter
+        """The structure without each of some sets of terms, refitted.
+
+        Where branches of the diagnosed network have gone, they come back if that is likelier: it has them.
+        """
+        refitter, model = self.trials.refitter, present.model
 
         def refitted(gone: tuple[Term, ...]) -> Without:
-            rest = refitter.writable(present.model, [one for one in present.model.terms if one not in gone])
-            return Without(gone, self.trials.scored(look, refitter.refit(present.model, rest, look.noise), odds))
+            rest = [one for one in model.terms if one not in gone]
+            ways = [rest, [*model.gone, *rest]] if model.gone else [rest]
+            found = [refitter.refit(model, refitter.writable(model, way), look.noise) for way in ways]
+            return Without(gone, min((self.trials.scored(look, one, odds) for one in found), key=lambda one: one.score))
 
-        return forked(refitted, each, refitter.jobs, present.model.terms)
+        return forked(refitted, each, refitter.jobs, model.terms)
 
     def _without_causes(
         self, look: Look, present: Scored, odds: Odds, found: Sequence[Without] = ()
     ) -> tuple[Without, ...]:
         """The structure without all terms of each cause; that without a single one may be ``found`` already."""
-        terms = present.model.terms
+        terms = present.model.causes
         every = [tuple(t for t in terms if t.name == name) for name in dict.fromkeys(present.model.names)]
         known = {one.terms: one for one in found}
         known |= {one.terms: one for one in self._without(look, present, [e for e in every if e not in known], odds)}
@@ -208,8 +223,9 @@ class Pursuer:
             present, without = best, self._without_causes(look, best, odds)
         return present, without
 
-    def _worth(self, seen: Scores, number: int, present: Scored, without: Scored) -> float:
+    def _worth(self, seen: Scores, term: Term, present: Scored, without: Scored) -> float:
         """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
+        number = present.model.terms.index(term)
         if not (is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)):
             return 0.0
         weights = self.weights(present.samples.size)
@@ -238,11 +254,12 @@ class Pursuer:
         return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> list[tuple[Term, Scored]]:
-        """For each term the best few structures with another cause in its place, refitted.
+        """For each cause the best few structures with another one in its place, refitted.
 
         A second one is refitted where it promises more than the refit of the first one has kept.
         """
-        waiting = {term: _exchanges(scores, ranked, k) for k, term in enumerate(scores.look.model.terms)}
+        terms = scores.look.model.terms
+        waiting = {term: _exchanges(scores, ranked, terms.index(term)) for term in scores.look.model.causes}
         found: dict[Term, list[Scored]] = {term: [] for term in waiting}
         while few := [
             (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])

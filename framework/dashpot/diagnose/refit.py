@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.table_rows import shown
-from dashpot.diagnose.term import Model, Term, extended, inherited
+from dashpot.diagnose.term import Given, Model, Part, Term, extended, given_branches, inherited, numbers_of, reduced
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates, with_point
@@ -33,6 +33,7 @@ KEPT_BYTES = 100e6  # of columns
 TRIAL_TOLERANCE = 1e-3  # a trial is only compared
 FIRST_STEPS = 4  # from each of two starts, before the one that misses less goes on alone
 SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
+Written = tuple[NetworkSpec, Mapping[Part, tuple[str, ...]]]  # a network, and what each term brought
 
 
 @dataclass(eq=False)
@@ -61,7 +62,7 @@ class Refitter:
     sensors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     jobs: int = 1
     watch: Callable[[float], None] = lambda done: None
-    written: dict[tuple[Term, ...], tuple[NetworkSpec, tuple[tuple[str, ...], ...]]] = field(default_factory=dict)
+    written: dict[tuple[frozenset[str], tuple[Term, ...]], Written] = field(default_factory=dict)
     reduced: Kept = field(default_factory=Kept)
 
     @cached_property
@@ -77,7 +78,7 @@ class Refitter:
             found[quantity] = max(most, found.get(quantity, most))
         return found
 
-    def refit(self, model: Model, terms: Sequence[Term], noise: Noise, change: Array | None = None) -> Model:
+    def refit(self, model: Model, terms: Sequence[Part], noise: Noise, change: Array | None = None) -> Model:
         """A model with other terms, all numbers fitted.
 
         It starts from the present numbers, those of new terms, and, with the natural steps ``change`` (p,) that the
@@ -102,27 +103,18 @@ class Refitter:
         if fresh and model.at_bound.any():
             chosen.append(self._start(model, terms, self._freed(model)))
         if len(chosen) == 1:
-            return self._fitted(model.base, tuple(terms), *chosen[0], noise, STEPS, TRIAL_TOLERANCE)
-        trials = [self._fitted(model.base, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
+            return self._fitted(model, tuple(terms), *chosen[0], noise, STEPS, TRIAL_TOLERANCE)
+        trials = [self._fitted(model, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
         ends = objective.losses(np.array([trial.values for trial in trials]))
         ahead = trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
         if ahead.outcome is not Outcome.STEPS_SPENT:
             return ahead
         rest = STEPS - FIRST_STEPS
-        return self._fitted(
-            model.base, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE
-        )
+        return self._fitted(model, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE)
 
     def fit(self, model: Model, noise: Noise) -> Model:
         """The same structure, its numbers fitted under another noise."""
-        return self._fitted(model.base, model.terms, model.declared, model.owned, model.fitted, noise)
-
-    def refit_without(self, model: Model, branch: str, noise: Noise) -> Model:
-        """A model without a branch of its network, all else refitted. Raises InputError where another one needs it."""
-        root = model.fitted.root
-        kept = tuple(member for member in root.members if member.name != branch)
-        start = replace(model.fitted, root=replace(root, members=kept))
-        return self._fitted(model.base, model.terms, model.declared, model.owned, start, noise, STEPS, TRIAL_TOLERANCE)
+        return self._fitted(model, model.terms, model.declared, model.owned, model.fitted, noise)
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
@@ -166,14 +158,14 @@ class Refitter:
             found.append({run: whole[run] - other[run] for run in whole})
         return found
 
-    def without(self, model: Model, terms: Sequence[Term]) -> NetworkSpec:
+    def without(self, model: Model, terms: Sequence[Part]) -> NetworkSpec:
         """The network of a model with some of its terms only, all numbers as they are."""
         return self._start(model, self.writable(model, terms), model.fitted)[2]
 
-    def writable(self, model: Model, terms: Sequence[Term]) -> tuple[Term, ...]:
+    def writable(self, model: Model, terms: Sequence[Part]) -> tuple[Part, ...]:
         """Those of some terms that can be written without the others: one that changes another goes with it."""
-        found: tuple[Term, ...] = ()
-        for term in terms:
+        found: tuple[Part, ...] = tuple(term for term in terms if isinstance(term, Given))
+        for term in (term for term in terms if isinstance(term, Term)):
             with suppress(InputError):
                 self._written(model.base, (*found, term))
                 found = (*found, term)
@@ -193,27 +185,37 @@ class Refitter:
         )
 
     def _start(
-        self, model: Model, terms: Sequence[Term], numbers: NetworkSpec
+        self, model: Model, terms: Sequence[Part], numbers: NetworkSpec
     ) -> tuple[NetworkSpec, tuple[tuple[str, ...], ...], NetworkSpec]:
-        declared, owned = self._written(model.base, tuple(terms))
+        declared, brought = self._written(model.base, terms)
+        owned = tuple(brought[term] for term in terms)
         return declared, owned, inherited(declared, owned, terms, replace(model, fitted=numbers), self.sizes)
 
-    def _written(self, base: NetworkSpec, terms: tuple[Term, ...]) -> tuple[NetworkSpec, tuple[tuple[str, ...], ...]]:
-        if not terms:
-            return base, ()
-        if terms not in self.written:
-            before, owned = self._written(base, terms[:-1])
-            declared, mine = extended(before, terms[-1], self.elements)
-            self.written[terms] = declared, (*owned, mine)
-        return self.written[terms]
+    def _written(self, base: NetworkSpec, terms: Sequence[Part]) -> Written:
+        """The network with some terms, and the paths of the numbers that each of them brought."""
+        given = tuple(term for term in terms if isinstance(term, Given))
+        causes = tuple(term for term in terms if isinstance(term, Term))
+        key = frozenset(one.branch for one in given), causes
+        if key not in self.written:
+            self.written[key] = self._extended(base, given, causes)
+        return self.written[key]
+
+    def _extended(self, base: NetworkSpec, given: tuple[Given, ...], causes: tuple[Term, ...]) -> Written:
+        if causes:
+            before, brought = self._written(base, (*given, *causes[:-1]))
+            declared, mine = extended(before, causes[-1], self.elements)
+            return declared, {**brought, causes[-1]: mine}
+        stay = {one.branch for one in given}
+        gone = [one.branch for one in given_branches(base) if one.branch not in stay]
+        return reduced(base, gone, self.elements), {one: numbers_of(base, one) for one in given}
 
     def _objective(self, network: NetworkSpec, noise: Noise) -> Objective:
         return Objective(compile_network(network), self.runs, self.jobs, noise)
 
     def _fitted(
         self,
-        base: NetworkSpec,
-        terms: tuple[Term, ...],
+        model: Model,
+        terms: tuple[Part, ...],
         declared: NetworkSpec,
         owned: tuple[tuple[str, ...], ...],
         start: NetworkSpec,
@@ -225,7 +227,7 @@ class Refitter:
         objective = self._objective(start, noise.counted)
         found = refine(objective, coordinates, coordinates.start, steps, tolerance, thorough=False)
         fitted = with_point(start, coordinates, found.point)
-        return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)
+        return Model(model.base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)
 
 
 def _key(candidate: Candidate, run: ScoredRun) -> tuple[object, ...]:

@@ -51,18 +51,23 @@ class Structure(NamedTuple):
 
 @dataclass(frozen=True)
 class Odds:
-    """Prior odds of a term, in nats: with ``columns`` to choose from, none is named by chance but in 1 % of cases."""
+    """Prior odds of a term, in nats: with ``columns`` to choose from, none is named by chance but in 1 % of cases.
+
+    A given branch was not chosen: it has the odds of its numbers.
+    """
 
     columns: int
 
     def price(self, kind: str, numbers: int = 1) -> float:
         """What a term with so many numbers has to predict before it is more likely than not."""
+        if kind == "given":
+            return float(-numbers * np.log(NUMBER_ODDS))
         found = np.log(max(self.columns, 1) / FALSE_ALARMS) - max(numbers - 1, 0) * np.log(NUMBER_ODDS)
         return float(found - (np.log(RIG_ODDS) if kind == "measurement" else 0.0))
 
     def of_model(self, model: Model) -> float:
         """The price of all terms of a model."""
-        return sum(self.price(term.cause.kind, model.count(number)) for number, term in enumerate(model.terms))
+        return sum(self.price(term.kind, model.count(number)) for number, term in enumerate(model.terms))
 
 
 @dataclass(eq=False)
@@ -76,7 +81,8 @@ class Scores:
     def __post_init__(self) -> None:
         self.odds = Odds(self.look.layout.bank)
         self.scale = self.look.front.beside().scale
-        self.kinds = [term.cause.kind for term in self.look.model.terms]
+        self.kinds = [term.kind for term in self.look.model.terms]
+        self.given = frozenset(number for number, kind in enumerate(self.kinds) if kind == "given")
 
     def gram(self, gone: frozenset[int] = NONE) -> Array:
         """The Gram matrix (c, c) of the scaled columns beside what is refitted where some terms are ``gone``.

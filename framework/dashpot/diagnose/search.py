@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.front import NONE
 from dashpot.diagnose.score import Added, Scores, Structure
 
 Array = NDArray[np.float64]
@@ -20,12 +21,15 @@ LEFT = 1e-5  # of the square of a column must be left beside the others
 STALE = 2  # steps of the beam without a better structure
 
 
-def search(scores: Scores) -> list[Structure]:
-    """The structures that were scored, best first: from the present one by adding, dropping and swapping terms."""
+def search(scores: Scores, stay: frozenset[int] = NONE) -> list[Structure]:
+    """The structures that were scored, best first: from the present one by adding, dropping and swapping terms.
+
+    Some terms are to ``stay``.
+    """
     start = Structure()
     front, seen, best, stale = [start], {start}, scores.score(start), 0
     while front and stale < STALE:
-        moves = {move for structure in front for move in moves_from(scores, structure)} - seen
+        moves = {move for structure in front for move in moves_from(scores, structure, stay)} - seen
         seen |= moves
         grouped = sorted(moves, key=lambda one: sorted(one.dropped))  # beside the same terms one after the other
         ranked = sorted(grouped, key=scores.score)
@@ -38,21 +42,17 @@ def search(scores: Scores) -> list[Structure]:
     )
 
 
-def moves_from(scores: Scores, structure: Structure) -> set[Structure]:
-    """All structures one step away that the score test proposes."""
-    found = {
-        Structure(structure.dropped | {number}, structure.added)
-        for number in range(len(scores.kinds))
-        if number not in structure.dropped
-    }
+def moves_from(scores: Scores, structure: Structure, stay: frozenset[int] = NONE) -> set[Structure]:
+    """All structures one step away that the score test proposes; some terms are to ``stay``."""
+    may_go = set(range(len(scores.kinds))) - structure.dropped - stay
+    found = {Structure(structure.dropped | {number}, structure.added) for number in may_go}
     found |= {Structure(structure.dropped - {number}, structure.added) for number in structure.dropped}
     if len(structure.added) < MOST_ADDED:
         found |= {Structure(structure.dropped, structure.added | {one}) for one in additions(scores, structure)}
     for term in structure.added:
         less = Structure(structure.dropped, structure.added - {term})
         found |= {less} | {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
-    stays = set(range(len(scores.kinds))) - structure.dropped
-    for gone in [*combinations(stays, 1), *combinations(stays, 2)]:  # exchanged, or merged into one law
+    for gone in [*combinations(may_go, 1), *combinations(may_go, 2)]:  # exchanged, or merged into one law
         less = Structure(structure.dropped | set(gone), structure.added)
         if len(structure.added) < MOST_ADDED:
             found |= {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
@@ -85,14 +85,14 @@ def _same_fault(scores: Scores, structure: Structure) -> set[int]:
     """The other forms of faults of the measurement that are there: one against the other they would be any law."""
     candidates, terms = scores.look.candidates, enumerate(scores.look.model.terms)
     faults = {candidates[k].name for k, _ in structure.added if candidates[k].cause.kind == "measurement"}
-    faults |= {term.name for k, term in terms if term.cause.kind == "measurement" and k not in structure.dropped}
+    faults |= {term.name for k, term in terms if term.kind == "measurement" and k not in structure.dropped}
     return {k for k, one in enumerate(candidates) if one.name in faults}
 
 
 def _gone(scores: Scores, structure: Structure) -> set[int]:
     """The candidates that are terms which go: coming back elsewhere is left to the refit."""
     terms = [scores.look.model.terms[number] for number in structure.dropped]
-    gone = {(term.name, term.suspect.form) for term in terms}
+    gone = {term.form for term in terms}
     return {k for k, one in enumerate(scores.look.candidates) if (one.name, one.suspect.form) in gone}
 
 

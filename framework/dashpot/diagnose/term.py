@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,9 @@ from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.ranges import Sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.model.element import Element
-from dashpot.model.network import NetworkSpec
+from dashpot.model.expression import parse_expression
+from dashpot.model.network import Branch, NetworkSpec
+from dashpot.model.patch import remove_branch
 from dashpot.model.reading import build_network
 from dashpot.model.sites import Site
 from dashpot.text.document import Document
@@ -38,6 +41,21 @@ class Term:
         return self.cause.word, self.site.words if self.site else ""
 
     @property
+    def kind(self) -> str:
+        """What the cause is of: ``specimen`` or ``measurement``."""
+        return self.cause.kind
+
+    @property
+    def form(self) -> tuple[tuple[str, str], str]:
+        """The name, and the form of the law."""
+        return self.name, self.suspect.form
+
+    @property
+    def word(self) -> str:
+        """The word of the cause."""
+        return self.cause.word
+
+    @property
     def title(self) -> str:
         """What the cause is, and where."""
         return " ".join([self.cause.about, self.site.words] if self.site else [self.cause.about])
@@ -46,17 +64,56 @@ class Term:
         """The term with all strengths times ``share``."""
         return replace(self, atoms=tuple((share * strength, place) for strength, place in self.atoms))
 
+    def admits(self, numbers: Mapping[str, float]) -> bool:
+        """Whether refitted numbers, by the last words of their paths, still belong to the cause."""
+        return self.suspect.admits(numbers)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A branch of the diagnosed network that may go, or give way to a cause, as any term may."""
+
+    branch: str
+    kind: ClassVar[str] = "given"
+
+    @property
+    def name(self) -> tuple[str, str]:
+        """No word of a cause, and the branch."""
+        return "", self.branch
+
+    @property
+    def form(self) -> tuple[tuple[str, str], str]:
+        """The name; its law is that of the branch."""
+        return self.name, ""
+
+    @property
+    def word(self) -> str:
+        """The name of the branch."""
+        return self.branch
+
+    def scaled(self, share: float) -> Given:
+        """Itself: it is there."""
+        return self
+
+    def admits(self, numbers: Mapping[str, float]) -> bool:
+        """Whatever its numbers are, it is called by its name."""
+        return True
+
+
+Part = Term | Given
+
 
 @dataclass(frozen=True, eq=False)
 class Model:
     """A fitted structure.
 
-    ``base`` is the network that is diagnosed, ``declared`` its text extended by the ``terms``, ``fitted`` the same with
-    fitted parameters; ``owned`` holds for each term the paths of the parameters that it brought.
+    ``base`` is the network that is diagnosed, ``terms`` are the causes and those of its branches that could go.
+    ``declared`` is its text extended by the causes and without what has gone, ``fitted`` the same with fitted
+    parameters; ``owned`` holds for each term the paths of the parameters that it brought.
     """
 
     base: NetworkSpec
-    terms: tuple[Term, ...]
+    terms: tuple[Part, ...]
     declared: NetworkSpec
     owned: tuple[tuple[str, ...], ...]
     fitted: NetworkSpec
@@ -76,23 +133,36 @@ class Model:
         return (self.point <= self.coordinates.low + margin) | (self.point >= self.coordinates.high - margin)
 
     @property
+    def causes(self) -> tuple[Term, ...]:
+        """The terms that a diagnosis has added."""
+        return tuple(term for term in self.terms if isinstance(term, Term))
+
+    @property
+    def gone(self) -> tuple[Given, ...]:
+        """The branches of the base that have gone."""
+        return tuple(one for one in given_branches(self.base) if one not in self.terms)
+
+    @property
     def names(self) -> tuple[tuple[str, str], ...]:
-        """The names of all terms."""
-        return tuple(term.name for term in self.terms)
+        """The names of all causes."""
+        return tuple(term.name for term in self.causes)
 
     @property
     def forms(self) -> frozenset[object]:
         """The names and forms of all terms."""
-        return frozenset((term.name, term.suspect.form) for term in self.terms)
+        return frozenset(term.form for term in self.terms)
 
     @property
     def keeps_all(self) -> bool:
-        """Whether no term has replaced a number that another one brought."""
+        """Whether no cause has replaced a number that another one brought."""
         known = {slot.path for slot in self.fitted.slots()}
-        return all(path in known for owned in self.owned for path in owned)
+        brought = (owned for term, owned in zip(self.terms, self.owned, strict=True) if isinstance(term, Term))
+        return all(path in known for owned in brought for path in owned)
 
     def count(self, number: int) -> int:
         """How many more parameters are searched with a term: less those of a branch that it took the place of."""
+        if isinstance(self.terms[number], Given):
+            return sum(slot.value.searched for slot in self.base.slots() if slot.path in self.owned[number])
         homes = {path.rpartition(".")[0] for path in self.owned[number]}
         gone = {slot.path for slot in self.base.slots() if slot.value.searched} - {s.path for s in self.fitted.slots()}
         replaced = sum(path.rpartition(".")[0] in homes for path in gone)
@@ -112,8 +182,46 @@ class Model:
 
 def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
     """A fitted network as the start of a search."""
-    coordinates = search_coordinates(fitted)
-    return Model(declared, (), declared, (), fitted, coordinates, coordinates.start)
+    coordinates, terms = search_coordinates(fitted), given_branches(declared)
+    owned = tuple(numbers_of(declared, one) for one in terms)
+    return Model(declared, terms, declared, owned, fitted, coordinates, coordinates.start)
+
+
+def given_branches(network: NetworkSpec) -> tuple[Given, ...]:
+    """The branches of a network that a search may let go: those with memory and free numbers.
+
+    They do what causes do. Springs and dampers stay, without which there is no specimen; so do branches in groups,
+    those of a network with nodes, what another part of the network refers to, and curves from data.
+    """
+    members = network.root.members
+    having = [one for one in members if isinstance(one, Branch) and one.element.declares.states]
+    if network.joints or len(having) == len(members):
+        return ()
+    searched = {slot.path.partition(".")[0] for slot in network.slots() if slot.value.searched}
+    drawn = {path.partition(".")[0] for path in network.data_curves()}
+    bound = {leaf.shares for leaf in network.leaves()} | set(_mentioned(network)) | drawn
+    return tuple(Given(one.name) for one in having if one.name in searched - bound)
+
+
+def _mentioned(network: NetworkSpec) -> Iterator[str]:
+    """The branches that expressions of other ones refer to."""
+    for slot in network.slots():
+        if slot.value.expression:
+            names = (name.partition(".")[0] for name in parse_expression(slot.value.expression).names)
+            yield from (name for name in names if not slot.path.startswith(f"{name}."))
+
+
+def numbers_of(network: NetworkSpec, given: Given) -> tuple[str, ...]:
+    """The paths of the numbers of a branch."""
+    return tuple(slot.path for slot in network.slots() if slot.path.startswith(f"{given.branch}."))
+
+
+def reduced(network: NetworkSpec, gone: Sequence[str], elements: Mapping[str, type[Element]]) -> NetworkSpec:
+    """A network without some of its branches. Raises InputError where another part of it asks for one of them."""
+    text = network.text
+    for branch in gone:
+        text = remove_branch(text, branch)
+    return build_network(Document.parse(text, network.file, ours=True), elements) if gone else network
 
 
 def extended(
@@ -130,7 +238,7 @@ def extended(
 
 
 def inherited(
-    declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Term], model: Model, sizes: Sizes
+    declared: NetworkSpec, owned: Sequence[Sequence[str]], terms: Sequence[Part], model: Model, sizes: Sizes
 ) -> NetworkSpec:
     """A declared structure with the fitted parameters of a model wherever the two share a term or the base."""
     homes = {path: path for path in (slot.path for slot in model.base.slots())}

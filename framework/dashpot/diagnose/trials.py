@@ -18,7 +18,7 @@ from dashpot.diagnose.pursuit import Scored
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Odds, Scores, Structure
 from dashpot.diagnose.search import additions
-from dashpot.diagnose.term import Model, Term
+from dashpot.diagnose.term import Model, Part, Term
 from dashpot.fit.refine import Outcome
 from dashpot.kernel.workers import forked
 from dashpot.text.problem import InputError
@@ -30,7 +30,7 @@ class _Asked(NamedTuple):
     """A model that is to have other ``terms``; natural steps ``moves`` (p,) of its numbers are foreseen."""
 
     model: Model
-    terms: tuple[Term, ...]
+    terms: tuple[Part, ...]
     moves: Array
 
 
@@ -69,7 +69,7 @@ class Trials:
         terms = dict.fromkeys(term for one in asked for term in (*scores.look.model.terms, *one.terms))
         found = forked(partial(self._refitted, scores), asked, self.refitter.jobs, (*terms,))
         for one, (_, refusal) in zip(asked, found, strict=True):
-            laws = [term for term in one.model.terms if not term.cause.changes_numbers]
+            laws = [term for term in one.model.terms if not (isinstance(term, Term) and term.cause.changes_numbers)]
             if refusal and not self._can_be_written(one.model, list(dict.fromkeys((*laws, *one.terms)))):
                 self.refused += refusals(scores.look.model.terms, one.terms, refusal)
         return [scored for scored, _ in found]
@@ -86,10 +86,10 @@ class Trials:
         if found is None:
             return None, ""
         seen, lacking = found
-        unproven = frozenset((one.name, one.suspect.form) for one in lacking)
+        unproven = frozenset(one.form for one in lacking)
         return replace(scored_by(seen, scores.odds), unproven=unproven), ""
 
-    def _writable(self, asked: _Asked) -> Sequence[Term]:
+    def _writable(self, asked: _Asked) -> Sequence[Part]:
         """All terms, without those of the model that cannot be written any more beside new ones."""
         new = [term for term in asked.terms if term not in asked.model.terms]
         former = [term for term in asked.terms if term in asked.model.terms]
@@ -101,8 +101,8 @@ class Trials:
         """A refitted structure with the best dependence of its numbers, where it scores better to first order."""
         look, terms = scores.look, trial.model.terms
         kept = self._writable(asked)
-        causes = [term.cause for term in asked.terms if term not in kept]
-        if any(term.cause.kind == "specimen" for term in terms if term not in look.model.terms):
+        causes = [term.cause for term in asked.terms if isinstance(term, Term) and term not in kept]
+        if any(term.kind == "specimen" for term in terms if term not in look.model.terms):
             causes += [one.cause for one in look.candidates if one.cause.changes_numbers]
         if not causes:
             return None
@@ -113,18 +113,18 @@ class Trials:
         best = min([Structure(), *written], key=beside.score)
         return _Asked(trial.model, tuple(terms_of(beside, best)), beside.moves(best)) if best.size else None
 
-    def _can_be_written(self, model: Model, terms: Sequence[Term]) -> bool:
+    def _can_be_written(self, model: Model, terms: Sequence[Part]) -> bool:
         """Whether terms can be written, all of them."""
         return len(self.refitter.writable(model, terms)) == len(terms)
 
-    def _tenable(self, look: Look, model: Model, new: set[Term]) -> tuple[Scores, set[Term]] | None:
+    def _tenable(self, look: Look, model: Model, new: set[Part]) -> tuple[Scores, set[Part]] | None:
         """A refitted model under the noise of a look, and those of its new terms that lack evidence.
 
         Its former terms go that are no longer what they are called, or are not told or shown any more, as a moving mass
         where a delay has come in. A new term that is not what it is called or is not told refuses the structure.
         """
         while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
-            gone = {term for k, term in enumerate(model.terms) if not term.suspect.admits(model.numbers_of(k))}
+            gone = {term for k, term in enumerate(model.terms) if not term.admits(model.numbers_of(k))}
             if not gone:
                 seen = self.scores_of(look, model)
                 untold, unproven = self.lacking(seen)
@@ -137,7 +137,7 @@ class Trials:
             model = self.refitter.refit(model, kept, look.noise)
         return None
 
-    def lacking(self, seen: Scores) -> tuple[set[Term], set[Term]]:
+    def lacking(self, seen: Scores) -> tuple[set[Part], set[Part]]:
         """The terms of a refitted model that the data do not tell, and those that have no evidence."""
         terms = list(enumerate(seen.look.model.terms))
         untold = {term for number, term in terms if not is_determined(seen, number)}
@@ -157,11 +157,11 @@ class Trials:
         return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
 
 
-def refusals(before: Sequence[Term], after: Sequence[Term], reason: str) -> list[str]:
+def refusals(before: Sequence[Part], after: Sequence[Part], reason: str) -> list[str]:
     """What to say of each term that could not join: in place of which ones, since others may need what these added."""
-    gone = " and ".join(f"'{term.cause.word}'" for term in before if term not in after)
+    gone = " and ".join(f"'{term.word}'" for term in before if term not in after)
     place = f" in place of {gone}" if gone else ""
-    words = [term.cause.word for term in after if term not in before]
+    words = [term.word for term in after if term not in before]
     return [f"'{word}' could not be written into the network{place}: {reason}" for word in words]
 
 
@@ -172,10 +172,10 @@ def scored_by(scores: Scores, odds: Odds) -> Scored:
     return Scored(model, *found, scores.exact(), scores.look.samples, odds.of_model(model))
 
 
-def terms_of(scores: Scores, structure: Structure) -> list[Term]:
+def terms_of(scores: Scores, structure: Structure) -> list[Part]:
     """The terms of a structure: those of the model that stay, then the new ones at the strengths that are foreseen."""
     look = scores.look
-    found = [term for number, term in enumerate(look.model.terms) if number not in structure.dropped]
+    found: list[Part] = [term for number, term in enumerate(look.model.terms) if number not in structure.dropped]
     strengths = scores.strengths(structure)
     at = strengths.size - len(scores.atoms(structure))
     for k, places in sorted(structure.added):

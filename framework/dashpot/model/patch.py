@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from dashpot.model.copies import write_out_copies
 from dashpot.model.identified import Range, range_text
 from dashpot.model.network import Characteristic, NetworkSpec, Value
 from dashpot.model.written_out import write_out_uses
@@ -58,7 +59,13 @@ def add_branch(text: str, lines: str) -> str:
 
 
 def remove_branch(text: str, branch: str) -> str:
-    """The text without a branch; ``group.branch`` is one inside a group. Raises InputError when there is none."""
+    """The text without a branch; ``group.branch`` is one inside a group. Raises InputError when there is none.
+
+    Without ``name_2``, the second copy of an outermost branch that is repeated, the others are written out.
+    """
+    family, _, copy = branch.rpartition("_")
+    if copy.isdecimal() and branch not in branch_names(text):
+        text = write_out_copies(text, family)
     document = Document.parse(text)
     home, _, name = branch.rpartition(".")
     _branch_node(document, branch)

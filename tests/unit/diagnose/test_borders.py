@@ -15,7 +15,7 @@ class Term(SimpleNamespace):
 
     def __init__(self, name, company=(), told=(), shown=()):
         super().__init__(name=name, told=set(told), shown=set(shown))
-        self.suspect = SimpleNamespace(admits=lambda present: set(company) <= set(present))
+        self.admits = lambda present: set(company) <= set(present)
 
 
 class Refits:

@@ -12,7 +12,7 @@ from dashpot.diagnose.trials import refusals
 
 
 def term(word):
-    return SimpleNamespace(cause=SimpleNamespace(word=word))
+    return SimpleNamespace(word=word)
 
 
 def test_a_term_that_joins_alone_is_told_with_the_reason():

@@ -321,6 +321,35 @@ def test_a_branch_inside_groups_is_removed():
         remove_branch(text, "leg.b")
 
 
+REPEATED = [
+    "damping: {start: [1, 2, 3], bounds: [0.1, 9]}",
+    "damping: [1, 2, 3]",
+    "damping: {value: [1, 2, 3], interval: [[0.5, 2], [1.5, 3], [2, 4]]}",
+    "damping: {fixed: [1, 2, 3], over: {setting: current, at: 1, slope: {start: [4, 5, 6]}}}",
+    "damping: {start: 2, over: {setting: current, at: [0, 1], factor: [1, {start: [4, 5, 6]}]}}",
+    "damping: 7, scale: {deflection: [0, 1 mm], factor: [1, {start: [4, 5, 6], bounds: [0.1, 9]}]}",
+]
+
+
+@pytest.mark.parametrize("law", REPEATED)
+@pytest.mark.parametrize("flow", [True, False], ids=["flow", "block"])
+@pytest.mark.parametrize("gone", [("oil_1",), ("oil_2",), ("oil_3", "oil_1"), ("oil_1", "oil_2", "oil_3")])
+def test_copies_of_a_repeated_branch_are_removed(law, flow, gone):
+    """What is left has the numbers and the names that it had."""
+    entry = f"oil: {{repeat: 3, element: viscous, {law}}}\nrubber: {{element: elastic, stiffness: 5}}"
+    if not flow:
+        entry = entry.replace("{repeat: 3, element: viscous, ", "\n  repeat: 3\n  element: viscous\n  ", 1)
+        entry = entry.replace("}\nrubber", "\nrubber", 1).replace(", scale: ", "\n  scale: ", 1)
+    text, found = written(entry), read(written(entry))
+    for branch in gone:
+        text = remove_branch(text, branch)
+    stays = {slot.path: slot.value for slot in found.slots() if slot.path.partition(".")[0] not in gone}
+    assert {slot.path: slot.value for slot in read(text).slots()} == stays
+    assert [leaf.characteristics() for leaf in read(text).leaves()] == [
+        leaf.characteristics() for leaf in found.leaves() if leaf.name not in gone
+    ]
+
+
 @pytest.mark.parametrize("text", [BLOCK, FLOW, JSON], ids=["block", "flow", "json"])
 def test_an_entry_is_set_whether_it_was_there_or_not(text):
     set_once = set_entry(text, "rubber", "stiffness", "{start: 7 N/mm}")
