@@ -145,7 +145,8 @@ def _key_figures(errors: Errors, explainable: float | None) -> list[tuple[str, s
 
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
-    done = f"was extended to {extended}" if extended else "was left as it is"
+    how = "extended" if diagnosis["causes"] or not diagnosis.get("may_go") else "reduced"
+    done = f"was {how} to {extended}" if extended else "was left as it is"
     origins = (grids.floor_origin(diagnosis), grids.explainable_origin(diagnosis))
     return " ".join(filter(None, [f"{headline(diagnosis)} {model} {done}.", *origins]))
 
