@@ -10,7 +10,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 from unit.causes.test_promises import NETWORK, REGISTRY, STEP, VIEW, SmallView
 
-from dashpot.diagnose.term import first_model
+from dashpot.diagnose.term import Term, first_model
 from dashpot.kernel.eager import simulate_eagerly
 from dashpot.model.patch import add_branch, replace_branch
 from dashpot.model.reading import parse_network
@@ -125,7 +125,9 @@ def test_a_branch_that_takes_the_place_of_another_counts_by_what_it_adds():
     )
     added = add_branch(base.text, "more:\n  element: damper\n  damping: {start: 1 N*s/m, bounds: [0.1 N*s/m, 9 N*s/m]}")
     for text, owned in ((on_spring, ("damping.stiffness", "damping.relaxation_time")), (added, ("more.damping",))):
-        model = replace(first_model(base, parse_network(text, REGISTRY.elements)), base=base, owned=(owned,))
+        term = Term(REGISTRY.causes["setting_dependence"], dependence()[0], ())
+        first = first_model(base, parse_network(text, REGISTRY.elements))
+        model = replace(first, base=base, terms=(term,), owned=(owned,))
         assert model.count(0) == 1
 
 
