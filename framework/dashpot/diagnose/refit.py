@@ -103,18 +103,20 @@ class Refitter:
         if fresh and model.at_bound.any():
             chosen.append(self._start(model, terms, self._freed(model)))
         if len(chosen) == 1:
-            return self._fitted(model, tuple(terms), *chosen[0], noise, STEPS, TRIAL_TOLERANCE)
-        trials = [self._fitted(model, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
+            return self._fitted(model.base, tuple(terms), *chosen[0], noise, STEPS, TRIAL_TOLERANCE)
+        trials = [self._fitted(model.base, tuple(terms), *one, noise, FIRST_STEPS, TRIAL_TOLERANCE) for one in chosen]
         ends = objective.losses(np.array([trial.values for trial in trials]))
         ahead = trials[int(np.argmin(np.where(np.isfinite(ends), ends, np.inf)))]
         if ahead.outcome is not Outcome.STEPS_SPENT:
             return ahead
         rest = STEPS - FIRST_STEPS
-        return self._fitted(model, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE)
+        return self._fitted(
+            model.base, ahead.terms, ahead.declared, ahead.owned, ahead.fitted, noise, rest, TRIAL_TOLERANCE
+        )
 
     def fit(self, model: Model, noise: Noise) -> Model:
         """The same structure, its numbers fitted under another noise."""
-        return self._fitted(model, model.terms, model.declared, model.owned, model.fitted, noise)
+        return self._fitted(model.base, model.terms, model.declared, model.owned, model.fitted, noise)
 
     def linearise(self, model: Model, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
         """Whitened residual (kept,) and tangents (p, kept) by run; a number at its bound can absorb nothing."""
@@ -205,8 +207,7 @@ class Refitter:
             before, brought = self._written(base, (*given, *causes[:-1]))
             declared, mine = extended(before, causes[-1], self.elements)
             return declared, {**brought, causes[-1]: mine}
-        stay = {one.branch for one in given}
-        gone = [one.branch for one in given_branches(base) if one.branch not in stay]
+        gone = [one.branch for one in given_branches(base) if one not in given]
         return reduced(base, gone, self.elements), {one: numbers_of(base, one) for one in given}
 
     def _objective(self, network: NetworkSpec, noise: Noise) -> Objective:
@@ -214,7 +215,7 @@ class Refitter:
 
     def _fitted(
         self,
-        model: Model,
+        base: NetworkSpec,
         terms: tuple[Part, ...],
         declared: NetworkSpec,
         owned: tuple[tuple[str, ...], ...],
@@ -227,7 +228,7 @@ class Refitter:
         objective = self._objective(start, noise.counted)
         found = refine(objective, coordinates, coordinates.start, steps, tolerance, thorough=False)
         fitted = with_point(start, coordinates, found.point)
-        return Model(model.base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)
+        return Model(base, terms, declared, owned, fitted, coordinates, found.point, found.outcome)
 
 
 def _key(candidate: Candidate, run: ScoredRun) -> tuple[object, ...]:
