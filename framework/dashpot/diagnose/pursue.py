@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.candidate import Candidate
-from dashpot.diagnose.chance import independent_directions
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Look, look_at, look_settled
@@ -70,8 +69,7 @@ class Pursuer:
                 weights = self.weights(len(look.folds.names))
                 found = (present, look, model, without, tuple(rivals), tuple(others), weights)
                 likeliest = self.likeliest(look, present, without)
-                directions = independent_directions(Scores(look))
-                return Pursuit(*found, *likeliest, directions, self.looks, self.ended, tuple(self.trials.refused))
+                return Pursuit(*found, *likeliest, self.looks, self.ended, tuple(self.trials.refused))
             del look  # a look is large
             self.looked = self._all_candidates(onward)
 

@@ -10,9 +10,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.chance import share_by_chance
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.score import RIG_ODDS, nats
+from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
 Array = NDArray[np.float64]
@@ -84,9 +83,8 @@ class Pursuit:
 
     ``without`` has the structures without each cause, all terms of it, ``rivals`` those with another cause in the place
     of a term, ``others`` what else was refitted at the last look. ``likeliest`` is the best one less the causes without
-    which it scores better, ``without_one`` that without each of its causes. In so many ``directions`` the laws of all
-    candidates differ. ``first`` is the model that was diagnosed, ``ended`` whether the search came to its end,
-    ``refused`` what could not be written.
+    which it scores better, ``without_one`` that without each of its causes. ``first`` is the model that was diagnosed,
+    ``ended`` whether the search came to its end, ``refused`` what could not be written.
     """
 
     best: Scored
@@ -98,7 +96,6 @@ class Pursuit:
     weights: Array
     likeliest: Scored
     without_one: tuple[Without, ...]
-    directions: float
     looks: int
     ended: bool
     refused: tuple[str, ...] = ()
@@ -117,7 +114,7 @@ class Pursuit:
     def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """How sure a cause is: the share of draws in which the best structure has it.
 
-        Times how sure it is that what it explains is not a part of what stays ``unexplained``.
+        Times its own part of what it explains and of what stays ``unexplained``, which might be its own.
         """
         return self._share(lambda names: name in names) * self._own(name, unexplained)
 
@@ -151,21 +148,15 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How sure it is that a cause explains a law of its own, and not a part of what stays unexplained.
+        """What a cause alone explains over that and what stays unexplained, which might be its own.
 
-        The structure that it explains alone and that stays unexplained might be one, of unknown cause, of which it
-        takes up that much by chance. A cause without which the structure scores better takes nothing from the others.
+        A cause without which the structure scores better takes nothing from the others.
         """
         alone = self.explained_alone(name)
-        if np.isinf(alone) or unexplained == 0.0:
-            return float(alone > 0.0 or self.without_cause(name) is None)
-        chance = share_by_chance(alone / (alone + unexplained), self.directions)
-        odds = RIG_ODDS if self._is_fault(name) else 1.0
-        return (1.0 - chance) * odds / ((1.0 - chance) * odds + chance)
-
-    def _is_fault(self, name: tuple[str, str]) -> bool:
-        """Whether a cause is a fault of the measurement, which is less likely beforehand than an unknown law."""
-        return any(term.kind == "measurement" for term in self.best.model.terms if term.name == name)
+        whole = alone + unexplained
+        if np.isinf(alone):
+            return 1.0
+        return alone / whole if whole > 0.0 else float(self.without_cause(name) is None)
 
     def explained(self, name: tuple[str, str]) -> float:
         """By what share the square of the residual grows without a cause, all else refitted."""

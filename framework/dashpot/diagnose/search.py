@@ -60,7 +60,7 @@ def moves_from(scores: Scores, structure: Structure, stay: frozenset[int] = NONE
 
 
 @dataclass(frozen=True, eq=False)
-class Projected:
+class _Projected:
     """Scores (m,) and their Gram matrix (m, m) of the candidates' columns, everything in a structure projected out."""
 
     right: Array
@@ -70,7 +70,7 @@ class Projected:
 
 def additions(scores: Scores, structure: Structure) -> list[Added]:
     """The candidates that explain most beside a structure (score test), the best places of each; best first."""
-    left = projected(scores, structure)
+    left = _project(scores, structure)
     used = {k for k, _ in structure.added} | _gone(scores, structure) | _same_fault(scores, structure)
     found = []
     for k, candidate in enumerate(scores.look.candidates):
@@ -106,8 +106,7 @@ def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:
     return kept[:PROPOSED]
 
 
-def projected(scores: Scores, structure: Structure) -> Projected:
-    """The candidates' columns with everything in a structure projected out."""
+def _project(scores: Scores, structure: Structure) -> _Projected:
     at, target = scores.columns(structure), scores.target(structure)
     first = scores.look.layout.first_candidate
     gram, bank = scores.gram(structure.dropped), slice(first, None)
@@ -117,10 +116,10 @@ def projected(scores: Scores, structure: Structure) -> Projected:
     square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))
     samples = float(scores.look.samples.sum())
     # per unit of the residual, so that a gain in squares is one in nats
-    return Projected(right, left, 0.5 * samples / max(square, 1e-300))
+    return _Projected(right, left, 0.5 * samples / max(square, 1e-300))
 
 
-def _places(candidate: Candidate, left: Projected) -> tuple[float, tuple[int, ...]] | None:
+def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, ...]] | None:
     """The places of a candidate that explain most together, and the gain in nats less that of chance."""
     suspect, own = candidate.suspect, np.arange(candidate.columns.start, candidate.columns.stop)
     alive = np.flatnonzero(np.diag(left.gram)[own] > LEFT)
@@ -143,7 +142,7 @@ def _places(candidate: Candidate, left: Projected) -> tuple[float, tuple[int, ..
 
 
 def _jointly(
-    own: NDArray[np.intp], alive: NDArray[np.intp], left: Projected, positive: bool
+    own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected, positive: bool
 ) -> tuple[float, tuple[int, ...]] | None:
     from scipy.optimize import nnls
 

@@ -6,15 +6,12 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from dashpot.diagnose.chance import participation_ratio, share_by_chance
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import standing_of
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
-from dashpot.diagnose.score import RIG_ODDS
 
 FOLDS, SAMPLES = 8, 100.0
-DIRECTIONS = 9.0
 WEIGHTS = np.random.default_rng(0).exponential(size=(2000, FOLDS))
 
 
@@ -26,7 +23,7 @@ def squares_of(nats):
 def scored(nats, *names, price=0.0):
     """A structure with so many nats in each fold."""
     each = squares_of(nats)
-    terms = tuple(SimpleNamespace(name=(name, ""), kind="specimen") for name in names)
+    terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
     model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
@@ -34,40 +31,7 @@ def scored(nats, *names, price=0.0):
 def pursuit(best, without, *others):
     term = SimpleNamespace(name=("a", ""))
     missing = tuple(Without((term,), one) for one in without)
-    return Pursuit(best, None, None, missing, (), others, WEIGHTS, best, missing, DIRECTIONS, 1, True)
-
-
-def by_chance(share, draws=200_000):
-    """How often one of so many directions takes up a share of the square of a random vector, by drawing some."""
-    drawn = np.random.default_rng(3).normal(size=(draws, int(DIRECTIONS))) ** 2
-    return np.mean(drawn.max(axis=1) >= share * drawn.sum(axis=1))
-
-
-@pytest.mark.parametrize("share", [0.5, 0.6, 0.7, 0.8])
-def test_what_one_of_several_directions_takes_up_by_chance(share):
-    assert share_by_chance(share, DIRECTIONS) == pytest.approx(by_chance(share), rel=0.1, abs=1e-4)
-
-
-@pytest.mark.parametrize("share", [0.1, 0.2, 0.3, 0.4])
-def test_below_half_it_is_an_upper_bound(share):
-    assert by_chance(share) <= share_by_chance(share, DIRECTIONS) <= 1.0
-
-
-def test_of_one_direction_everything_is_taken_up():
-    assert share_by_chance(0.99, 1.0) == 1.0
-
-
-def test_laws_that_are_alike_are_one_direction_and_others_as_many_as_they_are():
-    assert participation_ratio(np.ones((4, 4)), np.ones(4)) == pytest.approx(1.0)
-    assert participation_ratio(np.diag([1.0, 4.0, 9.0]), np.ones(3)) == pytest.approx(3.0)
-    pairs = np.kron(np.eye(3), np.ones((2, 2)))
-    assert participation_ratio(pairs, np.ones(6)) == pytest.approx(3.0)
-
-
-def test_many_forms_of_a_cause_count_no_more_than_one():
-    alike = np.eye(4)
-    alike[1:, 1:] = 1.0
-    assert participation_ratio(alike, np.array([1.0, 1 / 3, 1 / 3, 1 / 3])) == pytest.approx(2.0)
+    return Pursuit(best, None, None, missing, (), others, WEIGHTS, best, missing, 1, True)
 
 
 def test_a_cause_that_every_fold_needs_is_certain():
@@ -94,30 +58,20 @@ def test_a_correction_that_the_score_does_without_hides_nothing_of_another_law()
     term = SimpleNamespace(name=law)
     missing = tuple(Without((SimpleNamespace(name=(name, "")),), scored(1.0)) for name in ("law", "correction"))
     alone = (Without((term,), scored(30.0)),)
-    hidden = Pursuit(best, None, None, missing, (), (), WEIGHTS, best, missing, DIRECTIONS, 1, True)
+    hidden = Pursuit(best, None, None, missing, (), (), WEIGHTS, best, missing, 1, True)
     seen = replace(hidden, likeliest=scored(0.0, "law"), without_one=alone)
     explained = np.expm1(2.0 * 30.0 / SAMPLES)
     assert hidden.probability(law, 0.1) < 0.2
-    assert seen.probability(law, 0.1) == pytest.approx(1.0 - by_chance(explained / (explained + 0.1)), abs=1e-3)
+    assert seen.probability(law, 0.1) == pytest.approx(explained / (explained + 0.1))
 
 
-@pytest.mark.parametrize("unexplained", [0.0, 1.0, 1.7, 2.5])
-def test_a_name_is_no_surer_than_that_it_is_no_part_of_what_is_unexplained(unexplained):
-    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; e over e + u might be chance."""
+@pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])
+def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
+    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; e over e + u."""
     nats = 50.0
     explained = np.exp(2.0 * nats * FOLDS / (SAMPLES * FOLDS)) - 1.0
     found = pursuit(scored(0.0, "a"), [scored(nats)]).probability(("a", ""), unexplained)
-    assert found == pytest.approx(1.0 - by_chance(explained / (explained + unexplained)), abs=0.02)
-
-
-def test_a_fault_of_the_measurement_is_less_likely_than_an_unknown_law():
-    explained, unexplained = np.expm1(1.0), 1.2
-    best = scored(0.0, "a")
-    best.model.terms[0].kind = "measurement"
-    chance = by_chance(explained / (explained + unexplained))
-    odds = RIG_ODDS * (1.0 - chance) / chance
-    found = pursuit(best, [scored(50.0)]).probability(("a", ""), unexplained)
-    assert found == pytest.approx(odds / (1.0 + odds), rel=0.15)
+    assert found == pytest.approx(explained / (explained + unexplained))
 
 
 ALONE = np.exp(2.0 * 4.0 / SAMPLES) - 1.0
@@ -137,7 +91,7 @@ def test_a_cause_without_which_no_form_comes_near_is_certain():
 def test_what_another_form_could_explain_as_well_is_not_its_own():
     """Beside u of unknown cause counts by how much the square grows where the other forms may err: a over a + u."""
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms()])
-    assert found.probability(("a", ""), 0.08) == pytest.approx(1.0 - by_chance(ALONE / (ALONE + 0.08)), abs=0.02)
+    assert found.probability(("a", ""), 0.1) == pytest.approx(ALONE / (ALONE + 0.1))
     assert found.probability(("a", "")) == 1.0
 
 
