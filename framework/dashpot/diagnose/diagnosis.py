@@ -50,7 +50,7 @@ class Diagnosis(Findings):
         cause, probability = terms[0].cause, self.probability(name)
         evidence_of = cause.evidence_of if cause.kind == "measurement" else None
         gain, removal = self._worth(next((one.network for one in self.removals if one.name == name), None))
-        rivals = tuple(word for word, _ in pursuit.replacements(name))
+        rivals = tuple(dict.fromkeys(word for word, _ in pursuit.replacements(name, self.unexplained)))
         return NamedCause(
             cause,
             terms,

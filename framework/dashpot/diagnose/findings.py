@@ -118,10 +118,11 @@ class Findings:
     def unexplained(self) -> float:
         """The share of the square of the residual on training runs that is structure of unknown cause.
 
-        Near the noise it is what the tests find, or what is missed of runs left out; farther from it, all that is no
-        noise: any law takes up a part of that by chance.
+        Near the noise it is what the tests find, or what is missed of runs left out beyond what an explained model may;
+        farther from it, all that is no noise: any law takes up a part of that by chance.
         """
-        known = self._trained if self._near_floor else self.setting.floor.value or self._attainable
+        floor = self.setting.floor.value
+        known = floor if floor and not self._near_floor else (1.0 + FORM_ERROR) * self._attainable
         return max(self.leftover.share, 1.0 - min(known / self._unseen, 1.0) ** 2)
 
     @property

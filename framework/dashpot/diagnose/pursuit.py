@@ -114,7 +114,7 @@ class Pursuit:
     def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """How sure a cause is: the share of draws in which the best structure has it.
 
-        Times its own part of what it explains and of what stays ``unexplained``, which might be its own.
+        Times its own part of what tells it from others and of what stays ``unexplained``, which might decide otherwise.
         """
         return self._share(lambda names: name in names) * self._own(name, unexplained)
 
@@ -130,10 +130,15 @@ class Pursuit:
         own = self._share(lambda names: name in names)
         return max(self._in_place_of(name).values(), default=0) <= own * self.winners.total()
 
-    def replacements(self, name: tuple[str, str]) -> tuple[tuple[str, str], ...]:
-        """The causes that stand in the place of one in more than one of ten draws."""
-        least = (1.0 - NAMED) * self.winners.total()
-        return tuple(sorted(new for new, count in self._in_place_of(name).items() if count > least))
+    def replacements(self, name: tuple[str, str], unexplained: float = 0.0) -> tuple[tuple[str, str], ...]:
+        """The causes that stand in the place of one in more than one of ten draws.
+
+        And those of which not nine tenths of what tells them from it and stays ``unexplained`` tell them from it.
+        """
+        least, known = (1.0 - NAMED) * self.winners.total(), set(self.best.model.names)
+        drawn = {new for new, count in self._in_place_of(name).items() if count > least}
+        near = [one for one in self._without_name(name) if self._behind(one) * (1.0 - NAMED) < NAMED * unexplained]
+        return tuple(sorted(drawn.union(*(set(one.model.names) - known for one in near))))
 
     def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
         """In how many draws which causes stand in the place of one."""
@@ -148,15 +153,25 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What a cause alone explains over that and what stays unexplained, which might be its own.
-
-        A cause without which the structure scores better takes nothing from the others.
-        """
+        """What tells a cause from all that might be in its place, over that and what stays unexplained."""
         alone = self.explained_alone(name)
-        whole = alone + unexplained
-        if np.isinf(alone):
-            return 1.0
-        return alone / whole if whole > 0.0 else float(self.without_cause(name) is None)
+        if np.isinf(alone) or unexplained == 0.0:
+            return float(alone > 0.0 or self.without_cause(name) is None)
+        told = min([alone, *map(self._behind, self._without_name(name))])
+        return told / (told + unexplained)
+
+    def _without_name(self, name: tuple[str, str]) -> list[Scored]:
+        """The structures without a cause that have others in its place, and are as simple: no less likely beforehand.
+
+        A law that has more numbers follows it whatever acts; a fault of the measurement is no law without evidence.
+        """
+        found = [*(one for _, one in self.rivals), *self.others]
+        simple = [one for one in found if one.price <= self.best.price and not one.unproven]
+        return [one for one in simple if name not in one.model.names]
+
+    def _behind(self, other: Scored) -> float:
+        """By what share the square is larger in a structure than in the best one, prior odds included."""
+        return _share_of(other.score - self.best.score, self.best)
 
     def explained(self, name: tuple[str, str]) -> float:
         """By what share the square of the residual grows without a cause, all else refitted."""
@@ -179,6 +194,10 @@ def _without(found: Sequence[Without], name: tuple[str, str]) -> Scored | None:
 
 def _growth(whole: Scored, less: Scored | None, forms_err: bool) -> float:
     """By what share the square of what is not predicted is larger in ``less``; 0 where there is none."""
-    cost = less.likelihood(forms_err) - whole.likelihood(forms_err) if less else 0.0
+    return _share_of(less.likelihood(forms_err) - whole.likelihood(forms_err), whole) if less else 0.0
+
+
+def _share_of(nats: float, whole: Scored) -> float:
+    """The share by which so many nats are a larger square, 0 where they are a smaller one."""
     with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
-        return float(np.expm1(2.0 * max(cost, 0.0) / float(whole.samples.sum())))
+        return float(np.expm1(2.0 * max(nats, 0.0) / float(whole.samples.sum())))
