@@ -74,6 +74,47 @@ def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
     assert found == pytest.approx(explained / (explained + unexplained))
 
 
+BEHIND = 3.0  # nats in each fold by which a rival predicts worse
+BETWEEN = np.exp(2.0 * BEHIND / SAMPLES) - 1.0
+
+
+def beside_a_rival(price=0.0, unproven=frozenset()):
+    """A cause that explains a lot, and another one in its place that predicts a little worse in every fold."""
+    rival = replace(scored(BEHIND, "b", price=price), unproven=unproven)
+    return pursuit(scored(0.0, "a"), [scored(50.0)], rival)
+
+
+@pytest.mark.parametrize("unexplained", [0.05, 0.3, 0.9])
+def test_a_name_is_no_surer_than_what_tells_it_from_a_rival_beside_the_unexplained(unexplained):
+    found = beside_a_rival()
+    assert found.probability(("a", ""), unexplained) == pytest.approx(BETWEEN / (BETWEEN + unexplained))
+    assert found.presence(("a", ""), unexplained) == found.probability(("a", ""), unexplained)
+    assert found.replacements(("a", ""), unexplained) == (("b", ""),)
+
+
+def test_where_only_noise_is_left_the_draws_alone_tell_a_name_from_its_rival():
+    found = beside_a_rival()
+    assert found.probability(("a", ""), 0.0) == 1.0 and found.replacements(("a", ""), 0.0) == ()
+
+
+def test_a_rival_that_is_told_apart_is_none():
+    found = beside_a_rival()
+    assert found.replacements(("a", ""), 0.1 * BETWEEN) == ()
+    assert found.probability(("a", ""), 0.1 * BETWEEN) == pytest.approx(1.0 / 1.1)
+
+
+def test_a_law_with_more_numbers_that_explains_no_more_is_no_rival():
+    alone = np.expm1(2.0 * 50.0 / SAMPLES)
+    assert beside_a_rival(price=1.0).probability(("a", ""), 0.3) == pytest.approx(alone / (alone + 0.3))
+
+
+def test_a_fault_of_the_measurement_without_evidence_makes_no_law_unsure():
+    fault = beside_a_rival(unproven=frozenset({(("b", ""), "b")}))
+    assert fault.probability(("a", ""), 0.3) == pytest.approx(
+        pursuit(scored(0.0, "a"), [scored(50.0)]).probability(("a", ""), 0.3)
+    )
+
+
 ALONE = np.exp(2.0 * 4.0 / SAMPLES) - 1.0
 
 
