@@ -225,7 +225,7 @@ def _stands_in(causes: list[Json]) -> str:
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
-    alike = [cause_title(cause) for cause in diagnosis["causes"]]
+    alike = [_or_rivals(cause) for cause in diagnosis["causes"]]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
     resembled = f"; it resembles {join(alike)}{left}" if alike else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
@@ -285,8 +285,13 @@ def _named(causes: list[Json]) -> str:
 
 def _as_sure_as_it_is(cause: Json) -> str:
     """A cause with its rivals, which have other parameters, and as probable where it is no more than that."""
+    return _probably(cause, _or_rivals(cause) if cause.get("indistinguishable_from") else cause_phrase(cause))
+
+
+def _or_rivals(cause: Json) -> str:
+    """A cause, or what may stand in its place."""
     rivals = [cause_title({"cause": word}) for word in cause.get("indistinguishable_from") or ()]
-    return _probably(cause, " or ".join([cause_title(cause), *rivals]) if rivals else cause_phrase(cause))
+    return " or ".join([cause_title(cause), *rivals])
 
 
 def _probably(cause: Json, words: str) -> str:

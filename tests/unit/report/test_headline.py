@@ -91,6 +91,9 @@ def test_unexplained_tells_what_it_resembles_and_does_not_guess():
     assert said.endswith("something is missing in the model, and no known cause fits it.")
     said = headline(diagnosis(verdict="unexplained", causes=[relaxation(accepted=False)]))
     assert said.endswith("no known cause fits it; it resembles relaxation, with which 14.6 N remain.")
+    rival = relaxation(accepted=False, indistinguishable_from=["creep"])
+    said = headline(diagnosis(verdict="unexplained", causes=[rival]))
+    assert said.endswith("no known cause fits it; it resembles relaxation or creep, with which 14.6 N remain.")
 
 
 def test_ambiguous_names_all_rivals():
