@@ -25,6 +25,7 @@ from real.trial import Outcome, Trial, engine_digest, kept_outcome
 import dashpot
 
 PAGES = Path(__file__).resolve().parents[2] / "docs" / "real"
+RESEMBLED = 3  # causes that are listed where none is named
 Kept = Sequence[tuple[Trial, Outcome]]
 
 
@@ -116,7 +117,7 @@ def diagnoses(outcomes: Sequence[Outcome]) -> str:
             f"`{one.base}`",
             f"{one.seed}{', a fifth of the runs removed' if one.fewer else ''}",
             one.verdict.replace("_", " "),
-            "; ".join(_said(cause) for cause in one.causes if cause["class"] == "specimen") or "–",
+            "; ".join(_said(cause) for cause in one.causes if cause["class"] == "specimen") or _resembled(one),
             "; ".join(
                 [
                     *(_said(cause) for cause in one.causes if cause["class"] == "measurement"),
@@ -148,6 +149,12 @@ def _said(cause: dict[str, object]) -> str:
     rivals = cause["indistinguishable_from"]
     beside = f" or {' or '.join(str(rival).replace('_', ' ') for rival in rivals)}" if rivals else ""
     return f"{'probably ' * (cause['standing'] == 'probable')}{link}{beside} ({float(cause['probability']):.2g})"
+
+
+def _resembled(outcome: Outcome) -> str:
+    """The first few that the force resembles where nothing of the specimen is named."""
+    told = [_said(cause) for cause in outcome.resembled if cause["class"] == "specimen"][:RESEMBLED]
+    return f"resembles {'; '.join(told)}" if told else "–"
 
 
 def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:

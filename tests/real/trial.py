@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -27,7 +27,7 @@ from dashpot.fit.scored import warm_up
 DASHPOT = (sys.executable, "-m", "dashpot")
 OUTCOME = "outcome.json"
 LONGEST = 3600.0  # s
-# of each cause that is accepted or probable
+# of each cause
 KEPT = (
     "cause",
     "class",
@@ -94,7 +94,8 @@ class Trial:
 class Outcome:
     """What a trial came to.
 
-    `faults` are those that triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
+    `causes` are accepted or probable; what a part of the force only resembles is in `resembled`. `faults` are those that
+    triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
     so on; `floor` and `explainable` are in N.
     """
 
@@ -112,6 +113,7 @@ class Outcome:
     seconds: float
     megabytes: float
     failed: str | None
+    resembled: list[dict[str, Any]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,7 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
     common = (trial.set.name, trial.base, trial.seed, trial.fewer)
     if told is None:
         return Outcome(*common, "failed", [], [], {}, {}, None, None, spent.seconds, spent.megabytes, spent.failed)
-    causes = [{key: cause[key] for key in KEPT} for cause in told["causes"] if cause["standing"] != "resembles"]
+    causes = [{key: cause[key] for key in KEPT} for cause in told["causes"]]
     errors = {
         f"{when}.{which}": value
         for when, pair in told["rmse"].items()
@@ -154,7 +156,7 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
     return Outcome(
         *common,
         told["verdict"],
-        causes,
+        [cause for cause in causes if cause["standing"] != "resembles"],
         told["faults"],
         errors,
         {},
@@ -163,6 +165,7 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
         spent.seconds,
         spent.megabytes,
         spent.failed,
+        [cause for cause in causes if cause["standing"] == "resembles"],
     )
 
 
