@@ -94,8 +94,8 @@ class Trial:
 class Outcome:
     """What a trial came to.
 
-    `causes` are accepted or probable; what a part of the force only resembles is in `resembled`. `faults` are those that
-    triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
+    `causes` are accepted or probable; what a part of the force only resembles is in `resembled`. `faults` are those
+    that triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
     so on; `floor` and `explainable` are in N.
     """
 
