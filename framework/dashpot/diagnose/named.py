@@ -34,8 +34,8 @@ def standing_of(presence: float) -> str:
 class NamedCause:
     """A cause with the parameters that it brought, by path, or with the faults of single runs that it stands for.
 
-    ``probability`` is that of its name, ``presence`` that of something in its place, this cause or a rival; both are
-    the same for a fault of the measurement.
+    ``probability`` is that of its name, ``presence`` counts draws with a rival in its place as well; both are the same
+    for a fault of the measurement.
     ``gain`` is what the final files gain by it, ``removal`` the share by which the error grows where it is taken out
     and the rest refitted, both on runs that took no part; ``nats`` is what it predicts of training runs left out,
     ``rivals`` the words of what may stand in its place.

@@ -119,7 +119,7 @@ class Pursuit:
         return self._share(lambda names: name in names) * self._own(name, unexplained)
 
     def presence(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
-        """How sure it is that there is something in the place of a cause: it or one that replaces it, if it leads."""
+        """The same where draws count in which another cause stands in its place, if it leads: something is there."""
         if not self.leads(name):
             return self.probability(name, unexplained)
         known = set(self.best.model.names)
@@ -133,11 +133,12 @@ class Pursuit:
     def replacements(self, name: tuple[str, str], unexplained: float = 0.0) -> tuple[tuple[str, str], ...]:
         """The causes that stand in the place of one in more than one of ten draws.
 
-        And those of which not nine tenths of what tells them from it and stays ``unexplained`` tell them from it.
+        And those of which it is less sure than NAMED beside what stays ``unexplained``.
         """
         least, known = (1.0 - NAMED) * self.winners.total(), set(self.best.model.names)
         drawn = {new for new, count in self._in_place_of(name).items() if count > least}
-        near = [one for one in self._without_name(name) if self._behind(one) * (1.0 - NAMED) < NAMED * unexplained]
+        others = self._without_name(name) if unexplained else []
+        near = [one for one in others if _decided(self._behind(one), unexplained) < NAMED]
         return tuple(sorted(drawn.union(*(set(one.model.names) - known for one in near))))
 
     def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
@@ -155,10 +156,9 @@ class Pursuit:
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
         """What tells a cause from all that might be in its place, over that and what stays unexplained."""
         alone = self.explained_alone(name)
-        if np.isinf(alone) or unexplained == 0.0:
+        if unexplained == 0.0:
             return float(alone > 0.0 or self.without_cause(name) is None)
-        told = min([alone, *map(self._behind, self._without_name(name))])
-        return told / (told + unexplained)
+        return _decided(min([alone, *map(self._behind, self._without_name(name))]), unexplained)
 
     def _without_name(self, name: tuple[str, str]) -> list[Scored]:
         """The structures without a cause that have others in its place, and are as simple: no less likely beforehand.
@@ -195,6 +195,11 @@ def _without(found: Sequence[Without], name: tuple[str, str]) -> Scored | None:
 def _growth(whole: Scored, less: Scored | None, forms_err: bool) -> float:
     """By what share the square of what is not predicted is larger in ``less``; 0 where there is none."""
     return _share_of(less.likelihood(forms_err) - whole.likelihood(forms_err), whole) if less else 0.0
+
+
+def _decided(told: float, unexplained: float) -> float:
+    """The share of the square that tells one structure from another, of that and what stays unexplained."""
+    return 1.0 if np.isinf(told) else told / (told + unexplained)
 
 
 def _share_of(nats: float, whole: Scored) -> float:

@@ -129,6 +129,12 @@ def test_a_cause_without_which_no_form_comes_near_is_certain():
     assert found.probability(("a", ""), unexplained=0.5) == 1.0
 
 
+def test_a_cause_without_which_no_form_comes_near_may_have_a_rival():
+    rival = scored(BEHIND, "b")
+    found = pursuit(scored(0.0, "a"), [replace(scored(50.0), errors=1e6)], rival)
+    assert found.probability(("a", ""), unexplained=0.5) == pytest.approx(BETWEEN / (BETWEEN + 0.5))
+
+
 def test_what_another_form_could_explain_as_well_is_not_its_own():
     """Beside u of unknown cause counts by how much the square grows where the other forms may err: a over a + u."""
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms()])
