@@ -12,7 +12,8 @@ from dashpot_formats.distinct import distinct
 from dashpot_formats.unit_words import names_a_unit, plain_unit
 
 _BRACKETED = re.compile(r"(?P<name>.*\S)\s*[\[(<{](?P<unit>[^\[\](){}<>]*)[\])>}]")
-_FRACTION = re.compile(r"(?P<name>.*\S)\s+/\s+(?P<unit>\S+)|(?P<name2>.*\S)\s+in\s+(?P<unit2>\S+)")
+# `Kraft/kN` after ISO 80000, `Kraft / kN`, `Kraft in kN`
+_DIVIDER = re.compile(r"\s*/\s*|\s+in\s+")
 _LOOK_BACK = 30
 _LONGEST_NAME = 300
 
@@ -145,10 +146,18 @@ def _name_and_unit(cell: str) -> tuple[str, str]:
         return cell, ""
     match = _BRACKETED.fullmatch(cell)
     if match:
-        return match["name"], plain_unit(match["unit"])
-    match = _FRACTION.fullmatch(cell)
-    name, unit = (match["name"] or match["name2"], match["unit"] or match["unit2"]) if match else (cell, "")
-    return (name, plain_unit(unit)) if unit and names_a_unit(unit) else (cell, "")
+        return match["name"].rstrip(" /"), plain_unit(re.sub(r"^\s*in\s+", "", match["unit"]))
+    for divider in _DIVIDER.finditer(cell):
+        name, unit = cell[: divider.start()], cell[divider.end() :]
+        if name and names_a_unit(unit) and not (divider[0] == "/" and _ends_in_unit(name, unit)):
+            return name, plain_unit(unit)
+    return cell, ""
+
+
+def _ends_in_unit(name: str, below: str) -> bool:
+    """Whether a slash belongs to a unit that begins before it: `Speed mm/s`."""
+    last = re.split(r"[\s_]", name)[-1]
+    return names_a_unit(f"{last}/{below}")
 
 
 def _header(names: Sequence[str], units: Sequence[str]) -> Header:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,13 +19,18 @@ from dashpot_formats.extra import require
 from dashpot_formats.option import check_options, get_option
 
 _BETWEEN = "\t"
+# a sheet with fewer is no measurement
+_FEWEST_ROWS = 16
+# cells `-1,5` and `1.234,5`; a cell `1,234.5`
+_COMMA = re.compile(r"(?<![^\t])([-+]?(?:\d{1,3}(?:\.\d{3})+|\d*)),(\d+(?:[eE][-+]?\d+)?)(?![^\t])")
+_THOUSANDS = re.compile(r"(?<![^\t])[-+]?\d{1,3}(,\d{3})+\.\d")
 
 
 class Xlsx(Reader):
     """Reads a sheet as the table that it shows: names, units in brackets or in a row of their own, numbers.
 
-    Formulas count with the values that were saved with them. Without the option `sheet` (a name, or a number counted
-    from 1) it is the sheet with the most rows of numbers.
+    Formulas count with the values that were saved with them, numbers kept as texts also with a decimal comma. Without
+    the option `sheet` (a name, or a number counted from 1) it is the sheet with the most rows of numbers.
     """
 
     word = "xlsx"
@@ -34,19 +40,36 @@ class Xlsx(Reader):
         "sheet": "its name, or its number counted from 1",
     }
 
+    def __init__(self) -> None:
+        self._last: tuple[object, Mapping[str, list[str]]] = None, {}
+
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
         check_options(options, self.options)
-        require("openpyxl", self.extra, "Excel workbooks")
-        sheets: dict[str, list[str]] = read_apart(read_sheets, path, "Excel workbook").notes["sheets"]
-        text = "\n".join(sheets[_chosen(sheets, options.get("sheet"))])
+        sheets = self._sheets(path)
+        text = "\n".join(_with_points(sheets[_chosen(sheets, options.get("sheet"))]))
         lines = Lines(text.encode("utf-8", LONE))
         return read_table(lines, find_layout(lines, (_BETWEEN,), (".",)))
+
+    def parts(self, path: Path) -> Sequence[Mapping[str, object]]:
+        """The sheets of numbers; no choice where there is one of them or none."""
+        sheets = self._sheets(path)
+        found = [name for name, lines in sheets.items() if _rows_of_numbers(lines) >= _FEWEST_ROWS]
+        return [{"sheet": name} for name in found] if len(found) > 1 else [{}]
+
+    def _sheets(self, path: Path) -> Mapping[str, list[str]]:
+        """The lines of all sheets; those of the last workbook are kept, as one sheet is read after the other."""
+        require("openpyxl", self.extra, "Excel workbooks")
+        found = path.stat()
+        state = path, found.st_mtime_ns, found.st_size
+        if self._last[0] != state:
+            self._last = state, read_apart(read_sheets, path, "Excel workbook").notes["sheets"]
+        return self._last[1]
 
 
 def _chosen(sheets: Mapping[str, Sequence[str]], wanted: object) -> str:
     names = list(sheets)
     if wanted is None:
-        return max(names, key=lambda name: sum(_is_row_of_numbers(line) for line in sheets[name]))
+        return max(names, key=lambda name: _rows_of_numbers(sheets[name]))
     if isinstance(wanted, int) and not isinstance(wanted, bool):
         if not 1 <= wanted <= len(names):
             raise ReadingError(f"it has {len(names)} sheets, there is no sheet {wanted}", "sheets count from 1")
@@ -59,9 +82,20 @@ def _chosen(sheets: Mapping[str, Sequence[str]], wanted: object) -> str:
     return name
 
 
+def _rows_of_numbers(lines: Iterable[str]) -> int:
+    return sum(map(_is_row_of_numbers, lines))
+
+
 def _is_row_of_numbers(line: str) -> bool:
     cells = [cell for cell in line.split(_BETWEEN) if cell]
     return bool(cells) and cells[-1][-1].isdigit() and cells[0][-1].isdigit()
+
+
+def _with_points(lines: Sequence[str]) -> Sequence[str]:
+    """With decimal points in place of the decimal commas of texts, unless the comma sets thousands apart."""
+    if any(map(_THOUSANDS.search, lines)):
+        return lines
+    return [_COMMA.sub(lambda found: f"{found[1].replace('.', '')}.{found[2]}", line) for line in lines]
 
 
 def read_sheets(path: str) -> tuple[dict[str, np.ndarray], dict[str, Any]]:

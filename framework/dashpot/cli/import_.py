@@ -179,6 +179,7 @@ def run_entry(run: ImportedRun) -> dict[str, Any]:
     return {
         "name": run.name,
         "file": str(run.file),
+        "file_options": dict(run.options),
         "kind": finding.kind,
         "settings": dict(finding.settings) | {key: measure(text) for key, text in finding.conditions.items()},
         "repeats": run.repeats,

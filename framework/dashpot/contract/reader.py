@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import ClassVar
 
@@ -40,3 +40,10 @@ class Reader(ABC):
 
         Raises ReadingError, with a line where there is one, when the file or an option is not as it should be.
         """
+
+    def parts(self, path: Path) -> Sequence[Mapping[str, object]]:
+        """The options with which each of the measurements in a file is read: one run each in `dashpot import`.
+
+        A format with one measurement in a file need not say anything. Raises ReadingError as `read` does.
+        """
+        return [{}]

@@ -21,6 +21,7 @@ CHANNEL_UNITS = {
     "acceleration": "m/s^2",
     "temperature": "K",
     "pressure": "Pa",
+    "current": "A",
 }
 
 

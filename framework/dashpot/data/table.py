@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -76,3 +76,6 @@ class FileReader(Protocol):
 
     def read(self, path: Path, options: Mapping[str, object]) -> Table:
         """The columns of a file. Raises ReadingError."""
+
+    def parts(self, path: Path) -> Sequence[Mapping[str, object]]:
+        """The options with which each of the measurements in a file is read. Raises ReadingError."""

@@ -14,6 +14,7 @@ from dashpot.data.dataset import Dataset
 from dashpot.data.noise import NoiseFloor
 from dashpot.fit.holdout import Split
 from dashpot.fit.identifiability import Identifiability, may_go, number_in_words
+from dashpot.fit.moving_channels import moving_channels
 from dashpot.fit.prior import PriorTold, describe_priors
 from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec
@@ -161,6 +162,7 @@ class FitResult:
         told = identifiability_of(self.fitted, self.known, self.spare) | {"undetermined": self.undetermined}
         if self.priors:
             told["weak"] = [f"without the priors {sentence}" for sentence in told["weak"]]
+        told["weak"] = [*told["weak"], *moving_channels(self.fitted, self.dataset.select(self.split.train).runs)]
         return told
 
     def summary(self) -> str:
@@ -169,9 +171,9 @@ class FitResult:
         lines = [f"{self.declared.name}: RMSE {train} on training runs{_held_out(self.errors)}"]
         if self.noise_floor.value:
             lines.append(f"noise floor {quantity(self.noise_floor.value, 'N')}, from {self.noise_floor.source}")
-        unknown = {*self.idle, *self.undetermined}
+        unknown, curves = {*self.idle, *self.undetermined}, self.fitted.curves()
         for slot in self.fitted.slots():
-            if (slot.value.searched or slot.value.expression) and "[" not in slot.path:
+            if (slot.value.searched or slot.value.expression) and slot.path.partition("[")[0] not in curves:
                 value, interval = slot.value, None if slot.path in unknown else slot.value.interval
                 follows = f"  = {value.expression}" if value.expression else ""
                 lines.append(f"  {slot.path} = {with_interval(value.number, interval, value.unit)}{follows}")

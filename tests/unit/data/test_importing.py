@@ -39,6 +39,9 @@ class Tables:
     def __init__(self, tables):
         self.tables = tables
 
+    def parts(self, path):
+        return [{}]
+
     def read(self, path, options):
         if path.name not in self.tables:
             raise ReadingError("it is broken", "mend it", 3)
@@ -113,6 +116,9 @@ def test_a_raw_voltage_beside_its_signal_is_passed_over():
         ("displacement", "Weg", "", [0.0, 0.012], "m", "guessed"),
         ("force", "Load.kN", "", [0, 1], "kN", "in the name"),
         ("force", "kN", "", [0, 1], "kN", "in the name"),
+        ("force", "Kraft/kN", "", [0, 1], "kN", "in the name"),
+        ("displacement", "s/um", "", [0, 1], "um", "in the name"),
+        ("velocity", "v/m/s", "", [0, 1], "m/s", "in the name"),
         ("force", "F", "", [0, 1], "N", "guessed"),
         ("time", "t", "", [0.0, 10.0, 20.0], "ms", "guessed"),
     ],
@@ -244,6 +250,13 @@ def test_a_file_with_pauses_becomes_several_runs(tmp_path):
     force = np.concatenate([kelvin_voigt(chirp(1, 20)), kelvin_voigt(2 * chirp(1, 20))])
     found = imported(tmp_path, {"long.tab": Table({"t": time, "x": motion, "F": force})})
     assert [(run.name, run.rows) for run in found.runs] == [("long_1", (1, 5000)), ("long_2", (5001, 10000))]
+
+
+def test_a_piece_called_as_another_file_is_kept(tmp_path):
+    time = np.concatenate([TIME, 30 + TIME])
+    twice = {"t": time, "x": np.tile(chirp(1, 20), 2), "F": np.tile(kelvin_voigt(chirp(1, 20)), 2)}
+    found = imported(tmp_path, {"long.tab": Table(twice), "long_2.tab": table(2 * chirp(1, 20))})
+    assert [run.name for run in found.runs] == ["long_1", "long_2", "long_2_2"]
 
 
 def test_lines_of_text_at_the_ends_are_cut_off(tmp_path):
@@ -530,3 +543,61 @@ def test_of_runs_at_other_rates_only_the_slowest_is_quasi_static(tmp_path):
         "v4": "transient",
         "v16": "transient",
     }
+
+
+def beside(column, level, unit="", noise=0.0, seed=0):
+    """A run of the same spring and dashpot with a further column about a level."""
+    motion = 10 + chirp(1, 20)
+    chance = np.random.default_rng(seed + 1)
+    columns = {"t": TIME, "x": motion, "F": kelvin_voigt(motion, 0.5) + chance.normal(size=TIME.size)}
+    further = np.full(TIME.size, level) + noise * chance.standard_normal(TIME.size)
+    units = {"t": "s", "x": "mm", "F": "N"} | ({column: unit} if unit else {})
+    return Table({**columns, column: further}, units)
+
+
+@pytest.mark.parametrize(
+    ("column", "unit", "levels", "noise", "repeats"),
+    [
+        ("current", "A", (0.5, 1.125), 0.0, None),
+        ("valve opening", "%", (20.0, 45.0), 0.2, None),
+        ("AI 7", "", (20.0, 45.0), 0.2, None),
+        ("AI 7", "", (20.0, 20.8), 0.0, "a"),  # a thermometer without its unit
+        ("oil", "degC", (20.0, 24.0), 0.0, "a"),
+        ("AI 7", "V", (0.0, 0.01), 0.02, "a"),  # the scatter of a channel without a sensor
+        ("run no", "", (1.0, 2.0), 0.0, "a"),
+    ],
+)
+def test_any_column_at_another_level_says_that_two_runs_are_no_repeats(tmp_path, column, unit, levels, noise, repeats):
+    tables = {
+        f"{name}.tab": beside(column, level, unit, noise, seed)
+        for seed, (name, level) in enumerate(zip("ab", levels, strict=True))
+    }
+    found = imported(tmp_path, tables)
+    assert found.runs[1].repeats == repeats
+    told = [runs for remark, runs in found.confirm.items() if "has the motion and force of an earlier one" in remark]
+    assert told == ([] if repeats else [("b",)])
+
+
+def test_a_column_that_goes_on_from_run_to_run_is_no_condition(tmp_path):
+    tables = {}
+    for number, name in enumerate("ab"):
+        table = beside("clock of the rig", 0.0, seed=number)
+        tables[f"{name}.tab"] = Table(
+            {**table.columns, "clock of the rig": 2 * number * TIME[-1] + np.floor(TIME)}, table.units
+        )
+    assert imported(tmp_path, tables).runs[1].repeats == "a"
+
+
+@pytest.mark.parametrize(
+    ("column", "unit", "found"),
+    [
+        ("current", "A", ["current"]),
+        ("Strom", "mA", ["Strom"]),
+        ("Kraft", "mA", []),  # 4 to 20 mA
+        ("current position", "mm", []),
+        ("current", "", []),
+    ],
+)
+def test_a_current_is_known_by_name_and_unit(column, unit, found):
+    roles = named_roles([column], {column: unit} if unit else {})
+    assert [role.column for channel, role in roles.items() if channel == "current"] == found

@@ -228,3 +228,38 @@ branches:
     plain = text.replace("{fixed: 50 N/mm, over: {setting: pressure, at: 2 bar, slope: 25 N/mm/bar}}", "75 N/mm")
     found, expected = (run("r", 3.0, 1e-3, 3.0, each).force for each in (text, plain))
     assert found == pytest.approx(expected, abs=1e-9)
+
+
+STEPPED = (
+    HEAD
+    + "  rubber: {element: spring, stiffness: {start: 150 N/mm}}\n"
+    + "  air: {element: damper, damping: {start: 200 N*s/m, over: {setting: pressure, at: [1 bar, 2 bar, 3 bar], "
+    + "factor: [1, {start: 1}, {start: 1}]}}}\n"
+)
+
+
+def test_the_terminal_tells_the_factors_and_no_points_of_a_curve():
+    curve = "{deflection: [-4 mm, 0 mm, 4 mm], force: {start: [-600 N, 0 N, 600 N]}}"
+    text = STEPPED.replace("{start: 150 N/mm}", curve)
+    found = fit_network(parse_network(text, REGISTRY.elements), dataset(), registry=REGISTRY).summary()
+    assert "air.damping.factor[1] = " in found and "air.damping.factor[2] = " in found
+    assert "air.damping.factor[0]" not in found  # it is fixed
+    assert "rubber.stiffness[" not in found
+
+
+@pytest.mark.parametrize(("drift", "told"), [(2.0, False), (30.0, True)])
+def test_a_channel_that_moves_within_runs_is_told_with_the_fit(drift, told):
+    """The means of the two training runs lie 10 K apart."""
+    text = HEAD + (
+        "  oil: {element: damper, damping: {start: 90 N*s/m, over: {channel: temperature, at: 20 degC, "
+        "slope: {start: 0 N*s/m/K}}}}\n"
+    )
+    runs = []
+    for celsius in (20.0, 30.0, 40.0):
+        made = run(f"at{celsius:g}", 2.0, 2e-3, 5.0, HEAD + f"  oil: {{element: damper, damping: {celsius} N*s/m}}\n")
+        kelvin = 273.15 + celsius + drift * np.linspace(-0.5, 0.5, TIME.size)
+        runs.append(replace(made, channels={**made.channels, "temperature": kelvin}))
+    fit = fit_network(parse_network(text, REGISTRY.elements), Dataset("d", tuple(runs)), registry=REGISTRY)
+    wanted = "it moves by up to 27 K within a run, while the means lie 10 K apart"
+    assert (wanted in fit.summary()) is told
+    assert any(wanted in sentence for sentence in fit.as_dict()["identifiability"]["weak"]) is told

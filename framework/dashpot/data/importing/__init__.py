@@ -4,5 +4,6 @@
 - `units`: in which unit; `timing`: the clock; `signs`: which way round
 - `motion`: the kind of a run and its settings; `names`: what the names of files say about its conditions
 - `rows`: the rows that can be used; `likeness`: runs that repeat others; `correlation`: how alike two signals are
-- `finding`: all of that about one file; `files`: which files; `text`: the dataset file with its remarks
+- `files`: which files; `reading`: the measurements in them; `finding`: all of the above about one of them
+- `imported`: the runs of all files together; `text`: the dataset file with its remarks
 """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from dashpot.data.source import DESCRIPTIONS
@@ -51,11 +51,16 @@ def run_names(files: Sequence[Path]) -> dict[Path, str]:
         name = _safe(stem)
         if name in names.values():
             name = _safe(f"{file.resolve().parent.name}_{stem}")
-        number = 2
-        while name in names.values():
-            name, number = _safe(stem, f"_{number}"), number + 1
-        names[file] = name
+        names[file] = free_name(stem, names.values()) if name in names.values() else name
     return names
+
+
+def free_name(name: str, taken: Collection[str]) -> str:
+    """A name for a part of a file that is fit for a run; with a number behind it where it is taken."""
+    found, number = _safe(name), 2
+    while found in taken:
+        found, number = _safe(name, f"_{number}"), number + 1
+    return found
 
 
 def _shared_words(stems: Sequence[str]) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -10,14 +10,14 @@ import numpy as np
 from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.excitation import MOVING
 from dashpot.data.importing.motion import Motion, find_motion
-from dashpot.data.importing.roles import GUESSED, Role, motion_roles, named_roles
+from dashpot.data.importing.roles import GUESSED, Role, is_counter, motion_roles, named_roles
 from dashpot.data.importing.rows import numeric, of_one_length, usable_rows, without_filling
 from dashpot.data.importing.signs import falls, find_signs
 from dashpot.data.importing.timing import Timing, find_timing
 from dashpot.data.importing.units import GUESSED as GUESSED_UNIT
 from dashpot.data.importing.units import UnitFound, find_unit
 from dashpot.data.table import Table
-from dashpot.text.quantity import factor
+from dashpot.text.quantity import base_unit, factor, is_unit
 
 NEEDED = ("displacement", "force")
 _FALLS = (
@@ -38,10 +38,11 @@ class ChannelFound:
 
 @dataclass(frozen=True)
 class Level:
-    """The mean of a channel over a run and how far its values lie apart, SI."""
+    """The mean of a channel or column over a run and how far its values lie apart; SI where the unit is ``known``."""
 
     mean: float
     spread: float
+    known: bool = True
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,7 @@ class Finding:
 
     rows: first row and one past the last (from 0), None for all; columns: all of the file, in order; confirm: what a
     person has to look at; signals: displacement and force (n,) in SI where both were found; conditions: settings as
-    texts that the name of the file states; levels: of further channels, such as the temperature.
+    texts that the name of the file states; levels: of further channels, such as the temperature, and of unused columns.
     """
 
     timing: Timing
@@ -176,6 +177,8 @@ def _finding(
         signals = {name: signs[name] * raw[name] * _scale(found[name]) for name in NEEDED}
         motion = find_motion(signals["displacement"], timing.step or 1.0)
     settings = motion.settings if timing.step else {}
+    used = {timing.column, *(channel.role.column for channel in channels.values())}
+    unused = {name: values for name, values in columns.items() if name not in used}
     return Finding(
         timing,
         channels,
@@ -185,7 +188,7 @@ def _finding(
         tuple(table.columns),
         tuple(confirm),
         signals,
-        levels=_levels(channels, columns),
+        levels=_levels(channels, columns) | _unused_levels(unused, table.units),
     )
 
 
@@ -199,16 +202,42 @@ def _levels(channels: Mapping[str, ChannelFound], columns: Mapping[str, np.ndarr
     return levels
 
 
+def _unused_levels(columns: Mapping[str, np.ndarray], units: Mapping[str, str]) -> dict[str, Level]:
+    """Of columns that are no channel; what counts or goes on from run to run is no condition of a test."""
+    levels = {}
+    for name, values in columns.items():
+        sound = values[np.isfinite(values)]
+        steps = np.diff(sound)
+        goes_on = bool(np.any(steps)) and (bool(np.all(steps >= 0)) or bool(np.all(steps <= 0)))
+        if sound.size and not goes_on and not is_counter(name):
+            unit = units.get(name, "")
+            known = is_unit(unit)
+            scale, offset = factor(unit, base_unit(unit)) if known else (1.0, 0.0)
+            levels[f"'{name}'"] = Level(float(np.mean(scale * sound + offset)), scale * float(np.ptp(sound)), known)
+    return levels
+
+
 def _scale(channel: ChannelFound) -> float:
     return factor(channel.unit.unit, CHANNEL_UNITS[channel.role.channel])[0]
+
+
+def _shown(columns: Sequence[str]) -> str:
+    return ", ".join(f"'{name}'" for name in columns[:6])
 
 
 def _doubts(channel: ChannelFound) -> list[str]:
     role, unit = channel.role, channel.unit
     doubts = [f"column '{role.column}' is taken for the {role.channel} by {role.by}"] if role.by == GUESSED else []
     if role.rivals:
-        shown = ", ".join(f"'{name}'" for name in role.rivals[:6])
-        doubts.append(f"the motion explains {shown} about as well as the {role.channel} '{role.column}': which is it?")
+        rivals = _shown(role.rivals)
+        doubts.append(
+            f"{rivals} may be the displacement, too: the force is explained about as well as by '{role.column}'"
+            if role.channel == "displacement"
+            else f"the motion explains {rivals} about as well as the {role.channel} '{role.column}': which is it?"
+        )
+    if role.namesakes:
+        alike = _shown(role.namesakes)
+        doubts.append(f"the {role.channel} may be {alike} after the names as well as '{role.column}': which is it?")
     if unit.by == GUESSED_UNIT and channel.stated:
         doubts.append(
             f"the {role.channel} '{role.column}' is in {channel.stated} after its file: write 'gain', by which it "

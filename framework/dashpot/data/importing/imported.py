@@ -4,27 +4,25 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
-from dashpot.data.checks import FEWEST_SAMPLES
-from dashpot.data.importing.files import find_files, run_names
+from dashpot.data.importing.files import find_files, free_name, run_names
 from dashpot.data.importing.finding import NEEDED, Agreed, Finding, find_all
-from dashpot.data.importing.likeness import find_repeats
+from dashpot.data.importing.likeness import Likeness, find_repeats
 from dashpot.data.importing.names import stated_by_all
-from dashpot.data.importing.pairs import explained
+from dashpot.data.importing.pairs import explained, is_like
+from dashpot.data.importing.reading import Measured, read_all
 from dashpot.data.importing.roles import GUESSED as BY_MOTION
 from dashpot.data.importing.roles import Role, named_roles
 from dashpot.data.importing.rows import numeric
 from dashpot.data.importing.stiffness import StiffnessFound, find_stiffness
 from dashpot.data.importing.timing import pieces
 from dashpot.data.importing.units import GUESSED
-from dashpot.data.source import choose_reader
-from dashpot.data.table import FileReader, ReadingError, Table
-from dashpot.data.trouble import Unusable
-from dashpot.text.problem import InputError, Place, Problem
+from dashpot.data.table import FileReader, Table
+from dashpot.text.problem import Problem
 
 # rates of tests are set apart by no less than this
 _OTHER_RATE = 2.0
@@ -36,7 +34,10 @@ DIRECTION = "that deflection > 0 squeezes the specimen and force > 0 presses its
 
 @dataclass(frozen=True, eq=False)
 class ImportedRun:
-    """A run: its name, file, and what was found; its rows where they are not all; the earlier run that it repeats."""
+    """A run: its name, file, and what was found; its rows where they are not all; the earlier run that it repeats.
+
+    ``options`` are the file options with which its measurement is read, where a file holds several.
+    """
 
     name: str
     file: Path
@@ -44,23 +45,25 @@ class ImportedRun:
     finding: Finding
     rows: tuple[int, int] | None = None
     repeats: str | None = None
+    options: Mapping[str, object] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
 class ImportedTable:
-    """A table of dynamic stiffness: its name, file, and what was found."""
+    """A table of dynamic stiffness: its name, file, what was found, and the file options, as for a run."""
 
     name: str
     file: Path
     reader: str | None
     finding: StiffnessFound
+    options: Mapping[str, object] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A file, or a piece of one between two gaps: its rows (from 0), and which of how many pieces it is."""
+    """A measurement, or a piece of one between two gaps: its rows (from 0), and which of how many pieces it is."""
 
-    file: Path
+    measured: Measured
     table: Table
     finding: Finding
     first: int = 0
@@ -72,8 +75,13 @@ class _Part:
         """First row from 1 and last one, None for all."""
         if self.whole and finding.rows is None:
             return None
-        first, last = finding.rows or (0, len(next(iter(self.table.columns.values()))))
+        first, last = finding.rows or (0, self.length)
         return self.first + first + 1, self.first + last
+
+    @property
+    def length(self) -> int:
+        """The number of its rows."""
+        return len(next(iter(self.table.columns.values())))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,28 +107,49 @@ def import_files(
     Raises InputError when no file can be read.
     """
     files = find_files(list(given), readers)
-    tables, problems = _read(files, readers, word)
-    names = run_names(list(tables))
-    stiffness = {file: found for file, table in tables.items() if (found := find_stiffness(table))}
-    parts: dict[str, _Part] = {}
-    for file, table in tables.items():
-        if file in stiffness:
-            continue
-        for part in _parts(file, table, sampling):
-            parts[f"{names[file]}_{part.number}" if part.count > 1 else names[file]] = part
+    measured, problems = read_all(files, readers, word)
+    stiffness, parts = _sorted(measured, sampling)
     findings = _slow_ones(_with_conditions(_agree(_of_one_mind(parts, sampling), sampling), parts))
-    repeats, copies = find_repeats(findings)
+    alike = find_repeats(findings)
     runs = tuple(
-        ImportedRun(name, part.file, word, findings[name], part.rows(findings[name]), repeats.get(name))
+        ImportedRun(
+            name,
+            part.measured.file,
+            word,
+            findings[name],
+            part.rows(findings[name]),
+            alike.repeats.get(name),
+            part.measured.options,
+        )
         for name, part in parts.items()
     )
-    rows = tuple(ImportedTable(names[file], file, word, finding) for file, finding in stiffness.items())
-    return Imported(runs, rows, _confirm(runs, copies, rows), tuple(problems))
+    tables = tuple(
+        ImportedTable(name, each.file, word, found, each.options) for name, (each, found) in stiffness.items()
+    )
+    return Imported(runs, tables, _confirm(runs, alike, tables), tuple(problems))
 
 
-def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:
-    """A file as one, or the pieces between the gaps of its clock."""
-    whole = _Part(file, table, find_all(table, sampling))
+def _sorted(
+    measured: Sequence[Measured], sampling: float | None
+) -> tuple[dict[str, tuple[Measured, StiffnessFound]], dict[str, _Part]]:
+    """The tables of dynamic stiffness and the runs, by their names."""
+    names = run_names(list(dict.fromkeys(each.file for each in measured)))
+    stiffness: dict[str, tuple[Measured, StiffnessFound]] = {}
+    parts: dict[str, _Part] = {}
+    for each in measured:
+        name = "_".join(map(str, (names[each.file], *each.options.values())))
+        if found := find_stiffness(each.table):
+            stiffness[free_name(name, {*stiffness, *parts})] = each, found
+            continue
+        for part in _parts(each, sampling):
+            parts[free_name(f"{name}_{part.number}" if part.count > 1 else name, {*stiffness, *parts})] = part
+    return stiffness, parts
+
+
+def _parts(measured: Measured, sampling: float | None) -> list[_Part]:
+    """A measurement as one, or the pieces between the gaps of its clock."""
+    table = measured.table
+    whole = _Part(measured, table, find_all(table, sampling))
     named = named_roles(list(table.columns), table.units).get("time")
     clock = named.column if named else whole.finding.timing.column
     time = numeric(table.columns[clock]) if clock is not None else np.zeros(0)
@@ -129,7 +158,7 @@ def _parts(file: Path, table: Table, sampling: float | None) -> list[_Part]:
         return [whole]
     cut = [(first, _cut(table, first, last)) for first, last in found]
     return [
-        _Part(file, piece, find_all(piece, sampling), first, False, number, len(found))
+        _Part(measured, piece, find_all(piece, sampling), first, False, number, len(found))
         for number, (first, piece) in enumerate(cut, 1)
     ]
 
@@ -138,62 +167,59 @@ def _cut(table: Table, first: int, last: int) -> Table:
     return replace(table, columns={name: values[first:last] for name, values in table.columns.items()}, lines=None)
 
 
-def _read(
-    files: Sequence[Path], readers: Mapping[str, FileReader], word: str | None
-) -> tuple[dict[Path, Table], list[Problem]]:
-    tables: dict[Path, Table] = {}
-    problems: list[Problem] = []
-    for file in files:
-        place = Place(str(file))
-        try:
-            tables[file] = _with_numbers(choose_reader(file.name, word, readers, place).read(file, {}))
-        except Unusable as error:
-            problems += [Problem(place, trouble.message, trouble.hint) for trouble in error.troubles]
-        except ReadingError as error:
-            problems.append(Problem(replace(place, line=error.line), error.message, error.hint))
-        except OSError as error:
-            problems.append(Problem(place, f"it cannot be read: {error.strerror}", "check its rights"))
-    if not tables:
-        raise InputError(problems)
-    return tables, problems
-
-
-def _with_numbers(table: Table) -> Table:
-    if find_stiffness(table):
-        return table
-    counts = [int(np.isfinite(numeric(values)).sum()) for values in table.columns.values()]
-    if max(counts, default=0) < FEWEST_SAMPLES:
-        message = f"it holds no column of numbers of at least {FEWEST_SAMPLES} samples"
-        raise ReadingError(message, "check that this is the file of the measurement")
-    return table
-
-
 def _of_one_mind(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, _Part]:
     """Files with the same columns have displacement and force in the columns that explain most of all their forces.
 
     Columns whose names tell what they are mean the same in all files. Of others a file keeps its own if the common ones
-    clearly do not fit it: its channels may have been plugged otherwise.
+    clearly do not fit it: its channels may have been plugged otherwise. Its longest piece tells for all of its pieces.
     """
     alike: dict[object, list[str]] = {}
     for name, part in parts.items():
-        alike.setdefault((*part.table.columns,), []).append(name)
+        if len(_roles(part.finding)) == len(NEEDED):
+            alike.setdefault((*part.table.columns,), []).append(name)
     settled = dict(parts)
     for names in alike.values():
-        told = {name: roles for name in names if len(roles := _roles(parts[name].finding)) == len(NEEDED)}
-        if len({_names_of(roles) for roles in told.values()}) <= 1:
+        if len({_names_of(_roles(parts[name].finding)) for name in names}) <= 1:
             continue
-        counts = Counter(map(_names_of, told.values()))
-        shares = {
-            _names_of(roles): np.mean([_share(parts[name].table, roles) for name in told]) for roles in told.values()
-        }
-        # to two digits: one signal in volts and in newtons is explained alike
-        usual = max(told.values(), key=lambda roles: (round(shares[_names_of(roles)], 2), counts[_names_of(roles)]))
-        for name, roles in told.items():
-            if _names_of(roles) != _names_of(usual) and (_are_named(usual) or _fit(parts[name].table, usual, roles)):
-                rivals = tuple({*roles[1].rivals, roles[1].column} - {usual[1].column})
-                known = {usual[0].channel: usual[0], usual[1].channel: replace(usual[1], rivals=rivals)}
-                settled[name] = replace(parts[name], finding=find_all(parts[name].table, sampling, None, known))
+        longest = _longest_pieces({name: parts[name] for name in names})
+        usual = _usual([parts[name] for name in dict.fromkeys(longest.values())])
+        for name, first in longest.items():
+            own = _roles(parts[first].finding)
+            common = _are_named(usual) or _fit(parts[first].table, usual, own)
+            settled[name] = _with_roles(parts[name], usual if common else own, sampling)
     return settled
+
+
+def _longest_pieces(parts: Mapping[str, _Part]) -> dict[str, str]:
+    """The longest piece of the same measurement for each part, by their names."""
+    longest: dict[int, str] = {}
+    for name, part in sorted(parts.items(), key=lambda entry: entry[1].length):
+        longest[id(part.measured)] = name
+    return {name: longest[id(part.measured)] for name, part in parts.items()}
+
+
+def _usual(parts: Sequence[_Part]) -> list[Role]:
+    """The roles that explain most of all forces."""
+    told = [_roles(part.finding) for part in parts]
+    counts = Counter(map(_names_of, told))
+    shares = {_names_of(roles): np.mean([_share(part.table, roles) for part in parts]) for roles in told}
+    # to two digits: one signal in volts and in newtons is explained alike
+    return max(told, key=lambda roles: (round(shares[_names_of(roles)], 2), counts[_names_of(roles)]))
+
+
+def _with_roles(part: _Part, roles: Sequence[Role], sampling: float | None) -> _Part:
+    """A part with displacement and force in these columns; the force that it told itself is a rival."""
+    told = _roles(part.finding)
+    if _names_of(told) == _names_of(roles):
+        return part
+    columns = {name: numeric(values) for name, values in part.table.columns.items()}
+    rivals = tuple(
+        name
+        for name in (told[1].column, *told[1].rivals)
+        if not any(name == other or is_like(columns[name], columns[other]) for other in _names_of(roles))
+    )
+    known = {roles[0].channel: roles[0], roles[1].channel: replace(roles[1], rivals=rivals)}
+    return replace(part, finding=find_all(part.table, sampling, None, known))
 
 
 def _names_of(roles: Sequence[Role]) -> tuple[str, ...]:
@@ -210,10 +236,10 @@ def _fit(table: Table, usual: Sequence[Role], own: Sequence[Role]) -> bool:
 
 
 def _share(table: Table, roles: Sequence[Role]) -> float:
-    """The share of the force that the motion explains."""
+    """The share of the force that the motion explains; none of a copy of the motion, which is no force."""
     motion, force = (numeric(table.columns[role.column]) for role in roles)
     sound = np.isfinite(motion) & np.isfinite(force)
-    return explained(motion[sound], force[sound])
+    return 0.0 if is_like(motion[sound], force[sound]) else explained(motion[sound], force[sound])
 
 
 def _roles(finding: Finding) -> list[Role]:
@@ -222,12 +248,12 @@ def _roles(finding: Finding) -> list[Role]:
 
 def _with_conditions(findings: Mapping[str, Finding], parts: Mapping[str, _Part]) -> dict[str, Finding]:
     """With the conditions that the names of all files state."""
-    stated = stated_by_all(part.file.stem for part in parts.values())
+    stated = stated_by_all(part.measured.title for part in parts.values())
     remark = "settings that the names of the files state"
     return {
         name: replace(finding, conditions=told, confirm=(*finding.confirm, remark)) if told else finding
         for name, finding in findings.items()
-        for told in [stated[parts[name].file.stem]]
+        for told in [stated[parts[name].measured.title]]
     }
 
 
@@ -285,7 +311,7 @@ def _most_common(findings: Sequence[Finding]) -> Agreed:
 
 
 def _confirm(
-    runs: Sequence[ImportedRun], copies: Mapping[str, str], tables: Sequence[ImportedTable]
+    runs: Sequence[ImportedRun], alike: Likeness, tables: Sequence[ImportedTable]
 ) -> dict[str, tuple[str, ...]]:
     """What a person has to look at, each with the runs and tables that it is about; the most general first."""
     about: dict[str, list[str]] = {DIRECTION: [run.name for run in runs]} if runs else {}
@@ -303,10 +329,17 @@ def _confirm(
             about.setdefault(remark, []).append(run.name)
         if run.repeats:
             about.setdefault("the runs that repeat others: they do so after motion and force", []).append(run.name)
-        if run.name in copies:
+        if run.name in alike.copies:
             about.setdefault("a run is a copy of another one to the last digit: remove one of them", []).append(
                 run.name
             )
+        if run.name in alike.apart:
+            differ = " and ".join(alike.apart[run.name])
+            remark = (
+                f"a run has the motion and force of an earlier one, but another {differ}: add 'repeats' where that "
+                "does not matter"
+            )
+            about.setdefault(remark, []).append(run.name)
     if runs:
         about["the kinds and settings of the runs: they were derived from the motion"] = [run.name for run in runs]
     return {remark: tuple(names) for remark, names in about.items()}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,27 +14,45 @@ from dashpot.data.repeats import NotRepeatsError, compare_repeats
 
 # how much of the force two runs may not share: without a hint, and where their names say that one repeats the other
 _ALIKE, _ALIKE_BY_NAME = 0.05, 0.3
-# of a level: 6 K of a temperature, a twentieth of a bar beside two
-_SAME_LEVEL = 0.02
+# of a level: 6 K of a temperature, a twentieth of a bar beside two; more without a unit, as 2 of 20 may be degC
+_SAME_LEVEL, _SAME_NUMBER = 0.02, 0.1
 _AGAIN = re.compile(
     r"(.+?)[ _.-]*(?:[b-e]|[2-9]|r\d|rep\w*\d*|rerun\d*|wdh\d*|wiederholung\d*|copy|kopie|\(\d\))", re.I
 )
 
 
-def find_repeats(findings: Mapping[str, Finding]) -> tuple[dict[str, str], dict[str, str]]:
-    """Run -> the earlier run that it repeats, and run -> the earlier one that it is a copy of, to the last digit."""
+@dataclass(frozen=True)
+class Likeness:
+    """Run -> the earlier run that it repeats; run -> the earlier one that it is a copy of, to the last digit.
+
+    ``apart``: run -> what was measured beside it and differs from an earlier run of the same motion and force.
+    """
+
+    repeats: Mapping[str, str]
+    copies: Mapping[str, str]
+    apart: Mapping[str, tuple[str, ...]]
+
+
+def find_repeats(findings: Mapping[str, Finding]) -> Likeness:
+    """Which runs are the measurement of an earlier one made again."""
     repeats: dict[str, str] = {}
     copies: dict[str, str] = {}
+    apart: dict[str, tuple[str, ...]] = {}
     names = list(findings)
     for index, name in enumerate(names):
         for earlier in names[:index]:
             if earlier in repeats or earlier in copies or not _comparable(findings[earlier], findings[name]):
                 continue
             difference = _difference(findings[earlier], findings[name])
-            if difference < (_ALIKE_BY_NAME if _is_again(name, earlier) else _ALIKE):
-                (repeats if difference else copies)[name] = earlier
-                break
-    return repeats, copies
+            if difference >= (_ALIKE_BY_NAME if _is_again(name, earlier) else _ALIKE):
+                continue
+            if other := _at_other_levels(findings[earlier].levels, findings[name].levels):
+                apart[name] = other
+                continue
+            (repeats if difference else copies)[name] = earlier
+            apart.pop(name, None)
+            break
+    return Likeness(repeats, copies, apart)
 
 
 def _is_again(name: str, earlier: str) -> bool:
@@ -42,7 +61,7 @@ def _is_again(name: str, earlier: str) -> bool:
 
 
 def _comparable(first: Finding, second: Finding) -> bool:
-    if differ(first.conditions, second.conditions) or _at_other_levels(first.levels, second.levels):
+    if differ(first.conditions, second.conditions):
         return False
     if first.kind != second.kind or not (first.signals and second.signals) or not first.timing.step:
         return False
@@ -52,16 +71,16 @@ def _comparable(first: Finding, second: Finding) -> bool:
     return bool(same_step and min(lengths) > 0.8 * max(lengths) and min(spans) > 0.9 * max(spans))
 
 
-def _at_other_levels(first: Mapping[str, Level], second: Mapping[str, Level]) -> bool:
-    """Whether a channel that was measured beside both runs says that they were made under other conditions.
+def _at_other_levels(first: Mapping[str, Level], second: Mapping[str, Level]) -> tuple[str, ...]:
+    """What was measured beside both runs and says that they were made under other conditions."""
+    return tuple(key for key in first if key in second and _apart(first[key], second[key]))
 
-    It may scatter within a run, and what drifts by less is the same.
-    """
-    return any(
-        abs(first[key].mean - second[key].mean)
-        > max(_SAME_LEVEL * max(abs(first[key].mean), abs(second[key].mean)), first[key].spread, second[key].spread)
-        for key in first.keys() & second.keys()
-    )
+
+def _apart(first: Level, second: Level) -> bool:
+    """Whether two levels differ: each may scatter within its run, and what drifts by less is the same."""
+    share = _SAME_LEVEL if first.known and second.known else _SAME_NUMBER
+    least = max(share * max(abs(first.mean), abs(second.mean)), first.spread, second.spread)
+    return abs(first.mean - second.mean) > least
 
 
 def _difference(first: Finding, second: Finding) -> float:

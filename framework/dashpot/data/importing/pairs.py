@@ -8,25 +8,29 @@ from dataclasses import dataclass
 import numpy as np
 
 from dashpot.data.importing.correlation import correlation
+from dashpot.data.importing.signs import falls, find_signs
 
 # from this correlation on two columns are one signal
 SAME = 0.9995
 _SAMPLES = 4000
 # a testing machine of class 1 after ISO 7500-1 may make so wide a loop of a force without any
 _THIN = 0.015
+# from this rank correlation with the time on
+_WITH_CLOCK = 0.9
 
 
 @dataclass(frozen=True)
 class Pair:
     """Two columns, the share of the force that the motion explains, and other columns that may be the force.
 
-    These are as well explained as far as the pair itself leaves open.
+    These are as well explained, and the other displacements explain as well, as far as the pair itself leaves open.
     """
 
     displacement: str
     force: str
     explained: float
     rivals: tuple[str, ...] = ()
+    other_displacements: tuple[str, ...] = ()
 
 
 def explained(motion: np.ndarray, force: np.ndarray) -> float:
@@ -42,9 +46,14 @@ def explained(motion: np.ndarray, force: np.ndarray) -> float:
 
 def loses_work(motion: np.ndarray, force: np.ndarray) -> bool:
     """Whether a force makes a loop over the motion that is wider than a machine may feign, whichever way round."""
+    return abs(_lost(motion, force)) > _THIN
+
+
+def _lost(motion: np.ndarray, force: np.ndarray) -> float:
+    """The work that a force loses over a motion, as a part of all that is moved; below 0 where it is given back."""
     way, middle = np.diff(motion), _middle(force - np.mean(force))
     moved = float(np.sum(np.abs(middle * way)))
-    return moved > 0.0 and abs(float(middle @ way)) > _THIN * moved
+    return float(middle @ way) / moved if moved > 0.0 else 0.0
 
 
 def best_pair(columns: Mapping[str, np.ndarray], displacements: Sequence[str], forces: Sequence[str]) -> Pair | None:
@@ -63,29 +72,52 @@ def best_pair(columns: Mapping[str, np.ndarray], displacements: Sequence[str], f
         return None
     first, second = max(found, key=lambda pair: found[pair])
     lossy, share = found[first, second]
-    rivals = (
-        other
-        for (one, other), (also, another) in found.items()
-        if one == first and other != second and also == lossy and another >= share - (1.0 - share)
+    as_good = [pair for pair, (also, another) in found.items() if also == lossy and another >= share - (1.0 - share)]
+    rivals = tuple(other for one, other in as_good if one == first and other != second)
+    # copies of the displacement differ in their unit only
+    others = tuple(
+        one for one, other in as_good if other == second and one != first and not is_like(columns[one], columns[first])
     )
-    return Pair(first, second, share, tuple(rivals))
+    return Pair(first, second, share, rivals, others)
 
 
-def likely_displacement(columns: Mapping[str, np.ndarray]) -> str | None:
-    """The column that explains another one better than it is explained by it; None where none does so clearly.
+def likely_displacements(columns: Mapping[str, np.ndarray]) -> list[str]:
+    """The columns that may be a displacement, as another one loses work over them and grows with them.
 
-    A deflection tells the force of a specimen with friction, which does not tell the deflection back.
+    One alone where it clearly explains another one better than it is explained by it, as a deflection tells the force
+    of a specimen with friction, which does not tell the deflection back. Else those that need no other sign.
     """
-    ahead = {}
+    ways: dict[str, list[tuple[float, float, bool]]] = {}
     for first, motion in columns.items():
-        others = [(name, values) for name, values in columns.items() if name != first and not is_like(motion, values)]
-        shares = [(explained(motion, values), explained(values, motion)) for _, values in others]
-        ahead[first] = max(((there - back, there) for there, back in shares), default=(0.0, 0.0))
+        for name, values in columns.items():
+            if name != first and not is_like(motion, values) and (way := _way(motion, values)):
+                ways.setdefault(first, []).append(way)
+    ahead = {first: max(told)[:2] for first, told in ways.items()}
     order = sorted(ahead, key=lambda name: ahead[name], reverse=True)
-    best, second = (*order, *order)[:2]
-    open_share = 1.0 - ahead[best][1]
-    alone = len(order) == 1 or ahead[best][0] - ahead[second][0] > open_share
-    return best if ahead[best][0] > 0.0 and alone else None
+    # copies of the first one, as its volts, are no other column
+    others = [ahead[name][0] for name in order if not is_like(columns[name], columns[order[0]])]
+    if order and ahead[order[0]][0] - max(others, default=0.0) > 1.0 - ahead[order[0]][1]:
+        return order[:1]
+    return [name for name in order if any(straight for _, _, straight in ways[name])] or order
+
+
+def _way(motion: np.ndarray, force: np.ndarray) -> tuple[float, float, bool] | None:
+    """By how much a motion explains a force better than the reverse, how well, and whether no sign is to be turned.
+
+    None for what cannot be a force over this motion.
+    """
+    share = explained(motion, force)
+    first, second, _ = find_signs(motion, force)
+    signed = first * motion, second * force
+    if share < 0.5 or _lost(*signed) < _THIN or falls(*signed):
+        return None
+    return share - explained(force, motion), share, first == second
+
+
+def goes_with_clock(values: np.ndarray) -> bool:
+    """Whether a column nearly only grows, or falls, over the record, as a temperature or a counter does."""
+    ranks = np.argsort(np.argsort(values, kind="stable"), kind="stable")
+    return abs(correlation(ranks.astype(float), np.arange(float(values.size)))) > _WITH_CLOCK
 
 
 def is_like(values: np.ndarray, other: np.ndarray) -> bool:

@@ -11,7 +11,14 @@ import numpy as np
 
 from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.importing.correlation import correlation
-from dashpot.data.importing.pairs import Pair, best_pair, is_like, is_like_any, likely_displacement
+from dashpot.data.importing.pairs import (
+    Pair,
+    best_pair,
+    goes_with_clock,
+    is_like,
+    is_like_any,
+    likely_displacements,
+)
 from dashpot.text.quantity import factor
 
 # whole names, and parts of names, in English and German; letters count as written
@@ -23,6 +30,7 @@ _NAMES = {
     "acceleration": "a acc accel",
     "temperature": "T temp",
     "pressure": "p press",
+    "current": "I curr",
 }
 _PARTS = {
     "time": "time zeit elapsed runtime",
@@ -32,30 +40,39 @@ _PARTS = {
     "acceleration": "accel beschl",
     "temperature": "temper",
     "pressure": "pressure druck",
+    "current": "current strom",
 }
 _WANTED_PARTS = (
     "command cmd target setpoint soll desired reference error abweich limit peak max min count index".split()
 )
-_COUNTER = re.compile(r"(sample|row|point|scan|data|meas\w*)?[ _]?(no|nr|num|number|numb|index|idx|count|#)\.?", re.I)
+_COUNTER = re.compile(
+    r"(sample|row|point|scan|data|meas\w*|run|test|cycle|file|record)?[ _-]?"
+    r"(no|nr|num|number|numb|index|idx|count|id|#)\.?",
+    re.I,
+)
 
 # of more columns each pair would take too long
 _MOST_COLUMNS = 16
 
-SURE, LIKELY, GUESSED = "its name and unit", "its name", "how it moves"
+SURE, LIKELY, BY_UNIT, GUESSED = "its name and unit", "its name", "its unit", "how it moves"
 
 
 @dataclass(frozen=True)
 class Role:
-    """A channel, the column it was found in, what told so, and other columns that it may be as well."""
+    """A channel, the column it was found in, what told so, and other columns that it may be as well.
+
+    ``rivals`` move as well as the column does, ``namesakes`` are called as well.
+    """
 
     channel: str
     column: str
     by: str
     rivals: tuple[str, ...] = ()
+    namesakes: tuple[str, ...] = ()
 
 
 def named_roles(columns: Sequence[str], units: Mapping[str, str]) -> dict[str, Role]:
-    """The best column for every channel, by name and unit; the first of several that are as good, its rivals."""
+    """The best column for every channel, by name and unit; the first of several that are as good, its namesakes."""
     found: dict[str, tuple[float, Role]] = {}
     for column in columns:
         unit = units.get(column) or (column if len(column) > 1 else "")
@@ -65,7 +82,7 @@ def named_roles(columns: Sequence[str], units: Mapping[str, str]) -> dict[str, R
             if score > best:
                 found[channel] = score, Role(channel, column, by)
             elif role is not None and score == best:
-                found[channel] = score, replace(role, rivals=(*role.rivals, column))
+                found[channel] = score, replace(role, namesakes=(*role.namesakes, column))
     return {channel: role for channel, (_, role) in found.items()}
 
 
@@ -73,11 +90,14 @@ def _score(column: str, unit: str, channel: str) -> tuple[float, str]:
     by_name, measures = name_score(column, channel), measures_channel(unit, channel)
     if (measures is False and unit != column) or (channel != "time" and is_counter(column)):
         return 0.0, ""
+    if channel == "current" and not (by_name and measures):
+        # the `current position`, or a force told as 4 to 20 mA
+        return 0.0, ""
     unwanted = any(part in column.lower() for part in _WANTED_PARTS)
     # columns of a matrix have its name only
     inside = re.search(r"\(\d+\)$", column) is not None
     score = by_name + (2.0 if measures else 0.0) - (3.0 if unwanted else 0.0) - (1.5 if inside else 0.0)
-    return score, SURE if measures and by_name else "its unit" if measures else LIKELY
+    return score, SURE if measures and by_name else BY_UNIT if measures else LIKELY
 
 
 def name_score(column: str, channel: str) -> float:
@@ -113,8 +133,8 @@ def motion_roles(
 ) -> dict[str, Role]:
     """Displacement and force by their numbers: among columns with equally good names, else among those that are left.
 
-    A column whose rate of change is another one is the displacement, the other its velocity; without such a pair the
-    one that tells another one without being told by it, else the smoothest. The force is what the motion explains best.
+    A column whose rate of change is another one is the displacement, the other its velocity; without such a pair one
+    over which another one loses work and grows, the smoothest of several. The force is what the motion explains best.
     `step` in s is the time between two samples where it is known.
     """
     found = dict(taken)
@@ -134,15 +154,21 @@ def motion_roles(
     pair = best_pair(columns, named, forces)
     if pair is None:
         return found
-    first = found["displacement"]
-    found["displacement"] = replace(first, column=pair.displacement, rivals=())
-    by = found["force"].by if "force" in found else GUESSED
-    found["force"] = _force_role(pair, by, {name: columns[name] for name in forces})
+    force = found.get("force", Role("force", pair.force, GUESSED))
+    found["displacement"] = _settled(found["displacement"], pair.displacement, pair.other_displacements)
+    found["force"] = _settled(force, *_force_and_rivals(pair, force.by, {name: columns[name] for name in forces}))
     return found
 
 
 def _of(roles: Mapping[str, Role], channel: str) -> tuple[str, ...]:
-    return (roles[channel].column, *roles[channel].rivals)
+    return (roles[channel].column, *roles[channel].namesakes)
+
+
+def _settled(role: Role, column: str, rivals: Sequence[str]) -> Role:
+    """A role with the column that fits best; those with the same unit alone are not called alike."""
+    called = (role.column, *role.namesakes) if role.by in (SURE, LIKELY) else ()
+    namesakes = tuple(name for name in called if name != column and name not in rivals)
+    return replace(role, column=column, rivals=tuple(rivals), namesakes=namesakes)
 
 
 def _guessed_motion(
@@ -156,19 +182,30 @@ def _guessed_motion(
     wanted = "velocity" not in taken and ("force" in taken or len(left) > 2)
     pair = _rate_pair(left, step) if wanted else None
     if pair is None:
-        smoothest = min(left, key=lambda name: _roughness(left[name]))
-        likely = likely_displacement(left) if 1 < len(left) <= _MOST_COLUMNS and "force" not in taken else None
-        pair = (_largest_like(likely or smoothest, left),)
+        smoothest = min(_candidates(left, "force" in taken), key=lambda name: _roughness(left[name]))
+        pair = (_largest_like(smoothest, left),)
     return {
         channel: Role(channel, name, GUESSED) for channel, name in zip(("displacement", "velocity"), pair, strict=False)
     }
 
 
-def _force_role(pair: Pair, by: str, forces: Mapping[str, np.ndarray]) -> Role:
-    """The force with its rivals; a column of the same signal in smaller numbers is none."""
+def _candidates(columns: Mapping[str, np.ndarray], force_known: bool) -> list[str]:
+    """The columns of which the smoothest is the displacement: what goes with the clock, as a temperature does, is none.
+
+    It is one where hardly any column is left, as in a single slow stroke.
+    """
+    steady = {name: values for name, values in columns.items() if not goes_with_clock(values)}
+    if len(steady) < (1 if force_known else 2):
+        return list(columns)
+    if force_known or len(steady) > _MOST_COLUMNS:
+        return list(steady)
+    return likely_displacements(steady) or list(steady)
+
+
+def _force_and_rivals(pair: Pair, by: str, forces: Mapping[str, np.ndarray]) -> tuple[str, tuple[str, ...]]:
+    """The force and its rivals; a column of the same signal in smaller numbers is none."""
     best = _largest_like(pair.force, forces) if by == GUESSED else pair.force
-    rivals = tuple(name for name in pair.rivals if name != best and not is_like(forces[best], forces[name]))
-    return Role("force", best, by, rivals)
+    return best, tuple(name for name in pair.rivals if name != best and not is_like(forces[best], forces[name]))
 
 
 def _roughness(values: np.ndarray) -> float:

@@ -75,6 +75,7 @@ def _run_lines(run: ImportedRun, folder: Path, common: list[str]) -> list[str]:
     finding = run.finding
     lines = [f"name: {quoted(run.name)}", f"file: {quoted(_relative(run.file, folder))}", f"kind: {finding.kind}"]
     lines += [f"reader: {run.reader}"] if run.reader else []
+    lines += _options(run.options)
     lines += [f"repeats: {quoted(run.repeats)}"] if run.repeats else []
     settings = told_settings(finding.settings) | dict(finding.conditions)
     lines += [f"settings: {_flow(settings)}"] if settings and not run.repeats else []
@@ -87,6 +88,7 @@ def _run_lines(run: ImportedRun, folder: Path, common: list[str]) -> list[str]:
 def _table_lines(table: ImportedTable, folder: Path) -> list[str]:
     lines = [f"name: {quoted(table.name)}", f"file: {quoted(_relative(table.file, folder))}"]
     lines += [f"reader: {table.reader}"] if table.reader else []
+    lines += _options(table.options)
     lines.append("columns:")
     for key, found in table.finding.columns.items():
         doubted = found.unit.by == GUESSED and found.unit.unit != "1"
@@ -100,6 +102,12 @@ def _table_lines(table: ImportedTable, folder: Path) -> list[str]:
         if key not in table.finding.columns
     ]
     return ["  - " + lines[0], *("    " + line for line in lines[1:])]
+
+
+def _options(options: Mapping[str, object]) -> list[str]:
+    # between quotes a sheet called 2 is no number of a sheet
+    entries = {key: json.dumps(value, ensure_ascii=False) for key, value in options.items()}
+    return [f"file_options: {_flow(entries)}"] if entries else []
 
 
 def _relative(file: Path, folder: Path) -> str:
@@ -138,7 +146,8 @@ def _channel(finding: Finding, found: ChannelFound) -> str:
 
 
 def _remark(found: ChannelFound) -> str:
-    doubts = ["the column"] if found.role.by == GUESSED_ROLE or found.role.rivals else []
+    role = found.role
+    doubts = ["the column"] if role.by == GUESSED_ROLE or role.rivals or role.namesakes else []
     unstated = f"the gain, as the file states {found.stated}" if found.stated else "the unit, which is not stated"
     doubts += [unstated] if found.unit.by == GUESSED else []
     doubts += ["the sign"] if found.sign < 0 else []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,11 +27,17 @@ def find_unit(channel: str, column: str, stated: str, values: np.ndarray) -> Uni
     """The unit of a column that is this channel. A guess is no more than that: it has to be confirmed."""
     if stated and measures_channel(stated, channel):
         return UnitFound(stated, STATED)
-    for word in reversed(re.split(r"[\s_.\[\]():-]+", column)):
+    for word in _words(column):
         # a single letter alone is rather the symbol of the channel
         if (word != column or len(word) > 1) and measures_channel(word, channel):
             return UnitFound(word, IN_NAME)
     return UnitFound(_guess(channel, values), GUESSED)
+
+
+def _words(column: str) -> Iterator[str]:
+    """The words of a name from its end, and what stands behind their first slash: `Kraft/kN`, `v/mm/s`."""
+    for word in reversed(re.split(r"[\s_.\[\]():-]+", column)):
+        yield from (word, word.partition("/")[2])
 
 
 def _guess(channel: str, values: np.ndarray) -> str:
