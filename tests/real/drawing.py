@@ -59,10 +59,15 @@ def heat(mean: Array, x: Array, y: Array, x_title: str, y_title: str, unit: str)
     for edges, along in ((x, True), (y, False)):
         for k in np.unique(np.linspace(0, edges.size - 1, 5).astype(int)):
             place = (LEFT + k * step_x, high - BELOW + 12) if along else (LEFT - 4, high - BELOW - k * step_y + 3)
-            parts.append(_words(*place, f"{edges[k]:.3g}", "middle" if along else "end"))
+            parts.append(_words(*place, shown(edges[k]), "middle" if along else "end"))
     parts += [_words(0.5 * wide, high - 6, x_title, "middle"), _words(4, 12, y_title, "start")]
-    parts.append(_words(wide - RIGHT, 12, f"-{top:.3g} {unit} blue, +{top:.3g} {unit} orange", "end"))
+    parts.append(_words(wide - RIGHT, 12, f"-{shown(top)} {unit} blue, +{shown(top)} {unit} orange", "end"))
     return _svg(wide, high, parts)
+
+
+def shown(value: float) -> str:
+    """A number with three digits and, below a million, without an exponent."""
+    return f"{float(f'{value:.3g}'):g}"
 
 
 def _svg(wide: float, high: float, parts: Sequence[str]) -> str:
@@ -106,7 +111,7 @@ def _ticks(ends: tuple[float, float], start: float, stop: float, across: float, 
         yield _words(
             at if along else across - 3,
             across + 12 if along else at + (0 if share == 0.0 else 8),
-            f"{value:.3g}",
+            shown(value),
             anchor,
         )
 

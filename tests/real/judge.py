@@ -16,6 +16,7 @@ OWN = {
     "kelvin_voigt": {"viscous_damping", "stiffness_curve"},
     "tire_model_1": {"viscous_damping", "stiffness_curve", "relaxation", "amplitude_softening", "friction"},
 }
+OF_BASES = frozenset().union(*OWN.values())
 
 
 def unlike(outcome: Outcome) -> dict[str, tuple[float, float | None]]:
@@ -39,11 +40,34 @@ def names(outcome: Outcome) -> frozenset[str]:
     return frozenset(cause["cause"] for cause in told if cause["standing"] == "accepted")
 
 
-def near_or_admitted(outcome: Outcome) -> bool:
-    """Whether the written file comes near what any model explains on held-out runs, or says that it does not."""
+def near(outcome: Outcome) -> bool:
+    """Whether the error of the written file on held-out runs comes near what a general model explains there."""
     error = outcome.files.get("after.held_out")
-    near = error is not None and outcome.explainable is not None and error <= NEAR * outcome.explainable
-    return near or outcome.verdict in ADMITS
+    return error is not None and outcome.explainable is not None and error <= NEAR * outcome.explainable
+
+
+def admitted(outcome: Outcome) -> bool:
+    """Whether the verdict says that something is still missing."""
+    return outcome.verdict in ADMITS
+
+
+def near_or_admitted(outcome: Outcome) -> bool:
+    """Whether the written file comes near what a general model explains, or the verdict says that it does not."""
+    return near(outcome) or admitted(outcome)
+
+
+def naming(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """The outcomes of those sets and bases of which some repetition names something."""
+    found = list(outcomes)
+    places = {(one.set, one.base) for one in found if names(one)}
+    return [one for one in found if (one.set, one.base) in places]
+
+
+def naming_beyond_bases(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """The outcomes of those sets of which some repetition names what no base does of itself."""
+    found = list(outcomes)
+    places = {one.set for one in found if names(one) - OF_BASES}
+    return [one for one in found if one.set in places]
 
 
 def same_names(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], tuple[int, int]]:
@@ -64,10 +88,9 @@ def same_names(outcomes: Iterable[Outcome]) -> dict[tuple[str, str], tuple[int, 
 def same_beyond_bases(outcomes: Iterable[Outcome]) -> dict[str, tuple[int, int]]:
     """By set, how many repetitions from all bases agree in what no base does of itself, and how many there are."""
     key = lambda one: one.set  # noqa: E731
-    own = set().union(*OWN.values())
     found = {}
     for place, group in groupby(sorted(outcomes, key=key), key):
-        said = [None if one.verdict == "failed" else names(one) - own for one in group]
+        said = [None if one.verdict == "failed" else names(one) - OF_BASES for one in group]
         counts = Counter(one for one in said if one is not None)
         found[place] = (max(counts.values(), default=0), len(said))
     return found

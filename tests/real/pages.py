@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -20,12 +22,38 @@ from real.catalogue import SETS
 from real.pictures import pictures
 from real.run import summary, trials
 from real.sets import MeasuredSet
-from real.trial import Outcome, Trial, engine_digest, kept_outcome
+from real.trial import Outcome, Trial, is_current, kept_outcome
 
 import dashpot
+from dashpot.text.digits import number
 
 PAGES = Path(__file__).resolve().parents[2] / "docs" / "real"
 RESEMBLED = 3  # causes that are listed where none is named
+HELD_OUT = ("before.held_out", "after.held_out")  # errors of the files that are shown
+INDEX = (
+    "set",
+    "diagnoses",
+    f"within {judge.NEAR} times the explainable error",
+    "said to be unexplained or partly explained",
+    "same names",
+    "same names where any is named",
+    "accuse the rig",
+)
+READING = "How to read the pages"
+WORDS = f"""\
+- A cause that stands in a table without a further word is **named**: the number in brackets behind it is 0.9 or more.
+- **Probably** stands before a cause that is more likely than not, with a number above 0.5. With other runs another one
+  may come out.
+- **Resembles** stands where nothing is named or probable: a term of this form describes a part of the force in the
+  written file, and its cause is open. The first three of such terms are listed.
+- **Or** parts a cause from its rivals: these runs hardly tell which of them it is.
+- The **number in brackets**, from 0 to 1, is how sure it is that the cause, or a rival that stands behind its "or", is
+  at work; of a fault of the measurement, that it is this one. It is cut after two digits.
+- The **same names** are counted over repetitions of a set from one network: how many of them name just what most of
+  them name. That nothing is named counts as an answer in the first figure; the second one is of those sets and networks
+  where at least one repetition names something.
+- A diagnosis is **within {judge.NEAR} times the explainable error** by the error of its written file on held-out runs
+  alone. Whether its verdict is *unexplained* or *partly explained* is counted by itself."""
 Kept = Sequence[tuple[Trial, Outcome]]
 
 
@@ -35,11 +63,15 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
-def short(value: float | None) -> str:
-    """A force in N, or in kN."""
-    if value is None:
-        return "–"
-    return f"{value / 1e3:.3g} kN" if value >= 1e4 else f"{value:.3g} N"
+def common_unit(forces: Iterable[float | None]) -> tuple[float, str]:
+    """The size in N and the name of the one unit in which some forces (N) are shown: kN from 10 kN on."""
+    largest = max((abs(force) for force in forces if force is not None), default=0.0)
+    return (1e3, "kN") if largest >= 1e4 else (1.0, "N")
+
+
+def short(force: float | None, size: float) -> str:
+    """A force in N as a number in a unit of this size."""
+    return number(None if force is None else force / size)
 
 
 def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str]:
@@ -57,24 +89,29 @@ def page(one: MeasuredSet, kept: Kept, keep: Path, folder: Path) -> Iterator[str
     yield "## The runs"
     yield one.cut + " " + told_runs(look["runs"])
     final = best_file(kept, keep / one.name)
-    drawn = pictures(seen, *final, folder / one.name) if final else []
     if final:
-        name = f"`{final[0].stem}`"
-        yield f"Black is measured, blue the written file {name}: the one with the smallest error on training runs."
+        yield (
+            f"Black is measured, blue the written file `{final.network.stem}`: of those with seed {kept[0][0].seed} "
+            f"the one with the smallest {final.by}."
+        )
+        drawn = pictures(seen, final.network, final.network.parent, folder / one.name)
         yield "\n\n".join(f"![{words}]({path.name})" for words, path in drawn)
     yield "## What can be explained"
-    rows = [
-        ("noise floor", short(look["noise_floor"].get("value"))),
-        ("explainable, on held-out runs", short(look["explainable"].get("held_out"))),
-    ]
-    yield table(("error (seed 0)", ""), rows)
+    errors = {
+        "noise floor": look["noise_floor"].get("value"),
+        "explainable, on held-out runs": look["explainable"].get("held_out"),
+    }
+    outcomes = [outcome for _, outcome in kept]
+    size, unit = common_unit([*errors.values(), *errors_of(outcomes)])
+    yield table(("error (seed 0)", unit), [(words, short(error, size)) for words, error in errors.items()])
     yield (
         "Explainable is what [a general model of the past motion](../explanation/look.md#the-explainable-error) "
         "leaves on runs that it has not seen; it differs with the runs that are held out."
     )
     yield "## What is diagnosed"
-    yield diagnoses([outcome for _, outcome in kept])
-    yield remarks([outcome for _, outcome in kept], one)
+    yield f"[{READING}](index.md#{READING.lower().replace(' ', '-')}) tells what the words and numbers mean."
+    yield diagnoses(outcomes, size, unit)
+    yield remarks(outcomes, one)
 
 
 def told_runs(runs: Sequence[dict[str, object]]) -> str:
@@ -82,40 +119,58 @@ def told_runs(runs: Sequence[dict[str, object]]) -> str:
 
     def reach(key: str, factor: float) -> str:
         values = [factor * float(run[key]) for run in runs]
-        low, high = f"{min(values):.3g}", f"{max(values):.3g}"
+        low, high = number(min(values)), number(max(values))
         return low if low == high else f"{low} to {high}"
 
     largest = max(abs(float(run[key])) for run in runs for key in ("least_force", "largest_force"))
+    size, unit = common_unit([largest])
     back = [str(run["run"]) for run in runs if run["gives_back"]]
     energy = f"Work is given back by {', '.join(back)}." if back else "Every run takes up work."
     return (
         f"{len(runs)} runs of {reach('duration', 1.0)} s at {reach('sampling', 1.0)} Hz, amplitudes of "
         f"{reach('amplitude', 1e3)} mm, peak speeds of {reach('peak_speed', 1e3)} mm/s, forces up to "
-        f"{short(largest)}. {energy}"
+        f"{short(largest, size)} {unit}. {energy}"
     )
 
 
-def best_file(kept: Kept, folder: Path) -> tuple[Path, Path] | None:
-    """The network with the smallest error on training runs, of the first seed and all runs; and its folder."""
-    whole = [
-        (outcome.files["after.train"], trial)
+@dataclass(frozen=True)
+class Best:
+    """The file that a page draws, and the error by which it was chosen, in words."""
+
+    network: Path
+    by: str
+
+
+def best_file(kept: Kept, folder: Path) -> Best | None:
+    """The network with the smallest error on training runs left out in turn, of the first seed and all runs.
+
+    Where one of them tells no such error, that on the training runs themselves decides.
+    """
+    folders = [
+        folder / trial.word / "diagnosis"
         for trial, outcome in kept
-        if "after.train" in outcome.files and not trial.fewer and trial.seed == kept[0][0].seed
+        if outcome.files and not trial.fewer and trial.seed == kept[0][0].seed
     ]
-    if not whole:
+    if not folders:
         return None
-    trial = min(whole, key=lambda pair: pair[0])[1]
-    found = folder / trial.word / "diagnosis"
-    told = json.loads((found / "diagnosis.json").read_text())
-    return found / (told["extended_model"] or told["fitted_model"]), found
+    told = {found: json.loads((found / "diagnosis.json").read_text()) for found in folders}
+    unseen = all(one.get("left_out") is not None for one in told.values())
+    found = min(told, key=lambda one: told[one]["left_out"] if unseen else told[one]["rmse"]["after"]["train"])
+    network = found / (told[found]["extended_model"] or told[found]["fitted_model"])
+    return Best(network, f"error on training runs{' left out in turn' * unseen}")
 
 
-def diagnoses(outcomes: Sequence[Outcome]) -> str:
-    """A line for each diagnosis."""
+def errors_of(outcomes: Sequence[Outcome]) -> list[float | None]:
+    """All errors in N that a table of diagnoses shows."""
+    return [error for one in outcomes for error in (*map(one.files.get, HELD_OUT), one.explainable)]
+
+
+def diagnoses(outcomes: Sequence[Outcome], size: float, unit: str) -> str:
+    """A line for each diagnosis, with all errors in one unit of a size in N."""
     rows = [
         (
             f"`{one.base}`",
-            f"{one.seed}{', a fifth of the runs removed' if one.fewer else ''}",
+            f"{one.seed}{', fewer runs' if one.fewer else ''}",
             one.verdict.replace("_", " "),
             "; ".join(_said(cause) for cause in one.causes if cause["class"] == "specimen") or _resembled(one),
             "; ".join(
@@ -125,9 +180,8 @@ def diagnoses(outcomes: Sequence[Outcome]) -> str:
                 ]
             )
             or "–",
-            short(one.files.get("before.held_out")),
-            short(one.files.get("after.held_out")),
-            short(one.explainable),
+            *(short(one.files.get(key), size) for key in HELD_OUT),
+            short(one.explainable, size),
         )
         for one in outcomes
     ]
@@ -135,11 +189,11 @@ def diagnoses(outcomes: Sequence[Outcome]) -> str:
         "from",
         "seed",
         "verdict",
-        "missing in the model (probability)",
+        "missing in the model (how sure)",
         "faults of the measurement",
-        "file before, held out",
-        "file after, held out",
-        "explainable",
+        f"file before, held out ({unit})",
+        f"file after, held out ({unit})",
+        f"explainable ({unit})",
     )
     return table(head, rows)
 
@@ -148,7 +202,12 @@ def _said(cause: dict[str, object]) -> str:
     link = f"[{str(cause['cause']).replace('_', ' ')}](../generated/causes.md#{str(cause['cause']).replace('_', '-')})"
     rivals = cause["indistinguishable_from"]
     beside = f" or {' or '.join(str(rival).replace('_', ' ') for rival in rivals)}" if rivals else ""
-    return f"{'probably ' * (cause['standing'] == 'probable')}{link}{beside} ({float(cause['probability']):.2g})"
+    return f"{'probably ' * (cause['standing'] == 'probable')}{link}{beside} ({how_sure(cause['presence'])})"
+
+
+def how_sure(presence: float) -> str:
+    """The number that decides what is said of a cause, cut to two digits, so that it stays below what it is below."""
+    return f"{math.floor(100.0 * presence) / 100.0:.2f}" if presence >= 0.01 else "below 0.01"
 
 
 def _resembled(outcome: Outcome) -> str:
@@ -160,16 +219,20 @@ def _resembled(outcome: Outcome) -> str:
 def remarks(outcomes: Sequence[Outcome], one: MeasuredSet) -> str:
     """How often the names come again, and what the files say, in counts."""
     alike = sum(outcome.failed is None and not judge.unlike(outcome) for outcome in outcomes)
-    within = [f"{some} of {most} from `{base}`" for (_, base), (some, most) in judge.same_names(outcomes).items()]
+    naming = judge.same_names(judge.naming(outcomes))
+    within = [
+        f"{some} of {most} from `{base}`{'' if (one.name, base) in naming else ' (none is named)'}"
+        for (_, base), (some, most) in judge.same_names(outcomes).items()
+    ]
     guilty = sum(bool(judge.accused(outcome, one.known_faults)) for outcome in outcomes)
-    near = sum(map(judge.near_or_admitted, outcomes))
+    near, admitted = (sum(map(of, outcomes)) for of in (judge.near, judge.admitted))
     return "\n".join(
         [
             *([f"- The same names: {', '.join(within)}."] if within else []),
             f"- Told errors are those of the files, read again: {alike} of {len(outcomes)}.",
             f"- A fault of the rig that the owners do not know of: {guilty} of {len(outcomes)}.",
-            f"- Within {judge.NEAR} times the explainable error on held-out runs, or said to be unexplained or partly "
-            f"explained: {near} of {len(outcomes)}.",
+            f"- Within {judge.NEAR} times the explainable error on held-out runs: {near} of {len(outcomes)}.",
+            f"- Said to be unexplained or partly explained: {admitted} of {len(outcomes)}.",
         ]
     )
 
@@ -179,31 +242,35 @@ def index(found: dict[str, list[Outcome]], older: int) -> Iterator[str]:
     yield "# Measured by others"
     yield (
         "What dashpot says of measurements by others: each set from two shipped networks, with up to three draws "
-        "of the held-out runs, and once more with a fifth of the runs removed. The errors are those of the written "
-        "files, read again and simulated."
+        "of the held-out runs, and once more with a fifth of the training runs removed (fewer runs). The errors are "
+        "those of the written files, read again and simulated."
     )
-    rows = [
-        (
-            f"[{SETS[name].title}]({name}.md)",
-            str(len(outcomes)),
-            str(sum(map(judge.near_or_admitted, outcomes))),
-            f"{judge.share(again):.0%}" if (again := judge.same_names(outcomes)) else "–",
-            str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)),
-        )
-        for name, outcomes in found.items()
-    ]
-    head = ("set", "diagnoses", "near the explainable error, or admitted", "same names", "accuse the rig")
-    yield table(head, rows)
+    yield table(INDEX, [index_row(name, outcomes) for name, outcomes in found.items()])
     yield "\n".join(f"- {line}" for line in summary([one for each in found.values() for one in each]))
     if older:
         yield (
             f"{older} of them were run by an earlier state of dashpot than the present one: "
             "names and probabilities can differ."
         )
+    yield f"## {READING}"
+    yield WORDS
     yield "```{toctree}\n:hidden:\n\n" + "\n".join(found) + "\n```"
     yield (
         "Where the sets lie beside the repository, `python tests/real/run.py --keep results` runs all diagnoses, "
         "and `python tests/real/pages.py --keep results` writes these pages."
+    )
+
+
+def index_row(name: str, outcomes: Sequence[Outcome]) -> tuple[str, ...]:
+    """What the diagnoses of a set come to, in counts and shares."""
+    again = [judge.same_names(some) for some in (outcomes, judge.naming(outcomes))]
+    return (
+        f"[{SETS[name].title}]({name}.md)",
+        str(len(outcomes)),
+        str(sum(map(judge.near, outcomes))),
+        str(sum(map(judge.admitted, outcomes))),
+        *(f"{judge.share(counts):.0%}" if counts else "–" for counts in again),
+        str(sum(bool(judge.accused(one, SETS[name].known_faults)) for one in outcomes)),
     )
 
 
@@ -216,7 +283,7 @@ def kept_trials(one: MeasuredSet, keep: Path) -> list[tuple[Trial, Outcome]]:
 def older_trials(one: MeasuredSet, keep: Path) -> int:
     """How many kept trials of a set were run by another engine than the present one."""
     kept = [kept_outcome(keep / one.name / trial.word) for trial in trials(one)]
-    return sum(known is not None and known[0] != engine_digest() for known in kept)
+    return sum(known is not None and not is_current(*known) for known in kept)
 
 
 def main() -> None:

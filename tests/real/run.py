@@ -1,8 +1,8 @@
 """Diagnoses of measured sets as a command: ``python tests/real/run.py --set o_ring --keep results``.
 
-Each set is diagnosed from two bases, with three seeds, and once more with a fifth of its runs removed. Finished trials
-are kept in a folder each and run again only where the source of dashpot has changed; ``--stale`` takes them as they
-are. Writes table.csv and table.md there.
+Each set is diagnosed from two bases, with three seeds, and once more with a fifth of its training runs removed.
+Finished trials are kept in a folder each and run again only where the source of dashpot has changed; ``--stale`` takes
+them as they are. Writes table.csv and table.md there.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import argparse
 import csv
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from real import judge
 from real.catalogue import SETS
 from real.sets import MeasuredSet
-from real.trial import Outcome, Trial, engine_digest, kept_outcome
+from real.trial import Outcome, Trial, is_current, kept_outcome
 
 SEEDS = (0, 1, 2)
 COLUMNS = (
@@ -36,7 +36,8 @@ COLUMNS = (
     "explainable",
     "floor",
     "files alike",
-    "near or admitted",
+    "near",
+    "admitted",
     "seconds",
     "MB",
 )
@@ -57,7 +58,7 @@ def outcome(trial: Trial, keep: Path, stale: bool = False) -> Outcome:
     """The kept outcome of a trial, or that of running it."""
     folder = keep / trial.set.name / trial.word
     known = kept_outcome(folder)
-    if known and (stale or known[0] == engine_digest()):
+    if known and (stale or is_current(*known)):
         return known[1]
     return trial.run(folder)
 
@@ -78,7 +79,7 @@ def row(one: Outcome) -> dict[str, object]:
     said = {kind: [cause for cause in one.causes if cause["class"] == kind] for kind in ("specimen", "measurement")}
     listed = {
         kind: ", ".join(
-            f"{cause['cause']} {cause['probability']:.2f}{'?' * (cause['standing'] == 'probable')}" for cause in causes
+            f"{cause['cause']} {cause['presence']:.2f}{'?' * (cause['standing'] == 'probable')}" for cause in causes
         )
         for kind, causes in said.items()
     }
@@ -96,7 +97,8 @@ def row(one: Outcome) -> dict[str, object]:
         "explainable": _short(one.explainable),
         "floor": _short(one.floor),
         "files alike": "" if one.failed else "no" if judge.unlike(one) else "yes",
-        "near or admitted": "yes" if judge.near_or_admitted(one) else "no",
+        "near": "yes" if judge.near(one) else "no",
+        "admitted": "yes" if judge.admitted(one) else "no",
         "seconds": f"{one.seconds:.0f}",
         "MB": f"{one.megabytes:.0f}",
     }
@@ -116,11 +118,21 @@ def summary(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield f"told errors are those of the files: {alike} of {count}"
     guilty = sum(bool(judge.accused(one, known[one.set])) for one in outcomes)
     yield f"a fault of the rig that its owners do not know is named: {guilty} of {count}"
-    yield f"near the explainable error, or admitted: {sum(map(judge.near_or_admitted, outcomes))} of {count}"
+    yield (
+        f"within {judge.NEAR} times the explainable error on held-out runs: {sum(map(judge.near, outcomes))} of {count}"
+    )
+    yield f"said to be unexplained or partly explained: {sum(map(judge.admitted, outcomes))} of {count}"
     if again := judge.same_names(outcomes):
-        yield f"same accepted causes within set and base: {judge.share(again):.0%}"
-    beyond = judge.share(judge.same_beyond_bases(outcomes))
-    yield f"the same from both bases, but for what they do of themselves: {beyond:.0%}"
+        yield f"same accepted causes within set and base, none counting as an answer: {judge.share(again):.0%}"
+        yield _where_named(judge.same_names(judge.naming(outcomes)), len(again), "groups")
+    beyond = judge.same_beyond_bases(outcomes)
+    yield f"the same from both bases, but for what they do of themselves: {judge.share(beyond):.0%}"
+    yield _where_named(judge.same_beyond_bases(judge.naming_beyond_bases(outcomes)), len(beyond), "sets")
+
+
+def _where_named(counts: Mapping[object, tuple[int, int]], count: int, what: str) -> str:
+    share = f"{judge.share(counts):.0%}" if counts else "–"
+    return f"the same where any of these is accepted: {share} in {len(counts)} of {count} {what}"
 
 
 def write_tables(outcomes: Sequence[Outcome], keep: Path) -> None:
@@ -142,7 +154,7 @@ def main() -> None:
     parser.add_argument("--set", nargs="*", default=list(SETS), choices=list(SETS), help="all without it")
     parser.add_argument("--base", nargs="*", default=[], help="shipped names; those of the set without it")
     parser.add_argument("--seeds", type=int, nargs="*", default=list(SEEDS))
-    parser.add_argument("--whole", action="store_true", help="no trial with a fifth of the runs removed")
+    parser.add_argument("--whole", action="store_true", help="no trial with a fifth of the training runs removed")
     parser.add_argument("--keep", type=Path, required=True, help="folder for trials and tables")
     parser.add_argument("--stale", action="store_true", help="keep trials of an older dashpot")
     options = parser.parse_args()

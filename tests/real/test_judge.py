@@ -37,6 +37,12 @@ def test_a_file_is_near_or_the_verdict_admits(verdict, error, good):
     assert judge.near_or_admitted(made(verdict, files={"after.held_out": error})) is good
 
 
+def test_being_near_and_admitting_are_told_apart():
+    far, near = (made("unexplained", files={"after.held_out": error}) for error in (30.0, 10.0))
+    assert [judge.near(one) for one in (far, near)] == [False, True]
+    assert [judge.admitted(one) for one in (far, near, made("explained"))] == [True, True, False]
+
+
 def test_without_a_held_out_figure_nothing_is_near():
     assert not judge.near_or_admitted(made())
 
@@ -51,6 +57,17 @@ def test_what_is_only_probable_may_change():
     assert judge.same_names([one, two]) == {("one", "kelvin_voigt"): (1, 2)}
     one.causes[1]["standing"] = "probable"
     assert judge.same_names([one, two]) == {("one", "kelvin_voigt"): (2, 2)}
+
+
+def test_groups_that_never_name_anything_are_counted_by_themselves():
+    """Saying nothing twice is agreement; a name that came once of two is none."""
+    silent = [made(base="tire_model_1"), made(base="tire_model_1")]
+    said = [made(specimen=["friction"]), made(), *silent]
+    assert judge.share(judge.same_names(said)) == pytest.approx(0.75)
+    assert judge.same_names(judge.naming(said)) == {("one", "kelvin_voigt"): (1, 2)}
+    assert judge.naming_beyond_bases(said) == []
+    valve = made(specimen=["valve"])
+    assert judge.naming_beyond_bases([valve, *silent]) == [valve, *silent]
 
 
 def test_a_rig_is_not_to_be_called_probably_at_fault_either():

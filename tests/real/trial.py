@@ -8,9 +8,10 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -22,6 +23,7 @@ from real.sets import MeasuredSet
 from seeds import seed_of
 
 import dashpot
+from dashpot.fit.holdout import split_runs
 from dashpot.fit.scored import warm_up
 
 DASHPOT = (sys.executable, "-m", "dashpot")
@@ -44,7 +46,7 @@ KEPT = (
 
 @dataclass(frozen=True)
 class Trial:
-    """A set diagnosed from one of its bases. ``fewer``: a fifth of the runs was never measured."""
+    """A set diagnosed from one of its bases. ``fewer``: a fifth of the training runs was never measured."""
 
     set: MeasuredSet
     base: str
@@ -56,15 +58,18 @@ class Trial:
         return f"{self.base}-{self.seed}{'-fewer' if self.fewer else ''}"
 
     def removed(self) -> list[str]:
-        """A fifth of the runs."""
-        names = [str(entry["name"]) for entry in self.set.runs()]
+        """As near to a fifth of the training runs as whole runs come, one at least; the others would teach nothing."""
+        with tempfile.TemporaryDirectory() as place:
+            whole = dashpot.load_dataset(self.set.write(Path(place)), allow_outside=True)
+            train = split_runs(whole, self.seed).train
         rng = np.random.default_rng(seed_of(f"{self.set.name}-{self.word}"))
-        return rng.choice(names, len(names) // 5, replace=False).tolist()
+        return rng.choice(train, max(1, round(len(train) / 5)), replace=False).tolist()
 
     def run(self, folder: Path) -> Outcome:
         """Diagnose within `folder`, hold the files against what was told, and keep the outcome there."""
         shutil.rmtree(folder, ignore_errors=True)
-        dataset = self.set.write(folder / "data", self.removed() if self.fewer else ())
+        removed = self.removed() if self.fewer else []
+        dataset = self.set.write(folder / "data", removed)
         found = folder / "diagnosis"
         command = [
             *DASHPOT,
@@ -83,9 +88,8 @@ class Trial:
         spent = measured_command(list(map(str, command)), folder / "log.txt")
         result = found / "diagnosis.json"
         told = json.loads(result.read_text()) if spent.failed is None and result.exists() else None
-        outcome = outcome_of(self, told, spent)
-        if told:
-            outcome = Outcome(**{**asdict(outcome), "files": errors_of_files(told, found, dataset)})
+        files = errors_of_files(told, found, dataset) if told else {}
+        outcome = replace(outcome_of(self, told, spent), files=files, removed=removed)
         (folder / OUTCOME).write_text(json.dumps({"engine": engine_digest(), **asdict(outcome)}, indent=1) + "\n")
         return outcome
 
@@ -96,7 +100,7 @@ class Outcome:
 
     `causes` are accepted or probable; what a part of the force only resembles is in `resembled`. `faults` are those
     that triage found; `told` and `files` hold RMSE in N by ``before.train``, ``after.held_out`` and
-    so on; `floor` and `explainable` are in N.
+    so on; `floor` and `explainable` are in N. `removed` are the runs that were taken away before.
     """
 
     set: str
@@ -114,6 +118,7 @@ class Outcome:
     megabytes: float
     failed: str | None
     resembled: list[dict[str, Any]] = field(default_factory=list)
+    removed: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -237,6 +242,11 @@ def _without_docstrings(path: Path) -> str:
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef) and ast.get_docstring(node) is not None:
             node.body = node.body[1:]
     return ast.unparse(whole)
+
+
+def is_current(engine: str, outcome: Outcome) -> bool:
+    """Whether a kept outcome is of the present engine, and tells the runs that were removed where some were."""
+    return engine == engine_digest() and bool(outcome.removed) == outcome.fewer
 
 
 def kept_outcome(folder: Path) -> tuple[str, Outcome] | None:

@@ -60,7 +60,8 @@ def verb(specimen: str | None, output: Path, switches: Switches) -> None:
         second_report = write_diagnosis(diagnosis, causes)
 
     content = {"format": "dashpot-demo/1", "comparison": comparison.as_dict(), "diagnosis": diagnosis.as_dict()}
-    session.talk.result(f"{comparison_text(comparison)}\n\n{diagnosis_text(diagnosis)}", content)
+    told = [comparison_text(comparison), "", diagnosis_text(diagnosis), *diagnosis.remarks]
+    session.talk.result("\n".join(told), content)
     session.talk.say(f"\nOpen in a browser:\n  {first_report.resolve()}\n  {second_report.resolve()}")
 
 

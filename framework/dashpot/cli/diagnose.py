@@ -57,5 +57,7 @@ def verb(
         report = write_diagnosis(diagnosis, folder)
         check = checked(diagnosis, folder, session.registry)
     session.talk.result(diagnosis_text(diagnosis), diagnosis.as_dict())
+    for remark in diagnosis.remarks:
+        session.talk.say(remark)
     session.talk.say(check)
     session.tell_report(report)

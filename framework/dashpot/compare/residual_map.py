@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.compare.strokes import Seen
+from dashpot.fit.alike import SAME_MOTION
+from dashpot.text.quantity import base_unit
 
 Array = NDArray[np.float64]
 
@@ -31,6 +33,15 @@ UNITS = {
     "preload": "m",
     "order of tests": "",
 }
+OF_SAMPLES = (
+    "deflection",
+    "velocity",
+    "speed",
+    "travel since reversal",
+    "distance since reversal",
+    "place of the last reversal",
+    "time",
+)
 NO_VARIABLES = ("warm_up", "start", "stop", "duration", "amplitude", "preload")
 
 
@@ -67,11 +78,23 @@ def _forces(label: str, seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) 
 
 
 def _variables(seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> dict[str, Array]:
-    """Every variable that varies, at all chosen samples."""
+    """Every variable that varies, at all chosen samples: of conditions those that differ between runs."""
     parts = [_of_run(each, part) for each, part in zip(seen, rows, strict=True)]
     common = [name for name in parts[0] if all(name in part for part in parts)]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in common}
-    return {name: values for name, values in joined.items() if np.ptp(values) > 1e-9 * np.abs(values).max()}
+    return {name: values for name, values in joined.items() if np.ptp(values) > _alike(name, values, seen)}
+
+
+def _alike(name: str, values: Array, seen: Sequence[Seen]) -> float:
+    """By how much the values of a variable may differ that is one value: of a condition, by what a rig repeats.
+
+    A temperature has no size, and the order of the tests is counted.
+    """
+    units = {each.run.units.get(name) for each in seen}
+    if name in OF_SAMPLES or name == "order of tests" or any(unit and base_unit(unit) == "K^1" for unit in units):
+        return 1e-9 * float(np.abs(values).max())
+    stroke = 2.0 * max(each.amplitude for each in seen)
+    return SAME_MOTION * (stroke if name == "preload" else float(np.abs(values).max()))
 
 
 def _of_run(seen: Seen, rows: NDArray[np.intp]) -> dict[str, Array]:

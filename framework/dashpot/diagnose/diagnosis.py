@@ -157,6 +157,7 @@ class Diagnosis(Findings):
             "limits": self.limits(),
             "leftover": vars(self.leftover),
             "may_go": list(self.spare),
+            "remarks": self.remarks,
             "seed": self.seed,
         }
 

@@ -16,13 +16,13 @@ from dashpot.notebook.model import Model
 from dashpot.notebook.plots import PLOTS, interactive, plot
 from dashpot.notebook.printed import Printed
 from dashpot.notebook.promoted import promoted
-from dashpot.report.diagnosis import VERDICTS, diagnosis_page
+from dashpot.report.diagnosis import diagnosis_page, verdict_notices
 from dashpot.report.figures import gain_intervals
 from dashpot.report.grids import cause_grid, misfit_grid
 from dashpot.report.headline import headline
 from dashpot.report.networks import with_network
 from dashpot.report.page import write_page
-from dashpot.report.parts import Code, Notice, Part
+from dashpot.report.parts import Code, Part
 from dashpot.report.patch import diff
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ class Diagnosis(Printed, PlainDiagnosis):
 
     def _parts(self) -> Iterator[Part]:
         content, patch = self.as_dict(), self.patch()
-        yield Notice(*VERDICTS[self.verdict])
+        yield from verdict_notices(content)
         if content["causes"]:
             yield cause_grid(content)
         if patch:

@@ -72,8 +72,8 @@ def best_model(comparison: Json) -> Json | None:
 def _sections(comparison: Json, evidence: Evidence) -> Iterator[Section]:
     series = _first_shown(comparison)
     yield Section("Result", parts=list(_result(comparison, evidence)))
-    yield Section("Over frequency and amplitude", parts=list(frequency_parts(evidence, series)))
     yield Section("The shape of the force", parts=list(shape_parts(evidence, series)))
+    yield Section("Over frequency and amplitude", parts=list(frequency_parts(evidence, series)))
     yield Section("Over displacement and time", parts=list(signal_parts(evidence, series)))
     yield Section("The models", parts=list(_models(comparison, evidence)))
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from dashpot.report import figures, grids
 from dashpot.report.colophon import colophon
 from dashpot.report.comparison import shape_parts
 from dashpot.report.evidence import Evidence
-from dashpot.report.headline import Errors, headline, read_errors, short_headline
+from dashpot.report.headline import headline, read_errors, short_headline
 from dashpot.report.parts import Code, KeyFigures, Notice, NoticeKind, Page, Part, Picture, Section
 from dashpot.report.patch import diff
 from dashpot.report.readable import percent
@@ -18,7 +18,7 @@ from dashpot.text.digits import shown_with_unit
 Json = Mapping[str, Any]
 
 VERDICTS: dict[str, tuple[NoticeKind, str]] = {
-    "explained": ("good", "Every significant misfit has an accepted cause."),
+    "explained": ("good", "Every significant misfit of the training runs has an accepted cause."),
     "nothing_missing": ("good", "The residual is at the noise floor: the data do not ask for a richer model."),
     "partly_explained": ("warning", "The accepted causes explain part of the error; something is still missing."),
     "unexplained": ("bad", "Something is missing in the model that none of the known causes fits."),
@@ -63,10 +63,14 @@ def _sections(diagnosis: Json, evidence: Evidence) -> Iterator[Section]:
 
 
 def _verdict(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
-    kind, meaning = VERDICTS[diagnosis["verdict"]]
-    yield KeyFigures(_key_figures(read_errors(diagnosis), grids.explainable_value(diagnosis)))
-    yield Notice(kind, meaning)
-    yield from (Notice("warning", text) for text in evidence.get("warnings", ()))
+    yield KeyFigures(_key_figures(diagnosis))
+    yield from verdict_notices(diagnosis, evidence.get("warnings", ()))
+
+
+def verdict_notices(diagnosis: Json, warnings: Sequence[str] = ()) -> Iterator[Notice]:
+    """What the verdict means, its remarks right behind it, then further warnings, each once."""
+    yield Notice(*VERDICTS[diagnosis["verdict"]])
+    yield from (Notice("warning", text) for text in dict.fromkeys([*(diagnosis.get("remarks") or ()), *warnings]))
 
 
 def _misfit(diagnosis: Json, evidence: Evidence) -> Iterator[Part]:
@@ -131,14 +135,15 @@ def _tried(evidence: Evidence) -> str:
     return f"{tried} candidates were tried." if tried else ""
 
 
-def _key_figures(errors: Errors, explainable: float | None) -> list[tuple[str, str, str, str]]:
+def _key_figures(diagnosis: Json) -> list[tuple[str, str, str, str]]:
+    errors, explainable = read_errors(diagnosis), grids.explainable_value(diagnosis)
     runs = f"RMSE on {errors.runs}"
     less = "" if errors.gain is None else f"{percent(errors.gain)} less, "
     shown = [
         ("error before", errors.before, "N", runs),
         ("error after", errors.after, "N", f"{less}{runs}"),
         ("explainable", explainable, "N", "of a general model of the past motion"),
-        ("noise floor", errors.floor, "N", "no model gets below"),
+        ("noise floor", errors.floor, "N", grids.floor_note(diagnosis)),
     ]
     return [(label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None]
 

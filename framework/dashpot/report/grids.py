@@ -206,6 +206,16 @@ def floor_origin(result: Json) -> str:
     return origins.get((result.get("noise_floor") or {}).get("from") or "", "")
 
 
+def floor_note(result: Json) -> str:
+    """What the noise floor bounds: no bound where a general model leaves less than that."""
+    floor, explainable = floor_value(result), explainable_value(result)
+    if floor is None or explainable is None or explainable >= floor:
+        return "no model gets below"
+    repeated = (result.get("noise_floor") or {}).get("from") == "repeats"
+    more = "repeats differ by more" if repeated else "more"
+    return f"{more} than a general model leaves, so {'repeats hold' if repeated else 'it holds'} more than noise"
+
+
 def explainable_value(result: Json) -> float | None:
     """The error in N that a general model leaves on runs that it did not see, None where there is none."""
     told = result.get("explainable") or {}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from dashpot.report.grids import cause_name, cause_title, explainable_value, floor_value, is_likely
-from dashpot.report.readable import join, percent
+from dashpot.report.readable import join, listed, percent
 from dashpot.text.digits import number, quantity, with_interval
 
 Json = Mapping[str, Any]
@@ -19,6 +20,7 @@ RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"
 MOST = 0.9  # of an error: no longer only a part of it
 MOST_HIDDEN = 3  # causes told by name
 MOST_WORDS = 25  # of a short headline
+MOST_BEFORE_OF = 2  # words of a name that a size may follow
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
@@ -129,7 +131,17 @@ def cause_phrase(cause: Json) -> str:
     if not first.get("value") or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
     size = with_interval(first["value"], first.get("interval"), first.get("unit") or "")
-    return " ".join(filter(None, [cause_name(cause), "of", size, cause.get("place")]))
+    quantity_name = next(iter(parameters)).rpartition(".")[2].replace("_", " ")
+    return " ".join(filter(None, [_with_size(cause_name(cause), quantity_name, size), cause.get("place")]))
+
+
+def _with_size(name: str, quantity_name: str, size: str) -> str:
+    """A short name "of 41 N"; a longer one ends in a word of which this is no size: "damping that fades (time 3 s)"."""
+    words = re.sub(r"\(.*\)", "", name.removeprefix("a ").removeprefix("an ")).split()
+    if len(words) <= MOST_BEFORE_OF:
+        return f"{name} of {size}"
+    told = size if quantity_name in words else f"{quantity_name} {size}"
+    return f"{name[:-1]}; {told})" if name.endswith(")") else f"{name} ({told})"
 
 
 def _is_known(parameter: Json) -> bool:
@@ -227,7 +239,7 @@ def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
     alike = [_or_rivals(cause) for cause in diagnosis["causes"]]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
-    resembled = f"; it resembles {join(alike)}{left}" if alike else ""
+    resembled = f"; it resembles {listed(alike)}{left}" if alike else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
 
 
@@ -279,8 +291,8 @@ def _measurement_faults(diagnosis: Json) -> str:
 def _named(causes: list[Json]) -> str:
     specimen = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") != "measurement"]
     faults = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") == "measurement"]
-    named = [f"{join(specimen)}, missing in the model"] if specimen else []
-    return "; and ".join(named + ([f"{join(faults)}, a fault of the measurement"] if faults else []))
+    named = [f"{listed(specimen)}, missing in the model"] if specimen else []
+    return "; and ".join(named + ([f"{listed(faults)}, a fault of the measurement"] if faults else []))
 
 
 def _as_sure_as_it_is(cause: Json) -> str:

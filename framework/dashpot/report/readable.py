@@ -34,6 +34,13 @@ def counted_words(count: int, word: str) -> str:
     return f"{count} {word}{'s' * (count != 1)}"
 
 
+def listed(words: Sequence[str]) -> str:
+    """a, b and c; (1) a, (2) b or c and (3) d where one of several holds an "or", so that each reads as one."""
+    if len(words) < 2 or not any(" or " in text for text in words):
+        return join(words)
+    return join([f"({place}) {text}" for place, text in enumerate(words, 1)])
+
+
 def join(words: Sequence[str]) -> str:
     """a, b and c."""
     *head, tail = words

@@ -75,6 +75,7 @@ class FakeResult:
     fitted_name = "spring.yaml"
     fitted_text = "name: fitted\n"
     corrected_name = None
+    remarks: tuple[str, ...] = ()
     identified_text = "name: identified\n"
     model = final = declared = fitted = NetworkSpec(
         "spring", Group("", "parallel", ()), document=Document.parse("a: 1")

@@ -52,6 +52,11 @@ def test_the_whole_story_ends_with_two_reports(call, sponge, layers, tmp_path):
     assert all(report.is_file() for report in reports)
 
 
+def test_the_story_tells_the_remarks_of_the_diagnosis(call, sponge, fake_result, tmp_path, monkeypatch):
+    monkeypatch.setattr(fake_result, "remarks", ("The held-out run 'b' has a fault.",))
+    assert "The held-out run 'b' has a fault.\n" in call("demo", "-o", tmp_path)[1]
+
+
 def test_the_result_as_json_holds_both_answers(call, sponge, tmp_path):
     code, out, _ = call("demo", "-o", tmp_path, "--json")
     assert code == 0

@@ -95,6 +95,16 @@ def test_a_diagnosis_without_an_extension_writes_one_network(call, layers, fake_
     assert {path.name for path in tmp_path.iterdir()} == {"diagnosis.json", "spring.yaml", "report.html"}
 
 
+def test_remarks_stand_behind_the_verdict(call, layers, fake_result, tmp_path, monkeypatch):
+    remark = "The held-out run 'b' has a fault."
+    monkeypatch.setattr(fake_result, "remarks", (remark,))
+    _, out, _ = call("diagnose", "spring", "bench.yaml", "-o", tmp_path / "a")
+    lines = out.splitlines()
+    assert "no known cause fits" in lines[lines.index(remark) - 1]
+    _, out, _ = call("diagnose", "spring", "bench.yaml", "-o", tmp_path / "b", "--quiet")
+    assert remark not in out
+
+
 def test_ctrl_c_keeps_what_was_there_and_says_so(call, layers, tmp_path, monkeypatch):
     def interrupt(*_, **__):
         raise KeyboardInterrupt

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from unit.compare.specimens import DT, run, slide, sweep
@@ -132,6 +134,36 @@ def test_missing_hysteresis_is_shown_over_the_travel_since_the_reversal():
     [told] = residual_maps(seen)
     assert "travel since reversal" in {told["x"]["name"], told["y"]["name"]}
     assert told["explained"] > 0.9
+
+
+def varied(key, values, unit="", preload=0.0):
+    """The variables over which the residual of runs with one amplitude may be shown that have a setting alone."""
+    rng = np.random.default_rng(4)
+    seen = []
+    for k, value in enumerate(values):
+        x = sweep(2e-3 * (value if key == "amplitude" else 1.0), value if key == "preload" else preload)
+        settings = {} if key in ("amplitude", "preload") else {key: value}
+        made = replace(run(f"r{k}", x, rng.standard_normal(x.size), order=k, **settings), units={key: unit})
+        seen.append(see(made, {"model": {made.name: np.zeros(x.size)}}))
+    return residual_maps(seen)[0]["singles"]
+
+
+@pytest.mark.parametrize(
+    ("key", "alike", "apart", "unit"),
+    [
+        ("amplitude", (1.0, 1.015), (1.0, 1.04), "m"),
+        ("preload", (0.0, 0.05e-3), (0.0, 0.2e-3), "m"),
+        ("pressure", (3.0e5, 3.04e5), (3.0e5, 3.2e5), "bar"),
+        ("temperature", (293.15, 293.15), (293.15, 298.15), "degC"),
+    ],
+)
+def test_a_condition_that_a_rig_repeats_is_no_variable(key, alike, apart, unit):
+    assert key not in varied(key, alike, unit)
+    assert key in varied(key, apart, unit)
+
+
+def test_a_small_motion_about_a_large_preload_is_a_variable():
+    assert {"deflection", "place of the last reversal"} <= set(varied("pressure", (1.0, 2.0), preload=0.5))
 
 
 def test_noise_is_explained_by_nothing():

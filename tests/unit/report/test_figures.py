@@ -274,6 +274,13 @@ def test_the_floor_is_drawn_and_named():
     assert line["y"] == [14.5, 14.5] and "14.5 N" in line["name"]
 
 
+def test_a_floor_above_the_explainable_error_is_not_called_a_bound():
+    bars = [{"name": "spring", "train": 20.0, "held_out": 21.0}]
+    assert "No model can be below the noise floor." in figures.rmse_bars(bars, 14.5, 15.0).caption
+    caption = figures.rmse_bars(bars, 14.5, 3.0).caption
+    assert "No model" not in caption and "A general model is below the noise floor" in caption
+
+
 def test_gains_carry_their_intervals():
     (gains,) = figures.gain_intervals([friction()]).plot["data"]
     assert np.allclose(gains["error_x"]["array"], [4.0])

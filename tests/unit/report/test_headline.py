@@ -96,6 +96,16 @@ def test_unexplained_tells_what_it_resembles_and_does_not_guess():
     assert said.endswith("no known cause fits it; it resembles relaxation or creep, with which 14.6 N remain.")
 
 
+def test_what_an_unexplained_error_resembles_is_numbered_where_it_has_rivals():
+    valve = friction(title="a valve", accepted=False, indistinguishable_from=["delay", "power_law_damping"])
+    causes = [relaxation(accepted=False), valve, friction(accepted=False, indistinguishable_from=["creep"])]
+    said = headline(diagnosis(verdict="unexplained", causes=causes))
+    assert (
+        "it resembles (1) relaxation, (2) a valve or delay or power law damping and (3) dry friction or creep, with"
+        in said
+    )
+
+
 def test_ambiguous_names_all_rivals():
     causes = [friction(indistinguishable_from=["relaxation"]), relaxation()]
     said = headline(diagnosis(verdict="ambiguous", causes=causes))
@@ -147,10 +157,10 @@ def test_a_cause_is_told_as_sure_as_it_is():
     assert "dry friction and probably relaxation" in short_headline(diagnosis(causes=[sure, probable]))
     either = relaxation(probability=0.95, accepted=True, indistinguishable_from=["power_law_damping"])
     said = headline(diagnosis(verdict="partly_explained", causes=[sure, either]))
-    assert "and relaxation or power law damping, missing" in said
+    assert "is (1) dry friction of 41 N [38, 44] and (2) relaxation or power law damping, missing" in said
     either = relaxation(standing="probable", indistinguishable_from=["power_law_damping"])
     said = headline(diagnosis(verdict="partly_explained", causes=[sure, either]))
-    assert "and probably relaxation or power law damping, missing" in said
+    assert "and (2) probably relaxation or power law damping, missing" in said
 
 
 def test_a_lone_cause_that_is_only_probable_is_told_so():
@@ -203,6 +213,22 @@ def test_a_fault_of_a_channel_is_one_number():
     lag = {"force.delay": {"value": 2e-3, "interval": [1e-3, 3e-3], "unit": "s"}}
     fault = friction(cause="delay", title=None, **{"class": "measurement"}, parameters=lag)
     assert "delay of 2.0 ms [1.0, 3.0], a fault" in headline(diagnosis(causes=[fault]))
+
+
+@pytest.mark.parametrize(
+    ("title", "told"),
+    [
+        ("damping with a power of the velocity", "damping with a power of the velocity (limit 40.0 N)"),
+        ("the limit of a slider", "the limit of a slider (40.0 N)"),
+        ("a valve that opens (digressive)", "a valve that opens (digressive; limit 40.0 N)"),
+        ("relaxation (dynamic stiffening)", "relaxation (dynamic stiffening) of 40.0 N"),
+        ("an end stop", "an end stop of 40.0 N"),
+    ],
+)
+def test_a_number_is_named_behind_a_name_whose_last_word_has_another_size(title, told):
+    """A form of damping that levels out at 40 N has no velocity of 40 N."""
+    levelling = {"limit": {"value": 40.0, "unit": "N"}, "creep_velocity": {"value": 0.1, "unit": "m/s"}}
+    assert f"is {told}, missing" in headline(diagnosis(causes=[friction(title=title, parameters=levelling)]))
 
 
 def test_a_force_that_ends_at_zero_has_no_size():

@@ -218,6 +218,32 @@ def test_every_verdict_has_a_page(verdict):
     assert page.headline in render(page).replace("&#34;", '"')
 
 
+def test_remarks_stand_right_behind_the_verdict_and_once():
+    remark = "The held-out run 'b' has a fault."
+    page = diagnosis_page(diagnosis(remarks=[remark]), {"warnings": ["Run 'a' is clipped.", remark]})
+    told = [part.text for part in page.sections[0].parts if isinstance(part, Notice)]
+    assert told == [
+        "Every significant misfit of the training runs has an accepted cause.",
+        remark,
+        "Run 'a' is clipped.",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("explainable", "source", "note"),
+    [
+        (None, "repeats", "no model gets below"),
+        (15.0, "repeats", "no model gets below"),
+        (3.0, "repeats", "repeats differ by more than a general model leaves, so repeats hold more than noise"),
+        (3.0, "residual", "more than a general model leaves, so it holds more than noise"),
+    ],
+)
+def test_a_noise_floor_above_what_a_general_model_leaves_is_no_bound(explainable, source, note):
+    told = diagnosis(explainable={"held_out": explainable}, noise_floor={"value": 14.5, "from": source})
+    (shown,) = (part for part in diagnosis_page(told, {}).sections[0].parts if isinstance(part, KeyFigures))
+    assert [text for label, _, _, text in shown.figures if label == "noise floor"] == [note]
+
+
 def test_where_the_report_comes_from_stands_at_its_end():
     page = diagnosis_page(diagnosis(), evidence())
     assert ("seed", "7") in page.colophon
@@ -229,6 +255,15 @@ def test_a_comparison_shows_every_model_next_to_the_floor():
     (models,) = (p for s in page.sections for p in s.parts if isinstance(p, Grid) and p.csv_name == "models.csv")
     assert [row["name"] for row in models.rows][-2:] == ["tire_model_5", "noise floor"]
     assert models.rows[1]["ratio"] == pytest.approx(61.0 / 14.5)
+
+
+def test_the_shape_of_the_force_comes_right_after_the_result():
+    x = [0.0, 1.0]
+    shapes = {"residual_maps": [], "conditions": [], "cycles": [], "shaded_by": "amplitude"}
+    shapes |= dict.fromkeys(("low_speed", "less_spring", "after_reversals"), [])
+    shapes |= {"mid_stroke": [{"run": "a", "label": "measured", "x": x, "y": x}], "runs": [{"run": "a", "shade": 1.0}]}
+    page = comparison_page(comparison(), {**comparison_evidence(), "shapes": shapes})
+    assert sections_of(page)[:3] == ["Result", "The shape of the force", "Over frequency and amplitude"]
 
 
 def test_a_failed_model_keeps_its_row_and_says_why():

@@ -30,9 +30,23 @@ def rmse_bars(
         traces.append(_line("noise floor", floor, "dash"))
     if explainable is not None:
         traces.append(_line("explainable", explainable, "dot"))
-    caption = "RMSE of the force." + ("" if floor is None else " No model can be below the noise floor.")
-    caption += "" if explainable is None else " Explainable: RMSE of a general model of the past motion."
-    return Figure("Error of the models", caption, {"data": traces, "layout": _layout(names)}, table.columns)
+    caption = ["RMSE of the force.", _bound(floor, explainable)]
+    caption += [] if explainable is None else ["Explainable: RMSE of a general model of the past motion."]
+    return Figure(
+        "Error of the models",
+        " ".join(filter(None, caption)),
+        {"data": traces, "layout": _layout(names)},
+        table.columns,
+    )
+
+
+def _bound(floor: float | None, explainable: float | None) -> str:
+    """What the noise floor says of all models; empty without one."""
+    if floor is None:
+        return ""
+    if explainable is not None and explainable < floor:
+        return "A general model is below the noise floor, which so holds more than noise."
+    return "No model can be below the noise floor."
 
 
 def _bars(names: Sequence[str], title: str, color: str) -> dict[str, Any]:
