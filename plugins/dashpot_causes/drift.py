@@ -24,6 +24,7 @@ class Drift(Cause):
 
     word = "drift"
     kind = "measurement"
+    evidence_of = "order"
     about = "drift of the force channel"
     shows = "the mean force moves steadily from run to run, or during single runs, whatever the motion does"
     cure = "let the amplifier warm up and zero it between runs; take the trend out of these runs"

@@ -20,7 +20,7 @@ Numbers = Callable[[float, float], Mapping[str, float]]
 
 
 class EndStop(Cause):
-    """A buffer that is touched beyond a deflection near one end of the reach."""
+    """A buffer that is touched, or a strap that is taut, beyond a deflection near one end of the reach."""
 
     word = "end_stop"
     kind = "specimen"
@@ -32,28 +32,26 @@ class EndStop(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A linear and a progressive buffer beyond a deflection near either end, if that is on its side of zero."""
+        """A linear and a progressive buffer beyond a deflection near either end, or a strap that gets taut there."""
         low, high = view.reach
         places = (high - low) * np.geomspace(NEAREST, SHARE, PLACES)
-        upper = tuple(place for place in high - places if place > 0.0)
-        lower = tuple(place for place in low + places if place < 0.0)
+        upper, lower = tuple(high - places), tuple(low + places)
         units = {"stiffness": "N/m", "compression": "m", "rebound": "m", "exponent": "1", "reference": "m"}
         reference = float(f"{DEPTH * (high - low):.2g}")
         for side, numbers, fixed in ((upper, _compression, ()), (lower, _rebound, ("compression",))):
-            if side:
-                yield added_branch("end_stop", "end_stop", side, numbers, units, fixed=fixed)
-                progressive = partial(_progressive, numbers, reference)
-                yield added_branch(
-                    "end_stop",
-                    "end_stop",
-                    side,
-                    progressive,
-                    units,
-                    fixed=(*fixed, "reference"),
-                    unknowns=2,
-                    bounds={"exponent": EXPONENTS},
-                    form="a progressive buffer",
-                )
+            yield added_branch("end_stop", "end_stop", side, numbers, units, fixed=fixed)
+            progressive = partial(_progressive, numbers, reference)
+            yield added_branch(
+                "end_stop",
+                "end_stop",
+                side,
+                progressive,
+                units,
+                fixed=(*fixed, "reference"),
+                unknowns=2,
+                bounds={"exponent": EXPONENTS},
+                form="a progressive buffer",
+            )
 
 
 def _compression(stiffness: float, place: float) -> dict[str, float]:

@@ -71,6 +71,6 @@ def _from_run_to_run(view: View, network: NetworkSpec) -> Iterable[Suspect]:
         return
     order = Setting.of(ORDER, {run: view.settings(run)[ORDER] for run in places})
     if numbers:
-        yield replace(changed(order, numbers), form="numbers from run to run")
+        yield replace(changed(order, numbers), form="numbers from run to run", of=())
     if has_curved_spring(network):
-        yield replace(stiffness_over(order), form="a stiffness from run to run")
+        yield replace(stiffness_over(order), form="a stiffness from run to run", of=())

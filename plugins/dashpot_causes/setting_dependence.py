@@ -84,10 +84,14 @@ class Setting:
 
     @property
     def places(self) -> tuple[float, ...]:
-        """The places of a table over the setting: its values, or where there are many, a few between the ends."""
+        """The places of a table over the setting: its values, or where there are many, a few of them.
+
+        At each there is a run: a factor that no run tells could be anything.
+        """
         values = sorted({float(f"{value:.{DIGITS}g}") for value in self.values.values()})
-        spaced = np.linspace(values[0], values[-1], MOST_PLACES).tolist()
-        return tuple(values if len(values) <= MOST_PLACES else spaced)
+        if len(values) <= MOST_PLACES:
+            return tuple(values)
+        return tuple(values[round(at)] for at in np.linspace(0, len(values) - 1, MOST_PLACES))
 
     def over(self, slope: float) -> str:
         """The dependence as it stands in a file, with a slope to be found."""
@@ -169,6 +173,11 @@ class Number:
     value: Value
     changes: Changes
 
+    @property
+    def path(self) -> str:
+        """Where it stands in the network."""
+        return f"{self.branch.name}.{self.key}"
+
     def column(self, view: View, run: str) -> Array:
         """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
         return self.changes.columns(view, run)[self.key]
@@ -227,6 +236,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
         most=2,
         quantity="change over the settings",
         unit="1",
+        of=tuple(f"{number.path} over {setting.name}" for number in numbers),
     )
 
 
@@ -243,7 +253,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         return make_dependent(text, number.branch.name, number.key, setting.table(factors.tolist(), reference))
 
     return Suspect(
-        f"{number.branch.name}.{number.key} in a table over {setting.name}",
+        f"{number.path} in a table over {setting.name}",
         places,
         columns,
         extend,
@@ -252,6 +262,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         unknowns=0,
         quantity="change of the factor",
         unit="1",
+        of=(f"{number.path} over {setting.name}",) * len(places),
     )
 
 
@@ -284,6 +295,7 @@ def stiffness_over(setting: Setting) -> Suspect:
         unknowns=0,
         quantity="change over the settings",
         unit="N/m",
+        of=(f"stiffness over {setting.name}",),
     )
 
 
@@ -305,4 +317,5 @@ def _force(setting: Setting) -> Suspect:
         unknowns=0,
         quantity="change over the settings",
         unit="N",
+        of=(f"force over {setting.name}",),
     )

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty, pretty_all
@@ -31,7 +31,20 @@ class StiffnessCurve(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A square and a cube of the deflection; a correction curve through few or many knots over what is covered."""
+        """A constant force; a square and a cube of the deflection; a correction curve through few or many knots over
+        what is covered.
+        """
+        constant = added_branch(
+            "constant_force",
+            "constant_force",
+            (0.0,),
+            lambda force, place: {"force": force},
+            {"force": "N"},
+            sign=0,
+            unknowns=0,
+            form="a constant force",
+        )
+        yield replace(constant, of=("the force at zero deflection",))
         bent = _Powers(float(np.abs(view.reach).max()))
         yield Suspect(
             "a polynomial",

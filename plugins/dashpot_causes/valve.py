@@ -26,6 +26,7 @@ RATIOS = (0.5, 1.0, 2.0)  # damping in compression over that in rebound
 TIMES = (0.02, 0.1, 0.5)  # of 1/w at the end of the band: the lag of the force
 SHARP = 4.0  # how sharply a blow-off opens
 SERIES = {"stiffness": (1.0, 1e10)}
+OPENS = 0.015  # of the largest speed: a force that is flat beyond a lower knee is dry friction's
 
 
 class Valve(Cause):
@@ -70,9 +71,19 @@ def _form(
         UNITS,
         unknowns=unknowns,
         bounds=bounds,
+        admits=lambda numbers: _knee(numbers) > OPENS * view.speed,
         form=form,
     )
     return replace(suspect, quantity="damping", unit="N*s/m")
+
+
+def _knee(numbers: Mapping[str, float]) -> float:
+    """The knee in m/s, the mean of both directions by the force at which they open."""
+    knees = {
+        side: numbers.get(f"{side}_knee", 1.0 / max(numbers.get(f"{side}_digression", 0.0), 1e-12)) for side in SIDES
+    }
+    forces = {side: numbers[side] * knee for side, knee in knees.items()}
+    return sum(knees[side] * forces[side] for side in SIDES) / max(sum(forces.values()), 1e-300)
 
 
 def _digressive(damping: float, knee: float, ratio: float, _: float) -> Mapping[str, float]:

@@ -16,7 +16,8 @@ class EndStop(Element):
     """Buffers beyond two places: F = stiffness depth (depth/reference)^(exponent - 1), against the motion.
 
     The depth is how far the deflection lies above ``compression`` or below ``rebound``. The rebound stop is out of
-    reach unless it is given. With exponent 1 the reference depth does not matter.
+    reach unless it is given: a strap that is taut below a deflection is one. With exponent 1 the reference depth does
+    not matter.
     """
 
     picture = Series(Symbol.GAP, Symbol.SPRING)
@@ -25,14 +26,14 @@ class EndStop(Element):
     compression = Parameter(
         "m",
         "deflection at which the compression stop is touched",
-        bounds=(0.0, OUT_OF_REACH),
+        bounds=(-OUT_OF_REACH, OUT_OF_REACH),
         scale="linear",
         symbol="x_c",
     )
     rebound = Parameter(
         "m",
         "deflection at which the rebound stop is touched",
-        bounds=(-OUT_OF_REACH, 0.0),
+        bounds=(-OUT_OF_REACH, OUT_OF_REACH),
         scale="linear",
         symbol="x_r",
         default=-OUT_OF_REACH,

@@ -113,6 +113,11 @@ def limit_strap(motion: Motion, state: State) -> Array:
     return 80.0 * np.expm1(np.maximum(motion.displacement - 13e-3, 0.0) / 4e-3)
 
 
+def droop_strap(motion: Motion, state: State) -> Array:
+    """Webbing that is taut below 7 mm of compression, and pulls the harder, the further it is stretched."""
+    return -80.0 * np.expm1(np.maximum(7e-3 - motion.displacement, 0.0) / 3e-3)
+
+
 def fung(motion: Motion, state: State) -> Array:
     """Quasi-linear viscoelasticity of Fung: an exponential curve, relaxing by the logarithm from 4 to 400 ms."""
     curve = 1200.0 * np.expm1(motion.displacement / 20e-3)
@@ -234,6 +239,7 @@ CASES = [
     Case("compliant_damper", hose, HEAD + SPRING + ORIFICE, damping=0.0),
     Case("gas_spring", gas),
     Case("end_stop", limit_strap),
+    Case("end_stop", droop_strap),
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("friction", lip_seal),
     Case("velocity_dependent_friction", rod_seal),

@@ -129,4 +129,7 @@ def test_uneven_sampling_goes_through(tmp_path):
     ]
     found = told(tmp_path, PLAIN_DAMPER, head, runs[:1])
     assert found["held_out"] == []
-    assert {cause["cause"] for cause in found["causes"]} & FRICTIONS
+    assert found["rmse"]["after"]["train"] < 0.01 * found["rmse"]["before"]["train"]
+    names = {cause["cause"] for cause in found["causes"]}
+    rivals = {word for cause in found["causes"] for word in cause["indistinguishable_from"] or ()}
+    assert (names | rivals) & FRICTIONS  # 17 s of one run leave open whether a sharp valve does the same

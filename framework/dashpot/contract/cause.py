@@ -97,7 +97,9 @@ class Suspect:
     ``quantity`` and ``unit`` (SI) say what a strength of one is, ``largest`` how large it can be. ``admits(numbers)``
     says whether refitted parameters, by the last words of their paths (those of a second branch end in ``_2``), still
     belong to this cause: the borders between causes.
-    ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once.
+    ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once. Where forms of
+    a cause change different things, ``of`` (m,) names for each place what: the law that acts may be another form of
+    a law of the same thing only.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -118,6 +120,12 @@ class Suspect:
     largest: float = np.inf
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
     of_motion: bool = False
+    of: tuple[str, ...] = ()
+
+    @property
+    def each_of(self) -> tuple[str, ...]:
+        """For each place (m,) of the grid what it changes; nothing where forms of the cause all change the same."""
+        return self.of or ("",) * len(self.grid)
 
 
 @dataclass(frozen=True)
@@ -160,13 +168,15 @@ class ChannelFault:
 class Cause(ABC):
     """A candidate cause of a misfit.
 
-    ``word`` names it, ``about`` says what it is, ``shows`` how it appears in the residual, and ``confused_with`` maps
-    other words to the measurement that distinguishes the two; a word that no plugin provides is a rival. ``cure`` says
-    how to correct a fault of the measurement; ``evidence_of`` names the evidence that it needs: ``phase`` that its
-    parameters are the same in every run, ``range`` that the force ends at one value, ``data_sheet`` that the data
-    sheet of the channel admits it, under the key that is the ``quantity`` of its suspects and the last word of its
-    path. ``faults`` are the kinds of faults found by triage that the cause stands for. A cause that ``changes_numbers``
-    of branches with the settings of runs is looked for beside each further law as well, whose numbers it may change.
+    ``word`` names it, ``about`` says what it is, ``shows`` how it appears in the residual, and ``confused_with``
+    maps other words to the measurement that distinguishes the two; a word that no plugin provides is a rival.
+    ``cure`` says how to correct a fault of the measurement; ``evidence_of`` names the evidence that it needs:
+    ``phase`` that its parameters are the same in every run, ``order`` that the force of each run is off by the same
+    from the run before, ``range`` that the force ends at one value, ``data_sheet`` that the data sheet of the
+    channel admits it, under the key that is the ``quantity`` of its suspects and the last word of its path.
+    ``faults`` are the kinds of faults found by triage that the cause stands for. A cause that ``changes_numbers``
+    of branches with the settings of runs is looked for beside each further law as well, whose numbers it may
+    change.
 
     Examples:
         >>> class MissingBumper(dp.Cause):
@@ -184,7 +194,7 @@ class Cause(ABC):
     about: ClassVar[str]
     shows: ClassVar[str]
     cure: ClassVar[str] = ""
-    evidence_of: ClassVar[Literal["phase", "range", "data_sheet"]] = "phase"
+    evidence_of: ClassVar[Literal["phase", "order", "range", "data_sheet"]] = "phase"
     faults: ClassVar[tuple[str, ...]] = ()
     changes_numbers: ClassVar[bool] = False
     confused_with: ClassVar[Mapping[str, str]] = {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from dashpot.contract.cause import Cause, Suspect
@@ -25,3 +26,8 @@ class Candidate:
     def name(self) -> tuple[str, str]:
         """The word of the cause, and the words of the site."""
         return self.cause.word, self.site.words if self.site else ""
+
+    def columns_of(self, things: Collection[str]) -> Iterator[int]:
+        """The places of its columns that change one of some things, where forms of the cause change different ones."""
+        places = range(self.columns.start, self.columns.stop)
+        return (at for at, thing in zip(places, self.suspect.each_of, strict=True) if thing in things)

@@ -24,6 +24,7 @@ from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 from dashpot.diagnose.faults_beside import FaultsBeside
 from dashpot.diagnose.look import Doubt, Look
+from dashpot.diagnose.odds import RIG_ODDS, Odds
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import (
     SAME_MOTION,
@@ -39,7 +40,6 @@ from dashpot.diagnose.repeats import (
     rows_of,
     strengths_by_repeats,
 )
-from dashpot.diagnose.score import RIG_ODDS, Odds
 from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]

@@ -133,7 +133,8 @@ def find_causes(
 ) -> tuple[Pursuit, list[Accused]]:
     """The best structure, and the faults of single training runs beside it.
 
-    Where repeats of a run disagree, all runs may have that fault, as large as they differ, while causes are searched.
+    The residual tests tell beforehand whether anything is missing. Where repeats of a run disagree, all runs may have
+    that fault, as large as they differ, while causes are searched.
     Where runs are found at fault in the end, causes are searched again in the corrected runs, and the faults are found
     again beside these causes; where others come back, once more.
     """
@@ -142,12 +143,12 @@ def find_causes(
         # what a cause does to the slow loop, the curve must be able to give way to
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
-    folds = folds_with_rows(refitter.runs, groups)
-    recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
+    folds, pairs = folds_with_rows(refitter.runs, groups), repeats_of(refitter, groups)
     seen = look_at(refitter, model, (), folds)
+    refitter = replace(refitter, missing=look_for_leftover(refitter, seen, pairs).notable())
+    recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
     kinds = kinds_of(causes, seen)
     doubted = doubts(recorded, seen, kinds, groups) if recorded.runs else []
-    pairs = repeats_of(refitter, groups)
     pursuit = Pursuer(Trials(refitter, folds, doubted), causes, relevance, seed, watch).run(model)
     if not recorded.runs:
         return pursuit, []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,34 +60,43 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     Most of what tells it has to come from runs whose force is in phase with the deflection: where losses prevail, a
     shift of the phase is that of friction, relaxation or a spring in series as well. What delays the force has to be
     tried at more than one frequency: at a single one every loss does the same.
-
-    One step of each group from what all share, in parts of the number itself, less what noise makes of it; the laws
-    are taken as they are.
     """
     look = scores.look
+    in_phase = _in_phase(refitter, look)
+    for weights, scatter in _by_group(look, number):
+        if scatter > AGREE or weights @ in_phase < 0.5 * weights.sum():
+            return False
+        if _suspect(look.model, number).measured and not _shows_frequency(refitter, look, weights):
+            return False
+    return True
+
+
+def follows_the_order(refitter: Refitter, scores: Scores, number: int) -> bool:
+    """Whether the force of each group of runs is off by the same for each run before it, whatever the motion is."""
+    return all(scatter <= AGREE for _, scatter in _by_group(scores.look, number))
+
+
+def _by_group(look: Look, number: int) -> Iterator[tuple[Array, float]]:
+    """For each number of a term how much each group (groups,) tells of it, and its scatter in parts of itself.
+
+    One step of each group from what all share, less what noise makes of it; the laws are taken as they are.
+    """
     total = look.exact.sum(axis=0)
     scale = np.sqrt(np.maximum(np.diag(total), 1e-300))
     grams, gram = look.exact / np.outer(scale, scale), total / np.outer(scale, scale)
     alive = 1 + np.flatnonzero(np.diag(total)[1:] > 0.0)
     rest = _beside(gram, 0, alive)
     squares = np.einsum("i,gij,j->g", rest, grams, rest) / look.samples
-    in_phase = _in_phase(refitter, look)
     for column in alive:
         path = look.model.coordinates.paths[look.own[column - 1]]
         if path not in look.model.owned[number]:
             continue
         along = _beside(gram, int(column), alive[alive != column])
         weights = np.einsum("i,gij,j->g", along, grams, along)
-        if weights @ in_phase < 0.5 * weights.sum():
-            return False
-        if _suspect(look.model, number).measured and not _shows_frequency(refitter, look, weights):
-            return False
         pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
-        scatter = np.sqrt(max(excess, 0.0)) * scale[0] / scale[column]
-        if scatter > AGREE * _size_in_steps(look.model, path):
-            return False
-    return True
+        size = _size_in_steps(look.model, path) * scale[column] / scale[0]
+        yield weights, float(np.sqrt(max(excess, 0.0)) / max(size, 1e-300))
 
 
 def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
@@ -204,11 +213,13 @@ def told(term: Term) -> str:
 Test = Callable[[Refitter, Scores, int], bool]
 TESTS: Mapping[str, Test] = {
     "phase": same_in_all_runs,
+    "order": follows_the_order,
     "range": ends_at_one_value,
     "data_sheet": is_within_the_data_sheet,
 }
 WORDS = {
     "phase": "it is the same in every run, at every amplitude, preload and speed",
+    "order": "each run is off by the same from the one before, whatever its motion is",
     "range": "the force ends at one value, excursion after excursion",
     "data_sheet": "it is within the data sheet of the channel",
 }

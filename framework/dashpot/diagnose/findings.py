@@ -121,8 +121,7 @@ class Findings:
         Near the noise it is what the tests find, or what is missed of runs left out beyond what an explained model may;
         farther from it, all that is no noise: any law takes up a part of that by chance.
         """
-        floor = self.setting.floor.value
-        known = floor if floor and not self._near_floor else (1.0 + FORM_ERROR) * self._attainable
+        known = self._floor if self._floor and not self._near_floor else (1.0 + FORM_ERROR) * self._attainable
         return max(self.leftover.share, 1.0 - min(known / self._unseen, 1.0) ** 2)
 
     @property
@@ -200,7 +199,7 @@ class Findings:
 
     @cached_property
     def after_setting(self) -> Setting:
-        """The runs as the corrected dataset has them: held-out runs as they were measured."""
+        """The runs as the corrected dataset has them; of held-out runs nothing but what triage was certain of."""
         return replace(self.setting, scored={**self.setting.scored, **self.corrected})
 
     @cached_property
@@ -237,13 +236,22 @@ class Findings:
         A model that is near the noise has to predict them as well as it follows those that it was fitted to; what is
         farther from it, as well as a general model of the past motion.
         """
-        floor = self.setting.floor.value or 0.0
         known = self._trained if self._near_floor else self.explainable.left_out
-        return np.inf if known is None else max(known, floor)
+        return np.inf if known is None else max(known, self._floor)
+
+    @property
+    def _floor(self) -> float:
+        """The RMSE in N below which no model is known to get, 0 where none is known.
+
+        That by which repeats differ, which holds what changes from one test to the next as well: where a general model
+        leaves less of runs left out, that.
+        """
+        known = self.setting.floor.value or 0.0
+        return min(known, self.explainable.left_out or known)
 
     @property
     def _near_floor(self) -> bool:
-        return self._trained <= NEAR_FLOOR * (self.setting.floor.value or 0.0)
+        return self._trained <= NEAR_FLOOR * self._floor
 
     @property
     def _beyond_noise(self) -> bool:
@@ -254,16 +262,17 @@ class Findings:
     def _at_floor(self) -> bool:
         """Whether the error is within the noise floor; of the other runs, where what is left follows a single one."""
         alone = self.leftover.run
-        floor = floor_of_corrected(self.setting, self.accused, alone) if alone else self.setting.floor
-        return self._trained <= (1.0 + self.relevance) * (floor.value or 0.0)
+        floor = floor_of_corrected(self.setting, self.accused, alone).value if alone else self._floor
+        return self._trained <= (1.0 + self.relevance) * (floor or 0.0)
 
     @cached_property
     def explainable(self) -> Explainable:
         """What a general model of the past motion leaves, taught by the runs as the corrected dataset has them.
 
-        Trees are grown only where the model is far from noise.
+        Trees are grown only where the model is far from what repeats differ by.
         """
-        return explainable_error(self.after_setting, self.seed, not self._near_floor)
+        far = self._trained > NEAR_FLOOR * (self.setting.floor.value or 0.0)
+        return explainable_error(self.after_setting, self.seed, far)
 
     @property
     def fails_held_out(self) -> bool:
@@ -275,7 +284,7 @@ class Findings:
         theirs, mine = self.explainable.held_out, self.after.held_out
         if theirs is None or mine is None:
             return False
-        return mine > (1.0 + FORM_ERROR) * max(theirs, self._trained, self.setting.floor.value or 0.0)
+        return mine > (1.0 + FORM_ERROR) * max(theirs, self._trained, self._floor)
 
     @property
     def remarks(self) -> list[str]:

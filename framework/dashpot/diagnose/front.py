@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.columns import Layout
-from dashpot.diagnose.term import Model
+from dashpot.diagnose.term import Given, Model
 
 Array = NDArray[np.float64]
 
@@ -170,18 +170,19 @@ def form_errors(
 ) -> tuple[list[int], list[float], list[int]]:
     """Columns that are errors of the forms of terms, how precisely each is known to be none, and of which term it is.
 
-    The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of the
-    cause, normal, together ``FORM_ERROR`` of the force of the term. ``total`` are the squares of what the base leaves
-    of the columns: a spring that softens beside another one is as strong as what it changes.
+    The law that acts is not quite that of a term. What it is beside it is thought to be a sum of the other forms of
+    the cause, of the same thing, normal, together ``FORM_ERROR`` of the force of the term. ``total`` are the
+    squares of what the base leaves of the columns: a spring that softens beside another one is as strong as what it
+    changes.
     """
     places: list[int] = []
     precision: list[float] = []
     owners: list[int] = []
     for number, term in enumerate(model.terms[: layout.terms]):
         size = total[first + layout.term(number)]
-        if size < RIDGE * total[first]:
+        if isinstance(term, Given) or size < RIDGE * total[first]:
             continue  # a term without a force has no form that could err
-        alike = [at for one in candidates if one.name == term.name for at in range(one.columns.start, one.columns.stop)]
+        alike = [at for one in candidates if one.name == term.name for at in one.columns_of(term.changes)]
         columns = first + layout.first_candidate + np.array(alike, dtype=np.intp)
         columns = columns[total[columns] > 0.0]
         places += columns.tolist()

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.score import Odds
 
 Array = NDArray[np.float64]
 
@@ -35,7 +34,7 @@ def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | N
     ``relevance`` without it.
     """
     found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
-    odds, first = Odds(look.layout.bank), look.layout.first_candidate
+    odds, first = look.odds, look.layout.first_candidate
     left = look.front.beside().squares
     noise = np.sqrt(float(left[0]) / float(look.samples.sum()))
     for candidate in look.candidates:

@@ -19,11 +19,12 @@ from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of
+from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import moved, records, stated, weighed
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
-from dashpot.diagnose.whitening import Noise, independent_share, learn_filter
+from dashpot.diagnose.whitening import ORDER, Noise, independent_share, learn_filter
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import streamed
 
@@ -31,6 +32,7 @@ Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
 LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
+LEARNT = 0.9  # likewise; with fewer the noise counts as white
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +68,7 @@ class Look:
     rich: float
     own: NDArray[np.intp]
     base: NDArray[np.intp]
+    odds: Odds
 
 
 def look_at(
@@ -129,6 +132,7 @@ def look_at(
         rich=rich,
         own=columns.own,
         base=columns.base,
+        odds=Odds(layout.bank, refitter.missing),
     )
 
 
@@ -225,7 +229,8 @@ def recorded_noise(
 
     The residual is row ``first``, ``grams`` (folds, c, c) are those of all rows; ``faults`` (k, kept) that a run may
     have by itself are no noise. What the columns and faults take up of the noise itself is made up for by the degrees
-    of freedom of each run, where more than half of them are left.
+    of freedom of each run, where more than half of them are left. They take up what is slow: where it is more than a
+    tenth, what they leave shows how large the noise is, but not its spectrum.
     """
     from scipy.linalg import cho_factor, cho_solve
 
@@ -241,14 +246,15 @@ def recorded_noise(
     inverse[np.ix_(others, others)] = cho_solve(factor, np.eye(others.size))
     used = np.array([np.sum(inverse * (part / unit)) for part in grams])
     left = _degrees_left(used, folds, {run.name: plain.kept(run.name, run.samples) for run in runs})
-    noise = {}
+    noise, white = {}, {}
     for run in runs:
         found, shapes = rows[run.name], faults[run.name]
         enough = left[run.name] > LEFT
         rest = (found[first] - strengths @ found) / np.sqrt(left[run.name]) if enough else found[first].copy()
         free = 1.0 - np.linalg.matrix_rank(shapes) / rest.size if shapes.size else 1.0
         noise[run.name] = _beside_shapes(rest, shapes) / np.sqrt(free) if free > LEFT else rest
-    filters = {run.name: learn_filter(noise[run.name], _smallest(run)) for run in runs}
+        white[run.name] = enough and left[run.name] < LEARNT
+    filters = {run.name: learn_filter(noise[run.name], _smallest(run), 0 if white[run.name] else ORDER) for run in runs}
     return replace(plain, filters=filters), float(np.sqrt(np.mean([np.mean(rest**2) for rest in noise.values()])))
 
 

@@ -35,14 +35,16 @@ def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = ST
 def left_out_error(
     network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int
 ) -> float | None:
-    """The RMSE in N of a network on groups of runs left out in turn, fitted to the others; None for a single group.
+    """The RMSE in N of a network on groups of runs left out in turn, fitted to the others.
+
+    None for a single group, and where nothing is fitted.
 
     A fit to the others is a step from that to all runs, along the products of their Jacobian, with the damping that
     gives the lowest error on them. What the others hardly tell, such as the force at a deflection that one run alone
     reaches, is not put to the test: all runs together count as much as one group.
     """
     names = list(dict.fromkeys(groups[run.name] for run in runs))
-    if len(names) < 2:
+    if len(names) < 2 or not model.coordinates.paths:
         return None
     objective = Objective(compile_network(network), runs, jobs)
     coordinates = model.coordinates

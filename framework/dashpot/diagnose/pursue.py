@@ -6,8 +6,9 @@ structure without it is refitted, and so are those with another cause in its pla
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import islice
 
 import numpy as np
@@ -18,9 +19,10 @@ from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Look, look_at, look_settled
+from dashpot.diagnose.odds import NUMBER_ODDS, Odds
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
-from dashpot.diagnose.score import NUMBER_ODDS, Odds, Scores, Structure
-from dashpot.diagnose.search import search
+from dashpot.diagnose.score import Scores, Structure
+from dashpot.diagnose.search import other_forms, search
 from dashpot.diagnose.term import Model, Term
 from dashpot.diagnose.trials import Trials, scored_by
 from dashpot.kernel.workers import forked
@@ -58,7 +60,7 @@ class Pursuer:
         while True:
             look, present, without, others = self.local_optimum(seen)
             scores = Scores(look)
-            rivals = self.rivals(scores, search(scores, scores.given)) if present.model.causes else []
+            rivals = self.rivals(look)
             smaller = self.without_given(scores) if self.ended else []
             others += smaller
             del scores
@@ -76,23 +78,39 @@ class Pursuer:
     def local_optimum(self, seen: set[frozenset[object]]) -> tuple[Look, Scored, tuple[Without, ...], list[Scored]]:
         """The look at the best structure, all terms of which are worth their place, and what was refitted beside it.
 
-        Where terms go the search continues from the rest, unless that was ``seen``.
+        Where terms go, or predict better in another form, the search continues from there, to structures that were not
+        ``seen`` (tabu search).
         """
-        look, others = self.climbed()
+        look, others = self.climbed(seen)
         while True:
             present, without = self.pruned(look)
-            if present.model.terms == look.model.terms:
-                return look, present, without, others
+            onward = present.model
+            if onward.terms == look.model.terms:
+                better = self.in_another_form(look, present, seen)
+                if better is None:
+                    return look, present, without, others
+                onward = better
+            seen |= {look.model.forms, onward.forms}
             del look  # a look is large
-            self.looked = self.look(present.model)
-            fresh = present.model.forms not in seen
-            seen.add(present.model.forms)
-            look, others = self.climbed() if fresh else (self.looked, [])
+            self.looked = self.look(onward)
+            look, others = self.climbed(seen)
 
-    def climbed(self) -> tuple[Look, list[Scored]]:
+    def in_another_form(self, look: Look, present: Scored, seen: Collection[frozenset[object]]) -> Model | None:
+        """The structure with a term in another form of its cause that predicts better with the laws as they are.
+
+        The score of a cause allows for an error of its form; what is written should not have it.
+        """
+        scores = Scores(look)
+        terms = [number for number, term in enumerate(look.model.terms) if isinstance(term, Term)]
+        asked = [one for number in terms for one in other_forms(scores, number)[:REFITTED]]
+        trials = [trial for trial in self.trials.refitted(scores, asked) if trial and not trial.unproven]
+        better = [one for one in trials if one.model.forms not in seen and self._predicts_better(one, present)]
+        return min(better, key=lambda one: one.exact_score).model if better else None
+
+    def climbed(self, seen: Collection[frozenset[object]]) -> tuple[Look, list[Scored]]:
         """The look at a structure than which none of those refitted is better, if it is reached, and these.
 
-        It begins with the look at hand, which is let go.
+        It begins with the look at hand, which is let go, and goes to none that was ``seen``.
         """
         look, self.looked = self.looked, None
         assert look is not None
@@ -105,7 +123,8 @@ class Pursuer:
             present, trials = scored_by(scores, scores.odds), []
             for few in self.tried(scores, search(scores, scores.given)):
                 trials += few
-                onward = self._onward(look, few, present)
+                fresh = [trial for trial in few if trial.model.forms not in seen]
+                onward = self._onward(look, fresh, present)
                 if onward is not None:
                     break
             del scores
@@ -116,19 +135,21 @@ class Pursuer:
         return look, trials
 
     def _onward(self, look: Look, trials: Iterable[Scored], present: Scored) -> Model | None:
-        """The best of some structures that is better than the present one, and likelier under the noise that it leaves.
+        """The best of some structures that is better than the present one, refitted under the noise that it leaves.
 
-        Under each noise both are refitted, and the terms keep their evidence.
+        Under that noise the present one is refitted, too. The likelier one is that of the better mean score under both
+        noises, so that it does not matter which of the two the search came to first. The terms keep their evidence.
         """
         for trial in sorted(trials, key=lambda trial: trial.score):
             if self._better(trial, present):
                 known = of_names(look.candidates, (*trial.model.names, *present.model.names))
                 settled = self.look(trial.model, known)
-                scores, odds = Scores(settled), Odds(look.layout.bank)
+                scores, odds = Scores(settled), look.odds
                 if any(self.trials.lacking(scores)):
                     continue
+                after = scored_by(scores, odds)
                 before = self.trials.scored(settled, self.trials.refitted_under(settled, present.model), odds)
-                if self._likelier(scored_by(scores, odds), before):
+                if 0.5 * (_ahead(after, before) + _ahead(trial, present)) > _least(trial, present):
                     return settled.model
         return None
 
@@ -150,14 +171,16 @@ class Pursuer:
     def tried(self, scores: Scores, ranked: Iterable[Structure]) -> Iterator[list[Scored]]:
         """The best structures of different terms that score better than the present one, a few at a time, refitted.
 
-        A fault of the measurement that lacks its evidence in one of them is not tried beside other terms.
+        A fault of the measurement that lacks its evidence in one of them is not tried beside other terms, nor is what
+        can be written beside a term only that goes.
         """
         present, waiting, unproven = scores.score(Structure()), dict[Key, Structure](), set[Form]()
         for structure in ranked:
             if structure.size and scores.score(structure) < present:
                 waiting.setdefault(_key(scores, structure), structure)
+        able = cache(lambda key: self.trials.can_be_tried(scores, waiting[key]))
         for tried in range(0, TRIED, REFITTED):
-            few = list(_few(waiting, unproven, min(REFITTED, TRIED - tried)))
+            few = list(_few(waiting, unproven, able, min(REFITTED, TRIED - tried)))
             found = [trial for trial in self.trials.refitted(scores, [waiting.pop(key) for key in few]) if trial]
             unproven.update(*(trial.unproven for trial in found))
             yield found
@@ -172,7 +195,7 @@ class Pursuer:
 
     def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
         """The structure without the causes that are not worth their place, the weakest first, and without each one."""
-        odds = Odds(look.layout.bank)
+        odds = look.odds
         present = self.trials.scored(look, self.trials.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.trials.scores_of(look, present.model)
@@ -215,7 +238,7 @@ class Pursuer:
         Such causes stay, since the laws as they are predict worse without them; they make up for the form of another
         law, and beside them that law explains little alone.
         """
-        odds = Odds(look.layout.bank)
+        odds = look.odds
         while without:
             best = min((one.scored for one in without), key=lambda one: one.score)
             if best.score >= present.score:
@@ -224,42 +247,47 @@ class Pursuer:
         return present, without
 
     def _worth(self, seen: Scores, term: Term, present: Scored, without: Scored) -> float:
-        """The share of draws in which a structure predicts worse without a term; 0 for one that nothing shows."""
+        """The share of draws in which a structure predicts worse without a term.
+
+        0 for one that nothing shows, or that is not what it is called any more.
+        """
         number = present.model.terms.index(term)
-        if not (is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)):
+        shown = is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)
+        if not (shown and term.admits(present.model.numbers_of(number))):
             return 0.0
         weights = self.weights(present.samples.size)
         worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
         return float(np.mean(worse)) if self._matters(present, without) else 0.0
 
     def _better(self, trial: Scored, present: Scored) -> bool:
-        """Whether a structure is likelier than the present one, and predicts better with the laws as they are.
+        """Whether a structure is likelier than the present one, and predicts better with the laws as they are."""
+        likelier = not trial.unproven and _ahead(trial, present) > _least(trial, present)
+        return likelier and self._predicts_better(trial, present)
+
+    def _predicts_better(self, trial: Scored, present: Scored) -> bool:
+        """Whether a structure predicts better with the laws as they are.
 
         This in more than half of the draws, in nine of ten if it is the larger one.
         """
-        if trial.unproven or not self._likelier(trial, present):
-            return False
         weights = self.weights(present.samples.size)
         better = float(np.mean(trial.drawn_exactly(weights) < present.drawn_exactly(weights)))
         return better > 0.5 if trial.price <= present.price else better >= NAMED
-
-    def _likelier(self, trial: Scored, present: Scored) -> bool:
-        """Whether a structure scores better; another fit of the same terms has to by the odds of a number."""
-        least = -np.log(NUMBER_ODDS) if trial.model.forms == present.model.forms else 0.0
-        return trial.score < present.score - least
 
     def _matters(self, present: Scored, without: Scored) -> bool:
         """Whether the error grows by what is of interest when a term goes."""
         cost = without.likelihood(forms_err=False) - present.likelihood(forms_err=False)
         return cost > float(without.samples.sum()) * self.relevance
 
-    def rivals(self, scores: Scores, ranked: Sequence[Structure]) -> list[tuple[Term, Scored]]:
-        """For each cause the best few structures with another one in its place, refitted.
+    def rivals(self, look: Look) -> list[tuple[Term, Scored]]:
+        """For each cause the best few structures with others in the place of all its terms, refitted.
 
         A second one is refitted where it promises more than the refit of the first one has kept.
         """
-        terms = scores.look.model.terms
-        waiting = {term: _exchanges(scores, ranked, terms.index(term)) for term in scores.look.model.causes}
+        model = look.model
+        others = tuple(one for one in look.candidates if one.name not in model.names)
+        scores = Scores(replace(look, candidates=others))
+        first = {term.name: term for term in reversed(model.causes)}
+        waiting = {term: _in_place_of(scores, term) for term in first.values()}
         found: dict[Term, list[Scored]] = {term: [] for term in waiting}
         while few := [
             (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])
@@ -269,16 +297,32 @@ class Pursuer:
         return [(term, trial) for term, trials in found.items() for trial in trials]
 
 
-def _few(waiting: Mapping[Key, Structure], unproven: set[Form], many: int) -> Iterator[Key]:
-    """The best so many structures with one change, and as many with more that have nothing ``unproven``."""
-    yield from islice((key for key, one in waiting.items() if one.size == 1), many)
-    yield from islice((key for key, one in waiting.items() if one.size > 1 and not unproven & key), many)
+def _ahead(trial: Scored, present: Scored) -> float:
+    """By how many nats a structure is likelier than the present one."""
+    return present.score - trial.score
 
 
-def _exchanges(scores: Scores, ranked: Sequence[Structure], number: int) -> list[Structure]:
-    """The best structures with another cause in the place of a term, by its number."""
-    exchanged = [one for one in ranked if one.dropped == {number} and _joins_alone(scores, one)]
-    different = {_key(scores, one): one for one in reversed(exchanged)}
+def _least(trial: Scored, present: Scored) -> float:
+    """By how many nats it has to be: another fit of the same terms by the odds of a number."""
+    return float(-np.log(NUMBER_ODDS)) if trial.model.forms == present.model.forms else 0.0
+
+
+def _few(
+    waiting: Mapping[Key, Structure], unproven: set[Form], able: Callable[[Key], bool], many: int
+) -> Iterator[Key]:
+    """The best so many structures that can be tried with one change, and as many with more and nothing ``unproven``."""
+    yield from islice((key for key, one in waiting.items() if one.size == 1 and able(key)), many)
+    more = (key for key, one in waiting.items() if one.size > 1 and not unproven & key)
+    yield from islice((key for key in more if able(key)), many)
+
+
+def _in_place_of(scores: Scores, term: Term) -> list[Structure]:
+    """The best structures with candidates of a look in the place of all terms of a cause, and no more terms than it."""
+    terms = list(enumerate(scores.look.model.terms))
+    gone = frozenset(number for number, one in terms if one.name == term.name)
+    stay = frozenset(number for number, _ in terms) - gone
+    ranked = [one for one in search(scores, stay, gone) if 0 < len(one.added) <= len(gone)]
+    different = {_key(scores, one): one for one in reversed(ranked)}
     return sorted(different.values(), key=scores.score)[:TRIED]
 
 
@@ -286,12 +330,6 @@ def _promises(scores: Scores, waiting: Sequence[Structure], found: Sequence[Scor
     """Whether the next of some structures may be better than those refitted."""
     best = min((one.score for one in found), default=np.inf)
     return bool(waiting) and len(found) < REFITTED and scores.score(waiting[0]) < best
-
-
-def _joins_alone(scores: Scores, structure: Structure) -> bool:
-    """Whether one cause joins that is not there."""
-    names = [scores.look.candidates[k].name for k, _ in structure.added]
-    return len(names) == 1 and names[0] not in scores.look.model.names
 
 
 def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:

@@ -44,6 +44,11 @@ class Scored:
         """Minus the log of likelihood and prior."""
         return self.likelihood(forms_err=True) + self.price
 
+    @property
+    def exact_score(self) -> float:
+        """The same with the laws as they are."""
+        return self.likelihood(forms_err=False) + self.price
+
     def likelihood(self, forms_err: bool) -> float:
         """Minus its log, with errors of forms allowed for or with the laws as they are."""
         if forms_err:

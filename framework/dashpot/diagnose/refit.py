@@ -54,7 +54,8 @@ class Kept:
 class Refitter:
     """What every refit needs: the training runs, the elements, and the data sheets of the force channel by run.
 
-    ``written`` keeps the texts of structures, ``reduced`` columns that depend on the motion alone.
+    ``written`` keeps the texts of structures, ``reduced`` columns that depend on the motion alone. ``missing`` says
+    whether it is certain that something is missing in the diagnosed network.
     """
 
     runs: Sequence[ScoredRun]
@@ -64,6 +65,7 @@ class Refitter:
     watch: Callable[[float], None] = lambda done: None
     written: dict[tuple[frozenset[str], tuple[Term, ...]], Written] = field(default_factory=dict)
     reduced: Kept = field(default_factory=Kept)
+    missing: bool = False
 
     @cached_property
     def sizes(self) -> Sizes:

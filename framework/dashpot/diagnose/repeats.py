@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.look import RESOLUTION, Doubt, Look
+from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import Odds
 from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
 from dashpot.fit import alike
 from dashpot.fit.scored import ScoredRun

@@ -7,7 +7,7 @@ minus the predictive log likelihood, under one variance for all groups, is
 
 in nats, with the n independent samples of all groups. A variance for each group would let a structure win that follows
 some runs to the noise and gives up the others. A term that only follows the noise, or the error of another term's form,
-does not predict. The prior odds of each term are stated in ``Odds``.
+does not predict. The prior odds of each term are stated in ``odds``.
 """
 
 from __future__ import annotations
@@ -20,13 +20,9 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.front import NONE
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.term import Model
 
 Array = NDArray[np.float64]
 
-FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
-RIG_ODDS = 0.01  # of a fault of the measurement against a law of the specimen
-NUMBER_ODDS = 0.1  # of a law with a number more against one without it
 STEADY = 1e-6  # of the square of a column: keeps numbers that nothing tells from running away
 
 
@@ -49,37 +45,15 @@ class Structure(NamedTuple):
         return len(self.dropped) + len(self.added)
 
 
-@dataclass(frozen=True)
-class Odds:
-    """Prior odds of a term, in nats: with ``columns`` to choose from, none is named by chance but in 1 % of cases.
-
-    A given branch was not chosen: it has the odds of its numbers.
-    """
-
-    columns: int
-
-    def price(self, kind: str, numbers: int = 1) -> float:
-        """What a term with so many numbers has to predict before it is more likely than not."""
-        if kind == "given":
-            return float(-numbers * np.log(NUMBER_ODDS))
-        found = np.log(max(self.columns, 1) / FALSE_ALARMS) - max(numbers - 1, 0) * np.log(NUMBER_ODDS)
-        return float(found - (np.log(RIG_ODDS) if kind == "measurement" else 0.0))
-
-    def of_model(self, model: Model) -> float:
-        """The price of all terms of a model."""
-        return sum(self.price(term.kind, model.count(number)) for number, term in enumerate(model.terms))
-
-
 @dataclass(eq=False)
 class Scores:
     """The scores of structures at one look; what was computed once is kept."""
 
     look: Look
-    odds: Odds = field(init=False)
     known: dict[Structure, tuple[Array, float] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.odds = Odds(self.look.layout.bank)
+        self.odds = self.look.odds
         self.scale = self.look.front.beside().scale
         self.kinds = [term.kind for term in self.look.model.terms]
         self.given = frozenset(number for number, kind in enumerate(self.kinds) if kind == "given")
@@ -120,7 +94,7 @@ class Scores:
     def strengths(self, structure: Structure) -> Array:
         """The solution on all runs, one for each of ``columns``, in their own units."""
         at, target, gram = self.columns(structure), self.target(structure), self.gram(structure.dropped)
-        solution = np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+        solution = np.linalg.solve(steadied(gram, at), gram[at] @ target)
         return solution * self.scale[0] / self.scale[at]
 
     def moves(self, structure: Structure) -> Array:
@@ -161,7 +135,7 @@ class Scores:
         left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target, foreseen)
         rest = target.copy()
         if foreseen:
-            rest[at] -= np.linalg.solve(_steadied(gram, at), gram[at] @ target)
+            rest[at] -= np.linalg.solve(steadied(gram, at), gram[at] @ target)
         rest *= self.scale[0] / self.scale
         return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
 
@@ -183,8 +157,10 @@ class Scores:
     def price(self, structure: Structure) -> float:
         """The prior of a structure in nats: what joins less what goes."""
         joins = sum(self.joining(added) for added in structure.added)
-        model = self.look.model
-        return joins - sum(self.odds.price(self.kinds[number], model.count(number)) for number in structure.dropped)
+        model, had = self.look.model, len(self.kinds) - len(self.given)
+        goes = sum(self.odds.price(self.kinds[number], model.count(number)) for number in structure.dropped)
+        has = had - len(structure.dropped - self.given) + len(structure.added)
+        return joins - goes + self.odds.of_any(has) - self.odds.of_any(had)
 
     def joining(self, added: Added) -> float:
         """The price of what joins."""
@@ -221,7 +197,7 @@ def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, fo
     model stays as it is, but for what leaving a group out changes: a step that a fit has not made promises too much.
     """
     inner, cross, square = grams[:, :-1, :-1], grams[:, :-1, -1], grams[:, -1, -1]
-    whole, right = _steadied(gram, at), gram[at] @ target
+    whole, right = steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)
     solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])
@@ -231,5 +207,6 @@ def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, fo
     return left + np.sum(solved * (inner @ solved), axis=(1, 2))
 
 
-def _steadied(gram: Array, at: NDArray[np.intp]) -> Array:
+def steadied(gram: Array, at: NDArray[np.intp]) -> Array:
+    """The Gram matrix (k, k) of columns ``at`` (k,), where strengths that nothing tells stay small."""
     return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.front import NONE
-from dashpot.diagnose.score import Added, Scores, Structure
+from dashpot.diagnose.score import Added, Scores, Structure, steadied
+from dashpot.diagnose.term import Term
 
 Array = NDArray[np.float64]
 
@@ -21,15 +22,15 @@ LEFT = 1e-5  # of the square of a column must be left beside the others
 STALE = 2  # steps of the beam without a better structure
 
 
-def search(scores: Scores, stay: frozenset[int] = NONE) -> list[Structure]:
+def search(scores: Scores, stay: frozenset[int] = NONE, gone: frozenset[int] = NONE) -> list[Structure]:
     """The structures that were scored, best first: from the present one by adding, dropping and swapping terms.
 
-    Some terms are to ``stay``.
+    Some terms are to ``stay``, and others are ``gone`` from the start and do not come back.
     """
-    start = Structure()
+    start = Structure(gone)
     front, seen, best, stale = [start], {start}, scores.score(start), 0
     while front and stale < STALE:
-        moves = {move for structure in front for move in moves_from(scores, structure, stay)} - seen
+        moves = {move for one in front for move in moves_from(scores, one, stay, gone)} - seen
         seen |= moves
         grouped = sorted(moves, key=lambda one: sorted(one.dropped))  # beside the same terms one after the other
         ranked = sorted(grouped, key=scores.score)
@@ -42,18 +43,20 @@ def search(scores: Scores, stay: frozenset[int] = NONE) -> list[Structure]:
     )
 
 
-def moves_from(scores: Scores, structure: Structure, stay: frozenset[int] = NONE) -> set[Structure]:
-    """All structures one step away that the score test proposes; some terms are to ``stay``."""
-    may_go = set(range(len(scores.kinds))) - structure.dropped - stay
+def moves_from(
+    scores: Scores, structure: Structure, stay: frozenset[int] = NONE, gone: frozenset[int] = NONE
+) -> set[Structure]:
+    """All structures one step away that the score test proposes; some terms are to ``stay``, others are ``gone``."""
+    may_go, may_come = set(range(len(scores.kinds))) - structure.dropped - stay, structure.dropped - gone
     found = {Structure(structure.dropped | {number}, structure.added) for number in may_go}
-    found |= {Structure(structure.dropped - {number}, structure.added) for number in structure.dropped}
+    found |= {Structure(structure.dropped - {number}, structure.added) for number in may_come}
     if len(structure.added) < MOST_ADDED:
         found |= {Structure(structure.dropped, structure.added | {one}) for one in additions(scores, structure)}
     for term in structure.added:
         less = Structure(structure.dropped, structure.added - {term})
         found |= {less} | {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
-    for gone in [*combinations(may_go, 1), *combinations(may_go, 2)]:  # exchanged, or merged into one law
-        less = Structure(structure.dropped | set(gone), structure.added)
+    for going in [*combinations(may_go, 1), *combinations(may_go, 2)]:  # exchanged, or merged into one law
+        less = Structure(structure.dropped | set(going), structure.added)
         if len(structure.added) < MOST_ADDED:
             found |= {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
     return found
@@ -79,6 +82,19 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
             found.append((best[0] - scores.joining(added), added))
     found.sort(key=lambda pair: -pair[0])
     return _varied(scores, [added for _, added in found])
+
+
+def other_forms(scores: Scores, number: int) -> list[Structure]:
+    """A term of the model in other forms of its cause or of more parts, where these explain most; best first."""
+    term, gone = scores.look.model.terms[number], frozenset({number})
+    assert isinstance(term, Term)
+    left, found = _project(scores, Structure(gone)), []
+    for k, candidate in enumerate(scores.look.candidates):
+        best = _places(candidate, left) if candidate.name == term.name else None
+        if best and term.changes.issuperset(candidate.suspect.each_of[place] for place in best[1]):
+            if candidate.suspect.form != term.suspect.form or len(best[1]) > len(term.atoms):
+                found.append(Structure(gone, frozenset({Added(k, best[1])})))
+    return sorted(found, key=scores.score)
 
 
 def _same_fault(scores: Scores, structure: Structure) -> set[int]:
@@ -110,7 +126,7 @@ def _project(scores: Scores, structure: Structure) -> _Projected:
     at, target = scores.columns(structure), scores.target(structure)
     first = scores.look.layout.first_candidate
     gram, bank = scores.gram(structure.dropped), slice(first, None)
-    solve = np.linalg.solve(gram[np.ix_(at, at)] + 1e-9 * np.eye(at.size), gram[at])
+    solve = np.linalg.solve(steadied(gram, at), gram[at])
     left = gram[bank, bank] - gram[bank][:, at] @ solve[:, bank]
     right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)
     square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))

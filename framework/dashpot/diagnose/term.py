@@ -60,6 +60,12 @@ class Term:
         """What the cause is, and where."""
         return " ".join([self.cause.about, self.site.words] if self.site else [self.cause.about])
 
+    @property
+    def changes(self) -> frozenset[str]:
+        """What it changes, where the forms of its cause change different things."""
+        each = dict(zip(self.suspect.grid, self.suspect.each_of, strict=True))
+        return frozenset(each[place] for _, place in self.atoms)
+
     def scaled(self, share: float) -> Term:
         """The term with all strengths times ``share``."""
         return replace(self, atoms=tuple((share * strength, place) for strength, place in self.atoms))

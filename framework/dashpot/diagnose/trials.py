@@ -14,9 +14,10 @@ from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Doubt, Look, look_at
+from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.pursuit import Scored
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.score import Odds, Scores, Structure
+from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.search import additions
 from dashpot.diagnose.term import Model, Part, Term
 from dashpot.fit.refine import Outcome
@@ -50,7 +51,7 @@ class Trials:
         there, is looked for beside it, and so is one that the model had of a law which is gone. The likelier of the
         two structures counts.
         """
-        asked = [_Asked(scores.look.model, tuple(terms_of(scores, one)), scores.moves(one)) for one in structures]
+        asked = [_asked(scores, one) for one in structures]
         found = self._each(scores, asked)
         further = {
             k: more
@@ -69,10 +70,19 @@ class Trials:
         terms = dict.fromkeys(term for one in asked for term in (*scores.look.model.terms, *one.terms))
         found = forked(partial(self._refitted, scores), asked, self.refitter.jobs, (*terms,))
         for one, (_, refusal) in zip(asked, found, strict=True):
-            laws = [term for term in one.model.terms if not (isinstance(term, Term) and term.cause.changes_numbers)]
-            if refusal and not self._can_be_written(one.model, list(dict.fromkeys((*laws, *one.terms)))):
+            if refusal and not self._lacks_another(one):
                 self.refused += refusals(scores.look.model.terms, one.terms, refusal)
         return [scored for scored, _ in found]
+
+    def can_be_tried(self, scores: Scores, structure: Structure) -> bool:
+        """Whether no new term of a structure lacks another one that goes, without which it cannot be written."""
+        asked = _asked(scores, structure)
+        return self._can_be_written(asked.model, self._writable(asked)) or not self._lacks_another(asked)
+
+    def _lacks_another(self, asked: _Asked) -> bool:
+        """Whether terms that cannot be written can be beside all laws of the model."""
+        laws = [term for term in asked.model.terms if not (isinstance(term, Term) and term.cause.changes_numbers)]
+        return self._can_be_written(asked.model, list(dict.fromkeys((*laws, *asked.terms))))
 
     def _refitted(self, scores: Scores, asked: _Asked) -> tuple[Scored | None, str]:
         """A model with other terms, refitted, and why it cannot be written, if that is so."""
@@ -155,6 +165,10 @@ class Trials:
         """A fitted model under the noise of a look, with the forms of its own causes where they are."""
         known = of_names(look.candidates, model.names)
         return Scores(look_at(self.refitter, model, (), self.folds, look.noise, self.doubted, known))
+
+
+def _asked(scores: Scores, structure: Structure) -> _Asked:
+    return _Asked(scores.look.model, tuple(terms_of(scores, structure)), scores.moves(structure))
 
 
 def refusals(before: Sequence[Part], after: Sequence[Part], reason: str) -> list[str]:

@@ -108,10 +108,11 @@ def reduction(dt: float, highest_frequency: float) -> int:
     return max(1, int(1.0 / (2.0 * HARMONICS * highest_frequency * dt)))
 
 
-def learn_filter(rest: Array, smallest: float) -> Array:
+def learn_filter(rest: Array, smallest: float, most: int = ORDER) -> Array:
     """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N, of the order with the lowest BIC.
 
-    ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
+    Up to ``most``; of the order 0 the noise is white. ``smallest`` is a deviation in N below which nothing is believed:
+    the resolution of the simulation and the record.
     Source: the Yule-Walker equations.
     """
     from scipy.linalg import solve_toeplitz
@@ -120,7 +121,7 @@ def learn_filter(rest: Array, smallest: float) -> Array:
     covariance = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
     covariance[0] = max(covariance[0] * (1.0 + 1e-9), smallest**2)
     best, lowest = np.zeros(0), np.inf
-    for order in range(covariance.size if rest.size > 4 * ORDER else 1):
+    for order in range(min(covariance.size, most + 1) if rest.size > 4 * ORDER else 1):
         past = solve_toeplitz(covariance[:order], covariance[1 : order + 1]) if order else np.zeros(0)
         variance = max(float(covariance[0] - past @ covariance[1 : order + 1]), smallest**2)
         bic = rest.size * np.log(variance) + order * np.log(max(rest.size, 1))

@@ -41,7 +41,7 @@ def dictionary_start(objective: Objective, coordinates: Coordinates) -> Start | 
     """Where to begin.
 
     None for a network that is no sum of branches, whose runs give some of its numbers, whose load cell alters the
-    force, or with a branch whose force is not finite.
+    force, none of whose searched numbers are proportional to a force, or with a branch whose force is not finite.
     """
     network = objective.network
     if not isinstance(network, CompiledNetwork) or any(slot.value.setting for slot in network.spec.slots()):
@@ -55,7 +55,7 @@ def dictionary_start(objective: Objective, coordinates: Coordinates) -> Start | 
         for number, part in enumerate(objective.parts.members)
         for kind in _kinds(number, part, network.start, searched, sizes)
     ]
-    strengths = _strengths(objective, kinds)
+    strengths = _strengths(objective, kinds) if any(kind.forces for kind in kinds) else None
     if strengths is None:
         return None
     values = network.start.copy()

@@ -175,3 +175,15 @@ def test_what_relaxes_faster_than_the_runs_show_is_a_dashpot(fastest, admitted):
 def test_a_springpot_that_is_more_dashpot_than_spring_is_no_relaxation(order, admitted):
     found = {"stiffness": 1e4, "order": order, "reference": 1.0, "lowest": 0.05, "decades": 3.0, "dwell": 30.0}
     assert suspect("relaxation", "springpot").admits(found) is admitted
+
+
+@pytest.mark.parametrize(("compression", "rebound", "admitted"), [(0.002, 0.007, False), (0.002, 0.02, True)])
+def test_a_valve_with_its_knee_at_rest_is_dry_friction(compression, rebound, admitted):
+    """1.5 % of the largest speed of 0.5 m/s are 7.5 mm/s."""
+    equal = {"compression": 1e3 * rebound, "rebound": 1e3 * compression}  # of both directions in force
+    digressive = {"compression_digression": 1.0 / compression, "rebound_digression": 1.0 / rebound}
+    assert suspect("valve", "a knee in both directions").admits({**equal, **digressive}) is admitted
+    knees = {"compression_knee": compression, "rebound_knee": rebound}
+    assert suspect("valve", "a knee behind a spring").admits({**equal, **knees}) is admitted
+    sharp = {**knees, "compression": 1e6, "rebound": 1e3}  # nearly all of the force in one direction
+    assert not suspect("valve", "a knee behind a spring").admits(sharp)

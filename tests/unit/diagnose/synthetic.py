@@ -14,6 +14,7 @@ from dashpot.diagnose.columns import Layout
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.front import front_of
 from dashpot.diagnose.look import Look
+from dashpot.diagnose.odds import Odds
 
 GROUPS, LENGTH = 6, 200
 
@@ -52,6 +53,7 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
         1.0,
         nothing,
         nothing,
+        Odds(bank),
     )
 
 

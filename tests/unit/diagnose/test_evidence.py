@@ -6,7 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from scipy.signal import lfilter
-from unit.diagnose.rig import MOTIONS, NETWORK, STIFFNESS, TIME, bench, causes, dataset, friction, plain
+from unit.diagnose.rig import MOTIONS, NETWORK, STIFFNESS, TIME, Motion, bench, causes, dataset, friction, plain
 
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
@@ -86,6 +86,28 @@ def heavy(motion, stiffness=40e3, damping=800.0, mass=28.0):
 def test_a_mass_that_is_driven_through_its_resonance_is_proven():
     """Stiffness and inertia cancel there, and the loss angle of the whole is that of what is left of both."""
     assert proven(dataset(heavy), "moving_mass")
+
+
+ORDER = [(2, 5), (1, 11), (3, 8), (1, 5), (3, 11), (2, 8), (3, 5), (1, 8), (2, 11)]  # no stroke foretells it
+SESSION = {f"a{a}_p{p}": Motion(1e-3 * a, 1e-3 * p) for a, p in ORDER}
+PLACE = {motion: place for place, motion in enumerate(SESSION.values())}
+
+
+@pytest.mark.parametrize("stiffness, damping", [(200e3, 400.0), (40e3, 2e3)])
+def test_a_zero_that_moves_over_the_session_is_proven_whatever_the_losses(stiffness, damping):
+    """It has no phase: 6 N from each run to the next, in a spring as well as in a damper."""
+
+    def law(motion):
+        return stiffness * motion.x() + damping * motion.v() + 6.0 * PLACE[motion]
+
+    assert proven(dataset(law, motions=SESSION), "drift")
+
+
+def test_a_zero_that_jumps_once_does_not_move_with_the_order():
+    def law(motion):
+        return plain(motion) + 30.0 * (PLACE[motion] > 6)
+
+    assert not proven(dataset(law, motions=SESSION), "drift")
 
 
 def soft_fixture(motion, compliance=1e-6, damping=4e3):

@@ -61,3 +61,9 @@ def test_a_single_group_cannot_be_left_out():
     made = bench(dataset())
     together = dict.fromkeys(made.groups, "all")
     assert left_out_error(made.model.fitted, made.model, made.refitter.runs, together, 1) is None
+
+
+def test_a_network_without_free_parameters_is_not_fitted():
+    fixed = NETWORK.replace("{start: 150 N/mm}", "200 N/mm").replace("{start: 200 N*s/m}", "400 N*s/m")
+    made = bench(dataset(), fixed)
+    assert left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1) is None

@@ -1,11 +1,14 @@
 """The score of a structure against refits of the linear model by plain least squares."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.stats import norm
 from unit.diagnose.synthetic import GROUPS, candidates_of, look_of, random_rows
 
-from dashpot.diagnose.score import FALSE_ALARMS, RIG_ODDS, Added, Odds, Scores, Structure, nats
+from dashpot.diagnose.odds import FALSE_ALARMS, RIG_ODDS, Odds
+from dashpot.diagnose.score import Added, Scores, Structure, nats
 
 WORDS = ("one", "two", "three")
 
@@ -94,3 +97,20 @@ def test_the_rig_has_to_be_a_hundred_times_as_likely_as_a_law():
 def test_a_law_with_a_number_more_has_to_be_ten_times_as_likely():
     assert Odds(50).price("specimen", 3) - Odds(50).price("specimen", 1) == pytest.approx(2.0 * np.log(10.0))
     assert Odds(50).price("specimen", 0) == Odds(50).price("specimen")
+
+
+def test_where_something_is_missing_for_certain_the_first_cause_is_told_from_the_others_only():
+    """Nothing is hidden in none of such datasets: that one in a hundred would name a cause by chance says nothing."""
+    usual, certain = Odds(50), Odds(50, missing=True)
+    assert certain.of_any(0) == usual.of_any(0) == usual.of_any(2) == 0.0
+    assert certain.price("specimen") + certain.of_any(1) == pytest.approx(np.log(50))
+    assert 2.0 * certain.price("specimen") + certain.of_any(2) == pytest.approx(np.log(50) + np.log(50 / 0.01))
+
+
+def test_a_structure_costs_less_only_by_its_first_cause():
+    look = look_of(random_rows(20, {}), candidates_of("ab", 10))
+    alone = Structure(added=frozenset({Added(0, (1,))}))
+    both = Structure(added=frozenset({Added(0, (1,)), Added(1, (2,))}))
+    usual, certain = Scores(look), Scores(replace(look, odds=replace(look.odds, missing=True)))
+    for structure in (alone, both):
+        assert usual.price(structure) - certain.price(structure) == pytest.approx(-np.log(FALSE_ALARMS))

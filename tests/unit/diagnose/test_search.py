@@ -1,5 +1,7 @@
 """The search on looks whose structure is planted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from unit.diagnose.synthetic import candidates_of, look_of, random_rows
@@ -69,3 +71,11 @@ def test_the_wrong_sign_is_never_found():
 def test_the_present_structure_is_among_those_that_were_scored():
     look = look_of(random_rows(10, {}), candidates_of(WORDS[:2], PLACES))
     assert Structure() in search(Scores(look))
+
+
+def test_candidates_that_are_left_out_do_not_join():
+    """Other causes in the place of one: the same look without the candidates of that cause."""
+    look = look_of(random_rows(10, {2: 0.5, 7: 0.5}), candidates_of(WORDS[:2], PLACES))
+    others = Scores(replace(look, candidates=look.candidates[1:]))
+    names = {others.look.candidates[k].cause.word for one in search(others) for k, _ in one.added}
+    assert names == {"b"}

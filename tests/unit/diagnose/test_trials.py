@@ -87,3 +87,11 @@ def test_a_dependence_of_a_law_that_goes_is_refused_without_a_word(found):
     structure = best_of(scores, 0, "a number over warmth", [numbers.index("limit")])
     assert trials.refitted(scores, [Structure(frozenset({0, 1}), structure.added)]) == [None]
     assert not trials.refused
+
+
+def test_what_lacks_a_law_that_goes_is_not_tried(found):
+    trials, scores = found
+    numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
+    structure = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
+    assert trials.can_be_tried(scores, structure)
+    assert not trials.can_be_tried(scores, Structure(frozenset({0, 1}), structure.added))

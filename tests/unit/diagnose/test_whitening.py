@@ -88,3 +88,10 @@ def test_values_that_remember_count_as_fewer():
 def test_a_wave_has_a_few_independent_values_however_long_it_is():
     time = np.arange(10_000) / 1000.0
     assert 10_000 * independent_share(np.sin(2.0 * np.pi * 5.0 * time)) == pytest.approx(4.0)
+
+
+def test_of_the_order_zero_noise_is_white():
+    noise = autoregressive([1.2, -0.5], 10_000)
+    found = learn_filter(noise, 1e-9, most=0)
+    assert found[0] == pytest.approx(1.0 / np.sqrt(np.mean(noise**2)), rel=1e-6)
+    assert not found[1:].any()

@@ -1,0 +1,41 @@
+"""The prior odds of a structure: how many causes there are to choose from, and how usual each is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dashpot.diagnose.term import Model
+
+FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
+RIG_ODDS = 0.01  # of a fault of the measurement against a law of the specimen
+NUMBER_ODDS = 0.1  # of a law with a number more against one without it
+
+
+@dataclass(frozen=True)
+class Odds:
+    """Prior odds of a term, in nats: with ``columns`` to choose from, none is named by chance but in 1 % of cases.
+
+    Where it is certain that something is ``missing`` in the diagnosed network, nothing is hidden in no case: the first
+    cause has to be told from the others only. A given branch was not chosen: it has the odds of its numbers.
+    """
+
+    columns: int
+    missing: bool = False
+
+    def price(self, kind: str, numbers: int = 1) -> float:
+        """What a term with so many numbers has to predict before it is more likely than not."""
+        if kind == "given":
+            return float(-numbers * np.log(NUMBER_ODDS))
+        found = np.log(max(self.columns, 1) / FALSE_ALARMS) - max(numbers - 1, 0) * np.log(NUMBER_ODDS)
+        return float(found - (np.log(RIG_ODDS) if kind == "measurement" else 0.0))
+
+    def of_any(self, causes: int) -> float:
+        """What so many causes have to predict less, since there has to be one."""
+        return float(np.log(FALSE_ALARMS)) if self.missing and causes else 0.0
+
+    def of_model(self, model: Model) -> float:
+        """The price of all terms of a model."""
+        each = sum(self.price(term.kind, model.count(number)) for number, term in enumerate(model.terms))
+        return each + self.of_any(len(model.causes))
