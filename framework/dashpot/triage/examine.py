@@ -34,10 +34,16 @@ class Triage:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """What was found here, beyond what reading has told: faults as errors, remarks as warnings."""
+        """What was found here, beyond what reading has told: faults as errors, remarks as warnings.
+
+        A fault that several runs have together is told once.
+        """
+        runs: dict[tuple[str, str], list[str]] = {}
+        for fault in self.faults[self.read :]:
+            runs.setdefault((f"{fault.evidence}; {fault.done}", fault.cure), []).append(f"'{fault.run}'")
         found = [
-            Problem(Place(), f"run '{fault.run}': {fault.evidence}; {fault.done}", fault.cure)
-            for fault in self.faults[self.read :]
+            Problem(Place(), f"run{'s' * (len(names) > 1)} {', '.join(names)}: {message}", cure)
+            for (message, cure), names in runs.items()
         ]
         return (*found, *(Problem(Place(), remark, severity="warning") for remark in self.remarks))
 

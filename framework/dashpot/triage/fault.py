@@ -31,7 +31,7 @@ class Fault:
         """What was done here."""
         if self.factor is None:
             return "left out here"
-        return f"its {self.channel} was multiplied by {self.factor:.6g} here"
+        return f"the {self.channel} was multiplied by {self.factor:.6g} here"
 
 
 def corrected(run: Run, fault: Fault) -> Run:

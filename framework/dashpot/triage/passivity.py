@@ -1,4 +1,4 @@
-"""Runs that give work back over closed cycles, which no passive specimen does, and what they most likely are."""
+"""What runs that give work back over closed cycles most likely are."""
 
 from __future__ import annotations
 
@@ -12,15 +12,13 @@ from dashpot.data.resample import advance
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
+from dashpot.triage.energy import ONE_IN, giving_back, works_of
 from dashpot.triage.fault import Fault
 from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run
-from dashpot.triage.work import CycleWork, work_of_cycles
+from dashpot.triage.work import CycleWork
 
 Array = NDArray[np.float64]
 
-# of datasets without a fault, one in so many may have a run accused by chance
-ONE_IN = 1000
-FEWEST_CYCLES = 3
 FEWEST_OTHERS = 2
 FEWEST_TOGETHER = 2  # runs: what a single one has may be its own
 _TINY = 1e-300
@@ -40,29 +38,11 @@ class _Try:
     channel: str = "force"
 
 
-def gives_back(work: CycleWork, delay: float, runs: int = 1) -> bool:
-    """Whether the mean work of the cycles is below what an elastic specimen may seem to give back.
-
-    ``delay`` in s by which channels may be apart. Judged by the scatter from cycle to cycle (Student's t), so that of
-    1000 datasets with so many ``runs`` one has a passive run accused.
-    """
-    from scipy.special import stdtr
-
-    count = work.taken.size
-    if count < FEWEST_CYCLES:
-        return False
-    below = float(np.mean(work.taken)) + work.explicable(delay)
-    scatter = float(np.std(work.taken, ddof=1)) / np.sqrt(count)
-    if not below < 0.0:
-        return False
-    return scatter == 0.0 or bool(stdtr(count - 1, below / scatter) < 1.0 / (ONE_IN * runs))
-
-
 def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
     """The runs that give back work, each with what would correct it, and what is to be remarked of all runs."""
-    works = {run.name: work for run in runs if (work := work_of_cycles(run)) is not None}
-    bad = [run for run in runs if run.name in works and gives_back(works[run.name], delay_of(run), len(works))]
-    accused = {run.name for run in bad}
+    works = works_of(runs)
+    accused = giving_back(runs, works)
+    bad = [run for run in runs if run.name in accused]
     sound = [run for run in runs if run.name in works and run.name not in accused]
     delay = _common_delay(bad, sound, works)
     if delay is not None:
@@ -71,7 +51,26 @@ def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
             f"{names} give back work, which no passive specimen does; with the force of all runs earlier by "
             f"{pretty(delay, 's', 2)} or more none does: it comes late in all of them"
         ]
+    if together := _turned_together(bad, sound, works):
+        return together, []
     return [_fault_of(run, works[run.name], sound) for run in bad], []
+
+
+def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> list[Fault]:
+    """The one fault of most runs: each of them pulls along with its deflection and takes up work if turned round."""
+    if len(bad) < FEWEST_TOGETHER or len(bad) <= len(sound):
+        return []
+    if any(_by_itself(run, works[run.name]).kind != "polarity" for run in bad):
+        return []
+    shares = [-works[run.name].power_factor for run in bad]
+    which = "most" if sound else "all"
+    evidence = (
+        f"{len(bad)} of {len(works)} runs with closed cycles give back work, {min(shares):.1%} to {max(shares):.1%} "
+        "of what goes to and fro, which no passive specimen does; with their force turned round they take up work: "
+        f"the force of {which} runs has the wrong sign"
+    )
+    cure = f"Write 'sign: -1' under the force channel of {'these' if sound else 'all'} runs"
+    return [Fault(run.name, "polarity", evidence, cure, -1.0) for run in bad]
 
 
 def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> float | None:
@@ -106,14 +105,8 @@ def _earlier(run: Run, delay: float, sizes: Sizes) -> Moments:
     return moments_of(run.displacement, np.gradient(run.displacement, run.sample_time), force, sizes)
 
 
-def delay_of(run: Run) -> float:
-    """By how much the channels of a run may be apart in s: a sample, and what the data sheets of the sensors admit."""
-    stated = (run.sensors.get(channel, {}).get("delay", 0.0) for channel in ("force", "displacement"))
-    return run.sample_time + sum(stated)
-
-
 def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
-    back, share = pretty(-float(np.mean(work.taken)), "J", 3), -work.power_factor
+    back, share = pretty(-work.mean, "J", 3), -work.power_factor
     seen = f"it gives back {back} in each cycle, {share:.1%} of the work that goes to and fro"
     best = _most_likely(run, work, sound)
     if best is None:
@@ -237,18 +230,22 @@ def _delays(run: Run, work: CycleWork) -> list[int]:
 
 def _least_delay(work: CycleWork) -> float:
     """The time in s by which the force has to be earlier for the run to take up work; infinite where it never does."""
-    return -float(np.mean(work.taken)) / work.per_delay if work.per_delay > 0.0 else np.inf
+    return -work.mean / work.per_delay if work.per_delay > 0.0 else np.inf
 
 
 def _longest(run: Run, work: CycleWork) -> int:
     """A quarter of the mean cycle in samples."""
-    return run.time.size // (4 * max(work.taken.size, 1))
+    return int(0.25 * work.period / run.sample_time)
 
 
 def _by_itself(run: Run, work: CycleWork) -> _Try:
-    """What a run is where no other one tells: late where it resists deflection as it stands, else turned round."""
+    """What a run is where no other one tells: late where it resists deflection as it stands, else turned round.
+
+    A delay of more than a quarter of a cycle is none: the force of a dashpot that is turned round hardly resists.
+    """
     x, force = run.displacement - np.mean(run.displacement), run.force - np.mean(run.force)
-    if float(x @ force) <= 0.0 or not work.per_delay > 0.0:
+    delay = _least_delay(work)
+    if float(x @ force) <= 0.0 or delay > 0.25 * work.period:
         return _Try(
             "polarity",
             0.0,
@@ -256,7 +253,7 @@ def _by_itself(run: Run, work: CycleWork) -> _Try:
             "Write 'sign: -1' under its force channel, or swap the wires",
             -1.0,
         )
-    least = pretty(-float(np.mean(work.taken)) / work.per_delay, "s", 2)
+    least = pretty(delay, "s", 2)
     return _Try(
         "delay",
         0.0,

@@ -2,7 +2,8 @@
 
 A well-known factor is a wrong unit where it lies as near as the spread of the others allows, and where their spread
 does not allow what was measured. So a sound run is never rescaled: what differs by another factor is left to the
-diagnosis.
+diagnosis. Beyond the conditions of the others the forecast may be wrong by more than this spread: by as much as their
+conditions change their own stiffness or damping. No run stays in that is a plain factor off to that accuracy.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from dashpot.data.declaration import SETTING_UNITS
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import FEWEST, MOSTLY, Agreement, find_agreement
+from dashpot.triage.conditions import change_by_conditions
 from dashpot.triage.fault import Fault
 from dashpot.triage.forecast import Sizes, moments_of, moments_of_run
 
@@ -50,6 +52,9 @@ DISPLACEMENTS = {
 PREFIXES = (1000.0, 0.001, 1e6, 1e-6)
 # what other settings do to a force is no matter of triage, but no setting makes it this many times as large
 SETTLED = 999.0
+# odds of two factors, which are those of their distances where nobody knows how wrong the forecast is: with a scale of
+# normal errors that may be of any size (prior 1/s) the likelihood of a distance d is proportional to 1/d
+CLEARLY = 3.0
 
 
 def wrong_scales(runs: Sequence[Run]) -> list[Fault]:
@@ -97,8 +102,12 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
             "Write 'sign: -1' under its force channel, or swap the wires",
             -1.0,
         )
-    force = _force_fault(run, gain, likeness, known, least)
-    stroke = _stroke_fault(run, known, sizes, least)
+    change = change_by_conditions(inside)
+    allowed = known.reach + change
+    force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, allowed, least)
+    # where a force hardly depends on the deflection, as friction, any divisor of this makes it like the others
+    beyond = change_by_conditions([*inside, run]) - change > allowed
+    stroke = _stroke_fault(run, known, sizes, allowed, least) if beyond else None
     if force and stroke:
         # an elastic force in proportion to its deflection shows the one as the other
         nearer = _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
@@ -112,23 +121,50 @@ def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least
     near = _near(gain, FORCES, known.tolerance, least)
     if not near:
         return None
+    return _unit_of_force(run, gain, near, _correction(near))
+
+
+def _far_fault(run: Run, gain: float, likeness: float, allowed: float, least: float) -> Fault | None:
+    """A force farther off than conditions explain: ``allowed``, in logs. Corrected only where the factor is clear.
+
+    Below the factor that no setting has, a run of another setting is at fault only where the factor is clear.
+    """
+    if not gain > 0.0 or likeness < MOSTLY or abs(math.log(gain)) <= allowed:
+        return None
+    near = _near(gain, FORCES, allowed, SETTLED)
+    clear = bool(near) and _is_clear(gain, near[0])
+    if abs(math.log(gain)) < math.log(SETTLED) and not (clear if least > 1.0 else near):
+        return None
+    return _unit_of_force(run, gain, near, 1.0 / near[0] if clear else None)
+
+
+def _is_clear(gain: float, factor: float) -> bool:
+    """Whether a factor is as much nearer than all others, one among them, as three to one asks for."""
+    others = min(abs(math.log(gain / other)) for other in (1.0, *FORCES) if other != factor)
+    return others >= CLEARLY * abs(math.log(gain / factor))
+
+
+def _unit_of_force(run: Run, gain: float, near: Sequence[float], correction: float | None) -> Fault:
     like = " or ".join(FORCES[factor] for factor in near)
     return Fault(
         run.name,
         "unit",
-        f"its force is {pretty(gain, '1', 4)} times that expected from all other runs, like {like}",
+        f"its force is {pretty(gain, '1', 4)} times that expected from all other runs, "
+        + (f"like {like}" if like else "more than any conditions change it, and like no well-known mistake"),
         "Correct the 'unit' of its force channel",
-        _correction(near),
+        correction,
     )
 
 
-def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, least: float) -> Fault | None:
+def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, allowed: float, least: float) -> Fault | None:
+    """A divisor of the deflection with which the force is as expected; a plain one to what is ``allowed``, in logs."""
     rate = np.gradient(run.displacement, run.sample_time)
     fitting = {}
     for factor in DISPLACEMENTS:
         seen = moments_of(run.displacement / factor, rate / factor, run.force, sizes)
         gain, likeness = known.compare(seen)
-        near = gain > 0.0 and abs(math.log(gain)) <= known.tolerance and likeness >= MOSTLY
+        within = allowed if abs(math.log(factor)) >= math.log(SETTLED) else known.tolerance
+        near = gain > 0.0 and abs(math.log(gain)) <= within and likeness >= MOSTLY
         if near and abs(math.log(factor)) > max(known.reach, math.log(least)):
             fitting[factor] = abs(math.log(gain))
     if not fitting:
