@@ -21,6 +21,7 @@ from dashpot.data.repeats import NotRepeatsError, compare_repeats
 from dashpot.fit.api import Setting, prepare
 from dashpot.fit.floor import false_repeats
 from dashpot.fit.result import floor_of
+from dashpot.triage.energy import runs_that_give_back
 from dashpot.triage.examine import examine
 from dashpot.triage.fault import Fault
 
@@ -47,6 +48,7 @@ class Look:
     def as_dict(self) -> dict[str, Any]:
         """The result as in ``look.json``, in SI."""
         dataset = self.setting.dataset
+        back = runs_that_give_back(dataset.runs)
         return {
             "format": "dashpot-look/1",
             "dataset": {
@@ -57,7 +59,7 @@ class Look:
             },
             "noise_floor": floor_of(self.setting.floor),
             "explainable": self.explainable.as_dict(),
-            "runs": [described(each) for each in self.seen],
+            "runs": [described(each, each.run.name in back) for each in self.seen],
             "metrics": list(self.metrics),
             "faults": [
                 {"run": fault.run, "kind": fault.kind, "evidence": fault.evidence, "cure": fault.cure}
@@ -124,11 +126,11 @@ def look(dataset: Dataset, seed: int = 0, metrics: Iterable[type[Metric]] = ()) 
     )
 
 
-def described(seen: Seen) -> dict[str, Any]:
+def described(seen: Seen, gives_back: bool) -> dict[str, Any]:
     """A run in numbers, SI: what it was moved by, its force, and what its closed cycles take up.
 
     ``energy_per_cycle`` in J is the median over ``cycles``; without closed cycles ``work`` in J, that of the whole run
-    with its ends joined, stands alone. ``gives_back`` says that most cycles, or the run, give back work.
+    with its ends joined, stands alone. ``gives_back`` says that it gives back work beyond doubt, as triage tells it.
     """
     run, force = seen.run, seen.forces["measured"]
     values = seen.cycle_values["measured"]
@@ -151,7 +153,7 @@ def described(seen: Seen) -> dict[str, Any]:
         "work": whole,
         "stiffness": float(np.median(values.stiffness)) if values.time.size else None,
         "loss": float(np.median(values.loss)) if values.time.size else None,
-        "gives_back": (whole if energy is None else energy) < 0.0,
+        "gives_back": gives_back,
     }
 
 

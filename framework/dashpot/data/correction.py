@@ -1,4 +1,4 @@
-"""What was wrong with the force channel of single runs, and the dataset file that puts it right."""
+"""What was wrong with the channels of single runs, and the dataset file that puts it right."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Correction:
 
     `offset` and `drift` in N are what the channel showed too much, `drift` at the end T of the run, growing from 0;
     `delay` in s is by how much it was late; `hum` is empty or holds (Hz, N, N) of each line, one behind the other:
-    frequency, cosine and sine by the time t of the corrected run.
+    frequency, cosine and sine by the time t of the corrected run. The displacement is multiplied by `stroke`.
 
     Examples:
         >>> dp.Correction(gain=1.02, offset=5.0).then(dp.Correction(gain=0.5)).gain
@@ -48,6 +48,7 @@ class Correction:
     drift: float = 0.0
     delay: float = 0.0
     hum: tuple[float, ...] = ()
+    stroke: float = 1.0
 
     @property
     def lines(self) -> tuple[Hum, ...]:
@@ -59,9 +60,8 @@ class Correction:
         gain = self.gain * other.gain
         hum = [*self.hum, *other.hum]
         scaled = [value if number % 3 == 0 else gain * value for number, value in enumerate(hum)]
-        return Correction(
-            gain, gain * (self.offset + other.offset), gain * (self.drift + other.drift), 0.0, tuple(scaled)
-        )
+        offset, drift = gain * (self.offset + other.offset), gain * (self.drift + other.drift)
+        return Correction(gain, offset, drift, 0.0, tuple(scaled), self.stroke * other.stroke)
 
     def kept(self, samples: int, dt: float) -> slice:
         """The samples of a run that are left: a delay costs some at one end."""
@@ -76,15 +76,16 @@ class Correction:
 
 
 def corrected_run(run: Run, correction: Correction) -> Run:
-    """The run with its force corrected; all its other channels lose the samples that the force loses.
+    """The run with its channels corrected; all of them lose the samples that the force loses.
 
-    Of a run that was taken apart, `run@node`, it is the force at its own node.
+    Of a run that was taken apart, `run@node`, they are those at its own node.
     """
     kept = correction.kept(run.time.size, run.sample_time)
     force = correction.apply(run.force, run.sample_time)
-    channels = {name: values[kept] for name, values in run.channels.items()} | {"force": force}
+    right = {"force": force, "displacement": correction.stroke * run.displacement[kept]}
+    channels = {name: values[kept] for name, values in run.channels.items()} | right
     if run.end:
-        channels[channel_at("force", run.end)] = force
+        channels |= {channel_at(name, run.end): values for name, values in right.items()}
     return replace(run, time=run.time[: force.size], channels=channels)
 
 
@@ -107,10 +108,14 @@ def corrected_text(
     before = _describe(text, dataset)
     wanted: dict[str, dict[str, Channel]] = {}
     for name, correction in corrections.items():
-        declaration, channel = _channel_of(name, before.declarations, dataset)
+        declaration, channel = _channel_of(name, "force", before.declarations, dataset)
         known = wanted.setdefault(declaration.name, {})
         run = _measured(declaration.name, dataset)
         known[channel.name] = _composed(channel, correction, run.sample_time, run.time.size)
+        if correction.stroke != 1.0:
+            _, channel = _channel_of(name, "displacement", before.declarations, dataset)
+            moved = Correction(gain=correction.stroke)
+            known[channel.name] = _composed(channel, moved, run.sample_time, run.time.size)
     for name, channels in wanted.items():
         for channel in channels.values():
             text = _with_channel(text, _declaration(name, before.declarations, dataset), channel)
@@ -162,12 +167,12 @@ def _declaration(name: str, declarations: tuple[RunDeclaration, ...], dataset: D
 
 
 def _channel_of(
-    name: str, declarations: tuple[RunDeclaration, ...], dataset: Dataset
+    name: str, quantity: str, declarations: tuple[RunDeclaration, ...], dataset: Dataset
 ) -> tuple[RunDeclaration, Channel]:
     declaration = _declaration(name, declarations, dataset)
     node = name.removeprefix(declaration.name).removeprefix("@")
     channels = {channel.name: channel for channel in declaration.channels}
-    wanted = channel_at("force", node)
+    wanted = channel_at(quantity, node)
     if wanted not in channels:
         raise InputError.at(
             declaration.place("channels"),

@@ -158,9 +158,9 @@ class Findings:
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
         found = {
-            fault.run: Correction(gain=fault.factor)
+            fault.run: Correction(gain=fault.factor) if fault.channel == "force" else Correction(stroke=fault.factor)
             for fault in self.triage.faults
-            if fault.factor is not None and fault.channel == "force"
+            if fault.factor is not None
         }
         for one in self.accused:
             known = found.get(one.run)

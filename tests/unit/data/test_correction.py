@@ -1,4 +1,4 @@
-"""Faults of the force channel of single runs: written into a dataset file, and read back from it."""
+"""Faults of the channels of single runs: written into a dataset file, and read back from it."""
 
 from __future__ import annotations
 
@@ -327,3 +327,18 @@ def test_the_text_is_the_same_every_time(tmp_path):
         for _ in range(2)
     }
     assert len(texts) == 1 and json.dumps(texts.pop())
+
+
+def test_a_displacement_in_another_unit_is_corrected_as_well(tmp_path):
+    """Together with the force, where its channel is corrected by the file already."""
+    dataset = prepare(tmp_path / "data")
+    corrections = {"a": Correction(stroke=25.4), "b": Correction(gain=-1.0, stroke=1e-3)}
+    found, text = written(dataset, tmp_path / "out", corrections)
+    assert "displacement: {gain: 25.4}" in text
+    for name, factor in (("a", 25.4), ("b", 1e-3), ("c", 1.0)):
+        assert found.run(name).displacement == pytest.approx(factor * dataset.run(name).displacement, rel=1e-12)
+    assert found.run("a").force == pytest.approx(dataset.run("a").force, rel=1e-12)
+    assert found.run("b").force == pytest.approx(-dataset.run("b").force, rel=1e-12)
+    for name, correction in corrections.items():
+        again = corrected_run(dataset.run(name), correction)
+        assert found.run(name).displacement == pytest.approx(again.displacement, rel=1e-12)

@@ -137,7 +137,8 @@ def test_a_run_that_stands_alone_is_no_noise_though_its_repeat_differs(alone, at
     made = bench(dataset(repeats=repeats, fault={"once_more": lambda force: 1.15 * force}))
     assert made.setting.floor.value > 5.0 * NOISE
     left = Leftover(20.0, 0.5, "", run=alone)
-    found = SimpleNamespace(leftover=left, setting=made.setting, accused=(), relevance=0.0015, _trained=3.0 * NOISE)
+    known = {"setting": made.setting, "_floor": made.setting.floor.value, "relevance": 0.0015}
+    found = SimpleNamespace(leftover=left, accused=(), _trained=3.0 * NOISE, **known)
     assert Findings._at_floor.fget(found) == at_floor
 
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from unit.diagnose.synthetic import candidates_of
 
 from dashpot.diagnose import front
 from dashpot.diagnose.columns import Layout
@@ -33,8 +34,8 @@ def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
     base, term, forms = 2, 3, slice(4, 6)  # the residual stands between base and term
     rows = np.random.default_rng(2).standard_normal((4, 6, 50))
     also = rows + np.einsum("cb,gbn->gcn", np.array([[0, 0]] * 3 + [[30, -20], [5, 0], [0, 40]]), rows[:, :base])
-    model = SimpleNamespace(terms=[SimpleNamespace(name=("word", ""))])
-    candidates = [SimpleNamespace(name=("word", ""), columns=slice(0, 2))]
+    candidates = candidates_of(["word"], 2)
+    model = SimpleNamespace(terms=[SimpleNamespace(name=candidates[0].name, changes={""})])
     made, same = (
         front_of(each @ each.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
         for each in (rows, also)

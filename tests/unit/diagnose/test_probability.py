@@ -225,7 +225,17 @@ def test_what_a_general_model_predicts_far_better_is_not_explained(mine, theirs,
     found = SimpleNamespace(
         after=SimpleNamespace(held_out=mine),
         explainable=SimpleNamespace(held_out=theirs),
-        setting=SimpleNamespace(floor=SimpleNamespace(value=floor)),
+        _floor=floor or 0.0,
         _trained=trained,
     )
     assert Diagnosis.fails_held_out.fget(found) is fails
+
+
+@pytest.mark.parametrize(
+    ("repeats", "general", "floor"), [(2.0, 5.0, 2.0), (2.0, 0.5, 0.5), (2.0, None, 2.0), (None, 5.0, 0.0)]
+)
+def test_repeats_that_differ_by_more_than_a_general_model_leaves_hold_more_than_noise(repeats, general, floor):
+    found = SimpleNamespace(
+        setting=SimpleNamespace(floor=SimpleNamespace(value=repeats)), explainable=SimpleNamespace(left_out=general)
+    )
+    assert Diagnosis._floor.fget(found) == floor
