@@ -30,7 +30,7 @@ from dashpot.kernel.workers import forked
 Array = NDArray[np.float64]
 
 REFITTED = 2  # structures with one change, and as many with more, at a time
-TRIED = 5  # of these at a look, and of the rivals of a term, until one is better
+TRIED = 5  # of these at a look, until one is better, and of the rivals of a cause, until one can be told
 MOST_LOOKS = 12
 DRAWS = 200
 Key = frozenset[tuple[object, ...]]  # numbers of terms that go, and forms that join
@@ -279,22 +279,23 @@ class Pursuer:
         return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, look: Look) -> list[tuple[Term, Scored]]:
-        """For each cause the best few structures with others in the place of all its terms, refitted.
+        """For each cause the best structures with others in the place of all its terms, refitted: as simple, and richer.
 
-        A second one is refitted where it promises more than the refit of the first one has kept.
+        What is as simple, no less likely beforehand, may make a name less sure; what has more numbers, if it is better.
         """
         model = look.model
         others = tuple(one for one in look.candidates if one.name not in model.names)
         scores = Scores(replace(look, candidates=others))
-        first = {term.name: term for term in reversed(model.causes)}
-        waiting = {term: _in_place_of(scores, term) for term in first.values()}
-        found: dict[Term, list[Scored]] = {term: [] for term in waiting}
-        while few := [
-            (term, waiting[term].pop(0)) for term in waiting if _promises(scores, waiting[term], found[term])
-        ]:
-            for (term, _), trial in zip(few, self.trials.refitted(scores, [one for _, one in few]), strict=True):
-                found[term] += [trial] if trial else []
-        return [(term, trial) for term, trials in found.items() for trial in trials]
+        waiting = {}
+        for term in {term.name: term for term in reversed(model.causes)}.values():
+            ranked = _in_place_of(scores, term)
+            waiting[term, True] = [one for one in ranked if scores.price(one) <= 0.0][:TRIED]
+            waiting[term, False] = [one for one in ranked if scores.price(one) > 0.0][:TRIED]
+        found: dict[tuple[Term, bool], Scored] = {}
+        while few := [(key, left.pop(0)) for key, left in waiting.items() if left and key not in found]:
+            trials = self.trials.refitted(scores, [one for _, one in few])
+            found.update({key: trial for (key, _), trial in zip(few, trials, strict=True) if trial})
+        return [(term, trial) for (term, _), trial in found.items()]
 
 
 def _ahead(trial: Scored, present: Scored) -> float:
@@ -323,13 +324,7 @@ def _in_place_of(scores: Scores, term: Term) -> list[Structure]:
     stay = frozenset(number for number, _ in terms) - gone
     ranked = [one for one in search(scores, stay, gone) if 0 < len(one.added) <= len(gone)]
     different = {_key(scores, one): one for one in reversed(ranked)}
-    return sorted(different.values(), key=scores.score)[:TRIED]
-
-
-def _promises(scores: Scores, waiting: Sequence[Structure], found: Sequence[Scored]) -> bool:
-    """Whether the next of some structures may be better than those refitted."""
-    best = min((one.score for one in found), default=np.inf)
-    return bool(waiting) and len(found) < REFITTED and scores.score(waiting[0]) < best
+    return sorted(different.values(), key=scores.score)
 
 
 def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:
