@@ -279,7 +279,7 @@ class Pursuer:
         return cost > float(without.samples.sum()) * self.relevance
 
     def rivals(self, look: Look) -> list[tuple[Term, Scored]]:
-        """For each cause the best structures with others in the place of all its terms, refitted: as simple, and richer.
+        """For each cause the best structures with others in the place of its terms, refitted: as simple, and richer.
 
         What is as simple, no less likely beforehand, may make a name less sure; what has more numbers, if it is better.
         """
