@@ -17,10 +17,11 @@ class EndStop(Element):
 
     The depth is how far the deflection lies above ``compression`` or below ``rebound``. The rebound stop is out of
     reach unless it is given: a strap that is taut below a deflection is one. With exponent 1 the reference depth does
-    not matter.
+    not matter. Not passive where a place is beyond zero, as it is strained from the beginning.
     """
 
     picture = Series(Symbol.GAP, Symbol.SPRING)
+    passive = False
 
     stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e12), symbol="k")
     compression = Parameter(

@@ -98,11 +98,13 @@ class Pursuer:
     def in_another_form(self, look: Look, present: Scored, seen: Collection[frozenset[object]]) -> Model | None:
         """The structure with a term in another form of its cause that predicts better with the laws as they are.
 
-        The score of a cause allows for an error of its form; what is written should not have it.
+        The score of a cause allows for an error of its form; what is written should not have it. A form that changes
+        a number of another cause makes that one seem more than it is, and is none for one that stands alone.
         """
         scores = Scores(look)
         terms = [number for number, term in enumerate(look.model.terms) if isinstance(term, Term)]
-        asked = [one for number in terms for one in other_forms(scores, number)[:REFITTED]]
+        each = ([one for one in other_forms(scores, number) if self.trials.stands(scores, one)] for number in terms)
+        asked = [one for forms in each for one in forms[:REFITTED]]
         trials = [trial for trial in self.trials.refitted(scores, asked) if trial and not trial.unproven]
         better = [one for one in trials if one.model.forms not in seen and self._predicts_better(one, present)]
         return min(better, key=lambda one: one.exact_score).model if better else None

@@ -19,7 +19,7 @@ from dashpot.diagnose.pursuit import Scored
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.search import additions
-from dashpot.diagnose.term import Model, Part, Term
+from dashpot.diagnose.term import Given, Model, Part, Term
 from dashpot.fit.refine import Outcome
 from dashpot.kernel.workers import forked
 from dashpot.text.problem import InputError
@@ -78,6 +78,13 @@ class Trials:
         """Whether no new term of a structure lacks another one that goes, without which it cannot be written."""
         asked = _asked(scores, structure)
         return self._can_be_written(asked.model, self._writable(asked)) or not self._lacks_another(asked)
+
+    def stands(self, scores: Scores, structure: Structure) -> bool:
+        """Whether a new term can be written without other causes, or the one in whose place it is cannot either."""
+        model = scores.look.model
+        given = [term for term in model.terms if isinstance(term, Given)]
+        old, new = (model.terms[number] for number in structure.dropped), terms_of(scores, structure)[-1]
+        return self._can_be_written(model, [*given, new]) or not self._can_be_written(model, [*given, *old])
 
     def _lacks_another(self, asked: _Asked) -> bool:
         """Whether terms that cannot be written can be beside all laws of the model."""

@@ -95,3 +95,12 @@ def test_what_lacks_a_law_that_goes_is_not_tried(found):
     structure = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
     assert trials.can_be_tried(scores, structure)
     assert not trials.can_be_tried(scores, Structure(frozenset({0, 1}), structure.added))
+
+
+def test_a_form_may_not_lean_on_another_cause_unless_the_former_one_does(found):
+    """The dependence leans on the friction, whose limit it changes; the friction stands alone."""
+    trials, scores = found
+    numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
+    leaning = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
+    assert trials.stands(scores, leaning)
+    assert not trials.stands(scores, Structure(frozenset({0}), leaning.added))

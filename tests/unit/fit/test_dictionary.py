@@ -109,5 +109,5 @@ def test_no_start_where_the_load_cell_alters_the_force(rng):
 def test_no_start_where_no_searched_number_is_proportional_to_a_force(rng):
     """Of a slider with a known stiffness the limit alone does not scale the force."""
     branches = "it: {element: dahl, stiffness: 5 N/mm, limit: {start: 3 N, bounds: [1 N, 9 N]}}"
-    objective, coordinates = posed(rng, branches, [5e3, 3.0, 1.0])
+    objective, coordinates = posed(rng, branches, [5e3, 3.0])
     assert dictionary_start(objective, coordinates) is None
