@@ -36,7 +36,7 @@ class Correction:
 
     `offset` and `drift` in N are what the channel showed too much, `drift` at the end T of the run, growing from 0;
     `delay` in s is by how much it was late; `hum` is empty or holds (Hz, N, N) of each line, one behind the other:
-    frequency, cosine and sine by the time t of the corrected run. The displacement is multiplied by `stroke`.
+    frequency, cosine and sine by the time t of the corrected run. `displacement_gain` multiplies the displacement.
 
     Examples:
         >>> dp.Correction(gain=1.02, offset=5.0).then(dp.Correction(gain=0.5)).gain
@@ -48,7 +48,7 @@ class Correction:
     drift: float = 0.0
     delay: float = 0.0
     hum: tuple[float, ...] = ()
-    stroke: float = 1.0
+    displacement_gain: float = 1.0
 
     @property
     def lines(self) -> tuple[Hum, ...]:
@@ -61,7 +61,7 @@ class Correction:
         hum = [*self.hum, *other.hum]
         scaled = [value if number % 3 == 0 else gain * value for number, value in enumerate(hum)]
         offset, drift = gain * (self.offset + other.offset), gain * (self.drift + other.drift)
-        return Correction(gain, offset, drift, 0.0, tuple(scaled), self.stroke * other.stroke)
+        return Correction(gain, offset, drift, 0.0, tuple(scaled), self.displacement_gain * other.displacement_gain)
 
     def kept(self, samples: int, dt: float) -> slice:
         """The samples of a run that are left: a delay costs some at one end."""
@@ -82,7 +82,7 @@ def corrected_run(run: Run, correction: Correction) -> Run:
     """
     kept = correction.kept(run.time.size, run.sample_time)
     force = correction.apply(run.force, run.sample_time)
-    right = {"force": force, "displacement": correction.stroke * run.displacement[kept]}
+    right = {"force": force, "displacement": correction.displacement_gain * run.displacement[kept]}
     channels = {name: values[kept] for name, values in run.channels.items()} | right
     if run.end:
         channels |= {channel_at(name, run.end): values for name, values in right.items()}
@@ -112,9 +112,9 @@ def corrected_text(
         known = wanted.setdefault(declaration.name, {})
         run = _measured(declaration.name, dataset)
         known[channel.name] = _composed(channel, correction, run.sample_time, run.time.size)
-        if correction.stroke != 1.0:
+        if correction.displacement_gain != 1.0:
             _, channel = _channel_of(name, "displacement", before.declarations, dataset)
-            moved = Correction(gain=correction.stroke)
+            moved = Correction(gain=correction.displacement_gain)
             known[channel.name] = _composed(channel, moved, run.sample_time, run.time.size)
     for name, channels in wanted.items():
         for channel in channels.values():

@@ -158,7 +158,7 @@ class Findings:
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
         found = {
-            fault.run: Correction(gain=fault.factor) if fault.channel == "force" else Correction(stroke=fault.factor)
+            fault.run: _multiplied(fault.channel, fault.factor)
             for fault in self.triage.faults
             if fault.factor is not None
         }
@@ -325,3 +325,7 @@ class Findings:
         """What the diagnosed network gets wrong on the training runs."""
         runs = [run for run in self.setting.dataset.runs if run.name in self.setting.split.train]
         return tuple(describe_misfit(runs, self.residuals(self.written_before, self.setting)))
+
+
+def _multiplied(channel: str, factor: float) -> Correction:
+    return Correction(gain=factor) if channel == "force" else Correction(displacement_gain=factor)

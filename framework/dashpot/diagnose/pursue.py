@@ -103,8 +103,8 @@ class Pursuer:
         """
         scores = Scores(look)
         terms = [number for number, term in enumerate(look.model.terms) if isinstance(term, Term)]
-        each = ([one for one in other_forms(scores, number) if self.trials.stands(scores, one)] for number in terms)
-        asked = [one for forms in each for one in forms[:REFITTED]]
+        forms = ([one for one in other_forms(scores, n) if self.trials.is_as_independent(scores, one)] for n in terms)
+        asked = [one for each in forms for one in each[:REFITTED]]
         trials = [trial for trial in self.trials.refitted(scores, asked) if trial and not trial.unproven]
         better = [one for one in trials if one.model.forms not in seen and self._predicts_better(one, present)]
         return min(better, key=lambda one: one.exact_score).model if better else None

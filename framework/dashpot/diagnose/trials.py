@@ -79,7 +79,7 @@ class Trials:
         asked = _asked(scores, structure)
         return self._can_be_written(asked.model, self._writable(asked)) or not self._lacks_another(asked)
 
-    def stands(self, scores: Scores, structure: Structure) -> bool:
+    def is_as_independent(self, scores: Scores, structure: Structure) -> bool:
         """Whether a new term can be written without other causes, or the one in whose place it is cannot either."""
         model = scores.look.model
         given = [term for term in model.terms if isinstance(term, Given)]

@@ -332,7 +332,7 @@ def test_the_text_is_the_same_every_time(tmp_path):
 def test_a_displacement_in_another_unit_is_corrected_as_well(tmp_path):
     """Together with the force, where its channel is corrected by the file already."""
     dataset = prepare(tmp_path / "data")
-    corrections = {"a": Correction(stroke=25.4), "b": Correction(gain=-1.0, stroke=1e-3)}
+    corrections = {"a": Correction(displacement_gain=25.4), "b": Correction(gain=-1.0, displacement_gain=1e-3)}
     found, text = written(dataset, tmp_path / "out", corrections)
     assert "displacement: {gain: 25.4}" in text
     for name, factor in (("a", 25.4), ("b", 1e-3), ("c", 1.0)):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from unit.data.tables import Tables
 
 from dashpot.data.dataset import read_dataset
 from dashpot.data.importing.files import find_files, run_names
@@ -18,7 +19,7 @@ from dashpot.data.importing.signs import find_signs
 from dashpot.data.importing.text import dataset_text, quoted
 from dashpot.data.importing.timing import find_timing, pieces
 from dashpot.data.importing.units import find_unit
-from dashpot.data.table import ReadingError, Table
+from dashpot.data.table import Table
 from dashpot.text.document import Document
 from dashpot.text.problem import InputError
 
@@ -29,23 +30,6 @@ TIME = STEP * np.arange(5000)
 def chirp(start, stop, amplitude=1.0):
     """A linear sweep, its phase the integral of the frequency."""
     return amplitude * np.sin(2 * np.pi * (start * TIME + (stop - start) * TIME**2 / (2 * TIME[-1])))
-
-
-class Tables:
-    """A reader that knows its tables by the name of the file."""
-
-    suffixes = (".tab",)
-
-    def __init__(self, tables):
-        self.tables = tables
-
-    def parts(self, path):
-        return [{}]
-
-    def read(self, path, options):
-        if path.name not in self.tables:
-            raise ReadingError("it is broken", "mend it", 3)
-        return self.tables[path.name]
 
 
 def imported(folder, tables, **more):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from unit.data.tables import Tables
 
 from dashpot.data.importing.finding import find_all
 from dashpot.data.importing.imported import import_files
@@ -97,21 +98,6 @@ def test_a_second_column_in_millimetres_that_explains_the_force_as_well_is_asked
     displacement, _, confirm = found_in(columns, {"ch 1": "mm", "ch 2": "mm", "ch 3": "N"})
     other = {"ch 1": "ch 2", "ch 2": "ch 1"}[displacement[0]]
     assert any(f"'{other}' may be the displacement, too" in remark for remark in confirm)
-
-
-class Tables:
-    """A reader that knows its tables by the name of the file."""
-
-    suffixes = (".tab",)
-
-    def __init__(self, tables):
-        self.tables = tables
-
-    def parts(self, path):
-        return [{}]
-
-    def read(self, path, options):
-        return self.tables[path.name]
 
 
 def imported(folder, tables):

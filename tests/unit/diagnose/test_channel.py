@@ -22,6 +22,7 @@ from unit.diagnose.rig import (
 )
 
 from dashpot.contract.registry import load_registry
+from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
@@ -32,6 +33,7 @@ from dashpot.diagnose.look import look_at
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
 from dashpot.diagnose.whitening import reduction
 from dashpot.fit.thinned import highest_frequency
+from dashpot.triage.fault import Fault
 
 WORDS = ("gain", "offset", "drift", "hum")
 AGAIN = {"again": "a3_p8"}
@@ -140,6 +142,17 @@ def test_a_run_that_stands_alone_is_no_noise_though_its_repeat_differs(alone, at
     known = {"setting": made.setting, "_floor": made.setting.floor.value, "relevance": 0.0015}
     found = SimpleNamespace(leftover=left, accused=(), _trained=3.0 * NOISE, **known)
     assert Findings._at_floor.fget(found) == at_floor
+
+
+def test_what_triage_corrects_stands_in_the_corrected_dataset():
+    """The force as well as the displacement; a run that it sets aside has no correction."""
+    faults = [
+        Fault("a", "unit", "", "", 1e-3),
+        Fault("b", "unit_of_displacement", "", "", 25.4, "displacement"),
+        Fault("c", "unit", "", ""),
+    ]
+    found = SimpleNamespace(triage=SimpleNamespace(faults=faults), accused=())
+    assert Findings.corrections.fget(found) == {"a": Correction(gain=1e-3), "b": Correction(displacement_gain=25.4)}
 
 
 def test_a_difference_of_two_repeats_accuses_one_of_them():

@@ -9,7 +9,7 @@ from unit.diagnose.rig import MOTIONS, bench, causes, dataset, friction, plain, 
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.score import Added, Scores, Structure
-from dashpot.diagnose.search import additions
+from dashpot.diagnose.search import additions, search
 from dashpot.diagnose.trials import Trials, terms_of
 from dashpot_causes.setting_dependence import numbers_of
 
@@ -97,10 +97,18 @@ def test_what_lacks_a_law_that_goes_is_not_tried(found):
     assert not trials.can_be_tried(scores, Structure(frozenset({0, 1}), structure.added))
 
 
-def test_a_form_may_not_lean_on_another_cause_unless_the_former_one_does(found):
-    """The dependence leans on the friction, whose limit it changes; the friction stands alone."""
+def test_what_is_gone_from_the_start_of_a_search_does_not_come_back(found):
+    """Rivals of the dependence: the friction stays in all structures, and the dependence in none."""
+    _, scores = found
+    ranked = search(scores, stay=frozenset({0}), gone=frozenset({1}))
+    assert ranked and all(one.dropped == {1} for one in ranked)
+    assert any(one.dropped != {1} for one in search(scores, stay=frozenset({0})))
+
+
+def test_a_form_may_not_need_another_cause_unless_the_former_one_does(found):
+    """The dependence needs the friction, whose limit it changes; the friction needs nothing."""
     trials, scores = found
     numbers = [number.key for number in numbers_of(scores.look.model.fitted)]
-    leaning = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
-    assert trials.stands(scores, leaning)
-    assert not trials.stands(scores, Structure(frozenset({0}), leaning.added))
+    needing = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
+    assert trials.is_as_independent(scores, needing)
+    assert not trials.is_as_independent(scores, Structure(frozenset({0}), needing.added))
