@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.candidate import Candidate
-from dashpot.diagnose.columns import Layout, Rows, linearised, shapes_of
+from dashpot.diagnose.columns import Columns, Layout, Rows, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
@@ -24,15 +24,14 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import moved, records, stated, weighed
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
-from dashpot.diagnose.whitening import ORDER, Noise, independent_share, learn_filter
+from dashpot.diagnose.whitening import Noise, covariance_of, filter_of, independent_share, lagged, orthonormal
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import streamed
 
 Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
-LEFT = 0.5  # of the degrees of freedom; with fewer the residual of the model stands for the noise
-LEARNT = 0.9  # likewise; with fewer the noise counts as white
+LEFT = 0.5  # of the degrees of freedom may be taken; beyond that the residual of the model stands for the noise
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,12 +99,9 @@ def look_at(
     alone, rich = noise, 0.0
     if noise is None:
         kinds = [fault for cause in causes for fault in cause().channel_faults(view)]
-        lines = _shapes([fault for fault in kinds if fault.evidence_of == "at_rest"], view, runs, plain)
-        left = {run.name: _beside_shapes(columns.residual[run.name], lines[run.name]) for run in runs}
-        noise = weighed(searched_noise(left, plain, runs), columns.residual, runs)
+        noise = _left_by(columns, [fault for fault in kinds if fault.evidence_of == "at_rest"])
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
-        faults = _shapes(kinds, view, runs, plain)
-        alone, rich = recorded_noise(rows, grams, folds, first, plain, runs, faults)
+        alone, rich = recorded_noise(rows, grams, first, noise, runs, _shapes(kinds, view, runs, plain))
         alone = stated(alone, refitter.sensors, runs)
     else:
         grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
@@ -148,9 +144,18 @@ def look_settled(
 
     Structures are compared at their own optimum only: beside it the linear step promises what a refit does not keep.
     """
-    noise = look_at(refitter, model, (), folds, doubted=doubted).noise
+    view = view_of(model.fitted, moved(refitter.runs), refitter.elements, refitter.jobs)
+    noise = _left_by(linearised(refitter, model, view, None, (), ()), ())
     settled = refitter.refit(model, model.terms, noise)
     return look_at(refitter, settled, causes, folds, doubted=doubted, known=known)
+
+
+def _left_by(columns: Columns, lines: Sequence[ChannelFault]) -> Noise:
+    """The white noise that a model leaves, beside ``lines`` that each run may have in its force channel."""
+    runs, residual = columns.refitter.runs, columns.residual
+    shapes = _shapes(lines, columns.view, runs, columns.plain)
+    left = {run.name: _beside_shapes(residual[run.name], shapes[run.name]) for run in runs}
+    return weighed(searched_noise(left, columns.plain, runs), residual, runs)
 
 
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
@@ -219,54 +224,35 @@ def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[S
 def recorded_noise(
     rows: Mapping[str, Array],
     grams: Array,
-    folds: Folds,
     first: int,
-    plain: Noise,
+    noise: Noise,
     runs: Sequence[ScoredRun],
     faults: Mapping[str, Array],
 ) -> tuple[Noise, float]:
     """The noise of the records alone, an autoregressive model of what all columns together leave, and its RMS in N.
 
-    The residual is row ``first``, ``grams`` (folds, c, c) are those of all rows; ``faults`` (k, kept) that a run may
-    have by itself are no noise. What the columns and faults take up of the noise itself is made up for by the degrees
-    of freedom of each run, where more than half of them are left. They take up what is slow: where it is more than a
-    tenth, what they leave shows how large the noise is, but not its spectrum.
+    The residual is row ``first``, ``grams`` (folds, c, c) are those of all rows under the white ``noise``; ``faults``
+    (k, kept) that a run may have by itself are no noise. What the columns and faults take up of the noise itself is
+    made up for, in its size and its spectrum, where at least half of the degrees of freedom of a run are left.
     """
-    from scipy.linalg import cho_factor, cho_solve
+    from scipy.linalg import cholesky, solve_triangular
 
     gram = grams.sum(axis=0)
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     others = np.flatnonzero(np.arange(len(scale)) != first)
-    unit = np.outer(scale, scale)
-    factor = cho_factor((gram / unit)[np.ix_(others, others)] + RIDGE * np.eye(others.size))
-    strengths = np.zeros(len(scale))
-    strengths[others] = cho_solve(factor, (gram / unit)[others, first])
-    strengths *= scale[first] / scale
-    inverse = np.zeros_like(gram)
-    inverse[np.ix_(others, others)] = cho_solve(factor, np.eye(others.size))
-    used = np.array([np.sum(inverse * (part / unit)) for part in grams])
-    left = _degrees_left(used, folds, {run.name: plain.kept(run.name, run.samples) for run in runs})
-    noise, white = {}, {}
+    root = cholesky((gram / np.outer(scale, scale))[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
+    aim = solve_triangular(root, (gram / np.outer(scale, scale))[others, first], lower=True) * scale[first]
+    filters, squares = {}, []
     for run in runs:
         found, shapes = rows[run.name], faults[run.name]
-        enough = left[run.name] > LEFT
-        rest = (found[first] - strengths @ found) / np.sqrt(left[run.name]) if enough else found[first].copy()
-        free = 1.0 - np.linalg.matrix_rank(shapes) / rest.size if shapes.size else 1.0
-        noise[run.name] = _beside_shapes(rest, shapes) / np.sqrt(free) if free > LEFT else rest
-        white[run.name] = enough and left[run.name] < LEARNT
-    filters = {run.name: learn_filter(noise[run.name], _smallest(run), 0 if white[run.name] else ORDER) for run in runs}
-    return replace(plain, filters=filters), float(np.sqrt(np.mean([np.mean(rest**2) for rest in noise.values()])))
-
-
-def _degrees_left(used: Array, folds: Folds, kept: Mapping[str, int]) -> dict[str, float]:
-    """The share of the ``kept`` samples of each run that is left by columns which ``used`` (folds,) of each fold."""
-    parts = {run: folds.of_run(run, size) for run, size in kept.items()}
-    samples = np.zeros(used.size)
-    for found in parts.values():
-        for fold, part in found:
-            samples[fold] += part.stop - part.start
-    share = used / np.maximum(samples, 1.0)
-    return {
-        run: 1.0 - sum(share[fold] * (part.stop - part.start) for fold, part in found) / max(kept[run], 1)
-        for run, found in parts.items()
-    }
+        basis = solve_triangular(root, found[others] / scale[others, None], lower=True)
+        rest, taken = found[first] - aim @ basis, noise.weight(run.name) * lagged(basis)
+        if taken[0] > LEFT:
+            rest, taken = found[first].copy(), np.zeros(taken.size)
+        own = orthonormal(shapes)
+        if taken[0] + len(own) / rest.size < LEFT:
+            rest, taken = rest - own @ rest @ own, taken + lagged(own)
+        covariance = covariance_of(rest, taken)
+        filters[run.name] = filter_of(covariance, rest.size, _smallest(run))
+        squares.append(covariance[0])
+    return replace(noise, filters=filters, independent={}), float(np.sqrt(np.mean(squares)))

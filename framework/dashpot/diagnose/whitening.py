@@ -73,6 +73,10 @@ class Noise:
         filters = {run: np.sqrt(self.independent.get(run, 1.0)) * found for run, found in self.filters.items()}
         return replace(self, filters=filters)
 
+    def weight(self, run: str) -> float:
+        """How much the square of a sample of a run counts under white noise, 1/N^2."""
+        return float(self.independent.get(run, 1.0) * self.filters[run][0] ** 2)
+
     def with_white(self, deviations: Mapping[str, float]) -> Noise:
         """The same blocks under white noise of the given standard deviations in N."""
         return Noise(self.steps, {run: np.concatenate([[1.0 / s], np.zeros(ORDER)]) for run, s in deviations.items()})
@@ -108,23 +112,53 @@ def reduction(dt: float, highest_frequency: float) -> int:
     return max(1, int(1.0 / (2.0 * HARMONICS * highest_frequency * dt)))
 
 
-def learn_filter(rest: Array, smallest: float, most: int = ORDER) -> Array:
-    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N, of the order with the lowest BIC.
+def learn_filter(rest: Array, smallest: float) -> Array:
+    """The prediction-error filter (order + 1,) of reduced noise ``rest`` (n,) N; see ``filter_of``."""
+    return filter_of(covariance_of(rest, np.zeros(ORDER + 1)), rest.size, smallest)
 
-    Up to ``most``; of the order 0 the noise is white. ``smallest`` is a deviation in N below which nothing is believed:
-    the resolution of the simulation and the record.
+
+def covariance_of(rest: Array, taken: Array) -> Array:
+    """The autocovariance (order + 1,) in N^2 of noise of which a least-squares fit has left ``rest`` (n,).
+
+    A fit with the hat matrix H leaves of white noise the autocovariance -trace(S H) / n times its variance at a lag
+    with the shift S. That is ``taken`` (order + 1,), and is given back: the fit has followed what is slow.
+    Source: K. J. Worsley et al.: A general statistical analysis for fMRI data. NeuroImage 15, 2002, appendix A.
+    """
+    lags = range(min(ORDER + 1, max(rest.size, 1)))
+    found = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
+    return np.asarray(found + found[0] / (1.0 - taken[0]) * taken[: found.size])
+
+
+def lagged(basis: Array) -> Array:
+    """The trace of the hat matrix of orthonormal rows (k, n) at each lag (order + 1,), over n."""
+    size = basis.shape[1]
+    lags = range(min(ORDER + 1, max(size, 1)))
+    return np.array([np.einsum("ij,ij->", basis[:, lag:], basis[:, : size - lag]) for lag in lags]) / max(size, 1)
+
+
+def orthonormal(shapes: Array) -> Array:
+    """An orthonormal basis (rank, n) of shapes (k, n)."""
+    _, values, basis = np.linalg.svd(shapes, full_matrices=False)
+    return np.asarray(basis[values > 1e-9 * max(values, default=0.0)])
+
+
+def filter_of(covariance: Array, samples: int, smallest: float) -> Array:
+    """The prediction-error filter (order + 1,) of an autocovariance (order + 1,), of the order with the lowest BIC.
+
+    ``smallest`` is a deviation in N below which nothing is believed: the resolution of the simulation and the record.
     Source: the Yule-Walker equations.
     """
     from scipy.linalg import solve_toeplitz
 
-    lags = range(min(ORDER + 1, max(rest.size, 1)))
-    covariance = np.array([rest[lag:] @ rest[: rest.size - lag] for lag in lags]) / max(rest.size, 1)
-    covariance[0] = max(covariance[0] * (1.0 + 1e-9), smallest**2)
-    best, lowest = np.zeros(0), np.inf
-    for order in range(min(covariance.size, most + 1) if rest.size > 4 * ORDER else 1):
+    covariance = np.array([max(covariance[0] * (1.0 + 1e-9), smallest**2), *covariance[1:]])
+    best, lowest, least = np.zeros(0), np.inf, np.inf
+    for order in range(covariance.size if samples > 4 * ORDER else 1):
         past = solve_toeplitz(covariance[:order], covariance[1 : order + 1]) if order else np.zeros(0)
-        variance = max(float(covariance[0] - past @ covariance[1 : order + 1]), smallest**2)
-        bic = rest.size * np.log(variance) + order * np.log(max(rest.size, 1))
+        variance = float(covariance[0] - past @ covariance[1 : order + 1])
+        if not 0.0 < variance <= least:
+            break  # no autocovariance of any noise beyond this lag
+        least, variance = variance, max(variance, smallest**2)
+        bic = samples * np.log(variance) + order * np.log(max(samples, 1))
         if bic < lowest:
             best, lowest = np.concatenate([[1.0], -past, np.zeros(ORDER - order)]) / np.sqrt(variance), bic
     return best

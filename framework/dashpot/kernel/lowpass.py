@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 # below this share of a step the powers of the place in it are averaged by their series, which needs so many terms
 SHORT, TERMS = 1.0, 20
+# of p^k at r^(n + 1): the integral of (1 - p)^n p^k is n! k! / (n + k + 1)!
+SERIES = np.array([[(-1) ** n * math.factorial(k) / math.factorial(n + k + 1) for n in range(TERMS)] for k in range(4)])
 
 
 def smoothed(values: Array, lags: Array, dt: float) -> Array:
@@ -25,26 +27,38 @@ def smoothed(values: Array, lags: Array, dt: float) -> Array:
     lags = np.broadcast_to(lags, len(values))
     found = np.where((lags == 0.0)[:, None], values, np.nan)
     late = np.flatnonzero((lags > 0.0) & np.isfinite(values).all(axis=1))
-    if late.size:
-        for number, slope in zip(late, slopes(values[late]), strict=True):
-            found[number] = _followed(values[number], slope, dt / lags[number])
+    for lag in np.unique(lags[late]):
+        alike = late[lags[late] == lag]
+        found[alike] = _followed(values[alike], slopes(values[alike]), float(dt / lag))
     return found
 
 
+def smoothed_straight(values: Array, lag: float, dt: float) -> Array:
+    """The same along straight lines from sample to sample, of signals (k, n) with one time constant ``lag`` in s."""
+    from scipy.signal import lfilter
+
+    if lag == 0.0:
+        return values
+    zero, one, *_ = weights(dt / lag)
+    forward, back = [one, zero - one], [1.0, -math.exp(-dt / lag)]
+    return np.asarray(lfilter(forward, back, values, zi=(1.0 - one) * values[:, :1])[0])
+
+
 def _followed(values: Array, slope: Array, steps: float) -> Array:
-    """One signal with its slopes per sample; ``steps`` is the length of a step in time constants."""
+    """Signals (k, n) with their slopes per sample; ``steps`` is the length of a step in time constants."""
     from scipy.signal import lfilter
 
     fading = math.exp(-steps)
     zero, one, two, three = weights(steps)
     # Hermite's cubic: its value and slope at both ends of a step
     push = (
-        (zero - 3.0 * two + 2.0 * three) * values[:-1]
-        + (3.0 * two - 2.0 * three) * values[1:]
-        + (one - 2.0 * two + three) * slope[:-1]
-        + (three - two) * slope[1:]
+        (zero - 3.0 * two + 2.0 * three) * values[:, :-1]
+        + (3.0 * two - 2.0 * three) * values[:, 1:]
+        + (one - 2.0 * two + three) * slope[:, :-1]
+        + (three - two) * slope[:, 1:]
     )
-    return np.concatenate([values[:1], lfilter([1.0], [1.0, -fading], push, zi=[fading * values[0]])[0]])
+    begin = values[:, :1]
+    return np.hstack([begin, lfilter([1.0], [1.0, -fading], push, zi=fading * begin)[0]])
 
 
 def weights(steps: float) -> tuple[float, float, float, float]:
@@ -53,12 +67,8 @@ def weights(steps: float) -> tuple[float, float, float, float]:
     ``steps`` is r, the length of the step over the time constant.
     """
     if steps < SHORT:
-        # the integral of (1 - p)^n p^k is n! k! / (n + k + 1)!
-        short = [
-            sum((-1) ** n * steps ** (n + 1) * math.factorial(k) / math.factorial(n + k + 1) for n in range(TERMS))
-            for k in range(4)
-        ]
-        return short[0], short[1], short[2], short[3]
+        short = SERIES @ steps ** np.arange(1, TERMS + 1)
+        return float(short[0]), float(short[1]), float(short[2]), float(short[3])
     zero = -math.expm1(-steps)
     one = 1.0 - zero / steps
     two = 1.0 - 2.0 * one / steps

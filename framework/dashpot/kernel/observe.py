@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.kernel.lowpass import smoothed
+from dashpot.kernel.lowpass import smoothed, smoothed_straight
 from dashpot.kernel.spline import slopes
 
 Array = NDArray[np.float64]
@@ -74,17 +74,19 @@ class Observation:
     def linear(self, rows: Array, dt: float) -> Array:
         """What one lane's channel shows of a force and of small changes of it, ``rows`` (1 + k, n).
 
-        The changes are shifted along straight lines between samples, which is near enough for a search direction.
+        The changes are smoothed and shifted along straight lines between samples: near enough for a search direction.
         """
         if self.plain:
             return rows
         force, changes = rows[0], rows[1:]
         if self.least[0] > -np.inf:
             changes = np.where(force > self.least[0], changes, 0.0)
-        late = _late(smoothed(changes, self.lag, dt), float(self.delay[0]) / dt, _straight)
-        shown = self._unlimited(force[None], dt)[0]
-        inside = shown < self.largest[0]
-        return np.vstack([np.where(inside, shown, self.largest[0]), np.where(inside, self.gain[0] * late, 0.0)])
+        late = _late(smoothed_straight(changes, float(self.lag[0]), dt), float(self.delay[0]) / dt, _straight)
+        shown = self._unlimited(force[None], dt)
+        beyond = shown[0] >= self.largest[0]
+        found = np.concatenate([shown, self.gain[0] * late])
+        found[0, beyond], found[1:, beyond] = self.largest[0], 0.0
+        return found
 
 
 def read_observation(paths: tuple[str, ...], values: Array) -> Observation:

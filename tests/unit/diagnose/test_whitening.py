@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from dashpot.diagnose.whitening import ORDER, Noise, independent_share, learn_filter, reduction
+from dashpot.diagnose.whitening import (
+    ORDER,
+    Noise,
+    covariance_of,
+    filter_of,
+    independent_share,
+    lagged,
+    learn_filter,
+    orthonormal,
+    reduction,
+)
 
 
 def autoregressive(coefficients, size, seed=0):
@@ -90,8 +100,20 @@ def test_a_wave_has_a_few_independent_values_however_long_it_is():
     assert 10_000 * independent_share(np.sin(2.0 * np.pi * 5.0 * time)) == pytest.approx(4.0)
 
 
-def test_of_the_order_zero_noise_is_white():
-    noise = autoregressive([1.2, -0.5], 10_000)
-    found = learn_filter(noise, 1e-9, most=0)
-    assert found[0] == pytest.approx(1.0 / np.sqrt(np.mean(noise**2)), rel=1e-6)
-    assert not found[1:].any()
+@pytest.mark.parametrize("columns", [40, 200])
+def test_what_a_fit_takes_of_the_noise_is_given_back_at_every_lag(columns):
+    """Of 500 white samples a fit takes the slowest tenth or two fifths; over 200 draws their mean is white again."""
+    place = np.arange(500)
+    basis = orthonormal(np.array([np.cos(np.pi * (place + 0.5) * k / 500) for k in range(columns)]))
+    noise = 3.0 * np.random.default_rng(2).standard_normal((200, 500))
+    found = np.mean([covariance_of(rest, lagged(basis)) for rest in noise - noise @ basis.T @ basis], axis=0)
+    assert found == pytest.approx([9.0, *[0.0] * ORDER], abs=5.0 * 9.0 / np.sqrt(500 * 200))
+    left = noise[0] - noise[0] @ basis.T @ basis
+    assert learn_filter(left, 1e-9)[1:].any(), "as it is, what is left is not white"
+    assert not filter_of(covariance_of(left, lagged(basis)), 500, 1e-9)[1:].any()
+
+
+def test_an_autocovariance_that_no_noise_has_is_cut_off():
+    """Beyond a lag at which the correlation with what is known would exceed one."""
+    found = filter_of(np.array([1.0, 0.5, -0.9, *[0.0] * (ORDER - 2)]), 1000, 1e-9)
+    assert found == pytest.approx(np.array([1.0, -0.5, *[0.0] * (ORDER - 1)]) / np.sqrt(0.75))

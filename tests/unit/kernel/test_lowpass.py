@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from dashpot.kernel.lowpass import smoothed, weights
+from dashpot.kernel.lowpass import smoothed, smoothed_straight, weights
 
 DT = 1e-3
 TIME = DT * np.arange(2000)
@@ -35,6 +35,21 @@ def test_a_cubic_is_followed_exactly(lag):
     found = smoothed(u(TIME)[None], np.array([lag]), DT)[0]
     # the closed form itself loses digits where its terms are large
     assert np.abs(found - expected).max() < 1e-13 * max(30.0, np.abs(rest(TIME)).max())
+
+
+@pytest.mark.parametrize("lag", [1e-7, 1e-3, 0.3, 1e3])
+def test_between_samples_on_straight_lines_these_are_followed_exactly(lag):
+    # lag * y' + y = b + a t with y(0) = b: b + a (t - lag (1 - exp(-t / lag)))
+    expected = 3.0 - 2.0 * (TIME + lag * np.expm1(-TIME / lag))
+    found = smoothed_straight(np.array([3.0 - 2.0 * TIME, np.full(TIME.size, 5.0)]), lag, DT)
+    assert found[0] == pytest.approx(expected, abs=1e-12 * max(1.0, lag))
+    assert found[1] == pytest.approx(np.full(TIME.size, 5.0), rel=1e-12)
+    wave = np.sin(OMEGA * TIME)[None]
+    # a chord is off by at most an eighth of the square of a step times the curvature
+    assert (
+        np.abs(smoothed_straight(wave, lag, DT) - smoothed(wave, np.array([lag]), DT)).max() < (OMEGA * DT) ** 2 / 8.0
+    )
+    assert smoothed_straight(wave, 0.0, DT) is wave
 
 
 @pytest.mark.parametrize("steps", [1e-8, 1e-3, 0.5, 0.999, 1.0, 3.0, 500.0])
