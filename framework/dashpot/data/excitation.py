@@ -51,8 +51,9 @@ class Excitation:
 
     def __post_init__(self) -> None:
         """The means of the channels join the settings, where these do not tell them."""
-        if self.channels:
-            object.__setattr__(self, "settings", {**_means(self.channels), **self.settings})
+        unknown = {name: each for name, each in self.channels.items() if mean_of(name) not in self.settings}
+        if unknown:
+            object.__setattr__(self, "settings", {**self.settings, **_means(unknown)})
 
     @classmethod
     def of_drive(cls, drive: Drive) -> Excitation:

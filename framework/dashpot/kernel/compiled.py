@@ -65,7 +65,7 @@ class Compiled(ABC, Generic[Prepared]):
         if excitation is None:
             return read_observation(self.paths, lanes)
         seen = read_observation(self.paths, with_settings(self.spec, lanes, excitation.settings))
-        return replace(seen, **{key: each for key, each in self._moving_channel(lanes, excitation)})
+        return replace(seen, **dict(self._moving_channel(lanes, excitation))) if excitation.channels else seen
 
     def _moving_channel(self, lanes: Array, excitation: Excitation) -> Iterator[tuple[str, Array]]:
         # gain and offset (lanes, n) of the force channel where they follow one that was measured beside it

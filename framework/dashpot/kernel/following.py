@@ -90,9 +90,9 @@ def told_to(over: Over, settings: Mapping[str, float]) -> float | None:
     return next((settings[key] for key in keys_of(over) if key in settings), None)
 
 
-def follows(slot: Slot, held: frozenset[str]) -> bool:
-    """Whether a number follows a channel along a run; ``held`` are the paths of those that take its mean."""
-    return slot.value.over is not None and slot.value.over.channel and slot.path not in held
+def follows(slot: Slot, spec: NetworkSpec) -> bool:
+    """Whether a number of a network follows a channel along a run."""
+    return slot.value.over is not None and slot.value.over.channel and slot.path not in held_at_mean(spec)
 
 
 def held_at_mean(spec: NetworkSpec) -> frozenset[str]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.data.excitation import ORDER
 from dashpot.data.history import NOTHING
-from dashpot.kernel.following import follows, held_at_mean, keys_of, moved, told_to
+from dashpot.kernel.following import follows, keys_of, moved, told_to
 from dashpot.model.network import NetworkSpec, Over, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -28,8 +28,7 @@ def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]
 
 def with_constants(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
     """The same, but numbers that follow a channel along the run stay as they are: the laws move them."""
-    held = held_at_mean(spec)
-    return _with_settings(spec, lanes, settings, lambda slot: not follows(slot, held))
+    return _with_settings(spec, lanes, settings, lambda slot: not follows(slot, spec))
 
 
 def _with_settings(
