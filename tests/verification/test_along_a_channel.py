@@ -248,3 +248,18 @@ def test_where_nothing_is_measured_a_number_rests():
     assert out[1:] == pytest.approx(140.0 * V[1:], abs=1e-6 * np.max(np.abs(V)))
     stiffness = dynamic_stiffness(spec, 5.0, 1e-3, settings={"amps": 2.0})
     assert stiffness == pytest.approx(2j * np.pi * 5.0 * 140.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("branches", [SERIES, f"slow: {{element: maxwell, stiffness: 100 N/mm, {TIMES}}}"])
+def test_a_channel_of_another_length_is_refused(branches):
+    with pytest.raises(ValueError, match=r"'amps': expected 2001 samples as the motion has, got \(2000,\)"):
+        force(branches, run(amps=current(TIME[1:])))
+
+
+def test_outside_of_any_run_a_number_is_the_one_at_its_place():
+    """A bare motion, of which no settings are told."""
+    for branches in (SERIES, f"slow: {{element: maxwell, stiffness: 100 N/mm, {TIMES}}}"):
+        network_of_channel = compile_network(network(branches))
+        bare = network_of_channel.simulate(network_of_channel.prepare(drive_of(MOTION, TIME)))
+        plain = force(branches, run({"amps": 1.0}), tolerance=1e9)
+        assert np.ravel(bare) == pytest.approx(plain, abs=1e-2 * np.ptp(plain))

@@ -113,17 +113,22 @@ def dependences(branch: Branch) -> tuple[Hashable, ...]:
 def channels_of(spec: NetworkSpec, excitation: Excitation) -> dict[str, Array]:
     """What a run tells of each channel that numbers follow: its samples (n,).
 
-    Where there are none, as on a rig, all are what the settings tell, and NaN where nothing is known of it.
+    Where there are none, as on a rig, all are what the settings tell, and NaN where nothing is known of it. Raises
+    ValueError for another number of samples than that of the motion.
     """
     overs = [slot.value.over for slot in spec.slots() if slot.value.over and slot.value.over.channel]
     return {over.word: _samples(over, excitation) for over in overs}
 
 
 def _samples(over: Over, excitation: Excitation) -> Array:
-    if over.word in excitation.channels:
-        return excitation.channels[over.word]
-    told = told_to(over, excitation.settings)
-    return np.full(excitation.samples, math.nan if told is None else told)
+    count = next((drive.samples for drive in excitation.motions.values()), excitation.samples)
+    if over.word not in excitation.channels:
+        told = told_to(over, excitation.settings)
+        return np.full(count, math.nan if told is None else told)
+    signal = excitation.channels[over.word]
+    if signal.shape != (count,):
+        raise ValueError(f"the channel '{over.word}': expected {count} samples as the motion has, got {signal.shape}")
+    return signal
 
 
 def at_samples(channels: Seen) -> dict[str, Array]:
