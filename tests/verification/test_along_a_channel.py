@@ -263,3 +263,48 @@ def test_outside_of_any_run_a_number_is_the_one_at_its_place():
         bare = network_of_channel.simulate(network_of_channel.prepare(drive_of(MOTION, TIME)))
         plain = force(branches, run({"amps": 1.0}), tolerance=1e9)
         assert np.ravel(bare) == pytest.approx(plain, abs=1e-2 * np.ptp(plain))
+
+
+SWITCHED = np.where((4.0 * TIME).astype(int) % 2, 2.5, 0.3)
+
+
+def integrated(rate, states):
+    """The states (n, states) from rest, sample by sample: a channel bends at each of them."""
+    found = np.zeros((TIME.size, states))
+    for k in range(1, TIME.size):
+        step = solve_ivp(rate, TIME[k - 1 : k + 1], found[k - 1], "DOP853", rtol=1e-10, atol=1e-13)
+        found[k] = step.y[:, -1]
+    return found
+
+
+@pytest.mark.parametrize(
+    "oil",
+    [
+        "{element: damper, damping: {fixed: 100 N*s/m, over: {channel: amps, at: 0 A, slope: 200 N*s/m/A}}",
+        "{element: maxwell, stiffness: 30 N/mm, "
+        "relaxation_time: {fixed: 10 ms, over: {channel: amps, at: 1 A, rate: 80 %/A}}",
+    ],
+    ids=["without memory", "with memory"],
+)
+def test_a_mass_on_a_damper_that_is_switched_within_a_sample_is_as_exact_as_it_is_told_to_be(oil):
+    nodes = "{top: driven, middle: {mass: 2 kg}, base: ground}"
+    branches = f"""\
+    upper: {{element: spring, stiffness: 20 N/mm, between: [base, middle]}}
+    oil: {oil}, between: [base, middle]}}
+    lower: {{element: spring, stiffness: 10 N/mm, between: [middle, top]}}
+    """
+
+    def rate(t, y):
+        amps = np.interp(t, TIME, SWITCHED)
+        if "maxwell" in oil:
+            damped, relaxing = y[2], 3e4 * y[1] - y[2] / (0.01 * np.exp(0.8 * (amps - 1.0)))
+        else:
+            damped, relaxing = (100.0 + 200.0 * amps) * y[1], 0.0
+        return [y[1], (1e4 * (MOTION.place(t) - y[0]) - 2e4 * y[0] - damped) / 2.0, relaxing]
+
+    pull = 1e4 * (X - integrated(rate, 3)[:, 0])
+    excitation = replace(run(amps=SWITCHED), motions={"top": drive_of(MOTION, TIME)})
+    for tolerance in (1e-3, 1e-5):
+        found = solve(compile_network(network(branches, nodes)), excitation, tolerance=tolerance)
+        assert rms(found.force["top"] - pull) < found.error["top"] < tolerance * rms(pull)
+        assert np.max(np.abs(found.force["top"] - pull)) < found.peak["top"]
