@@ -164,7 +164,8 @@ class Changes:
         """The change of the force (n,) with a number, when it changes by a ``share`` (n,) of the size at which a
         dependence is told.
         """
-        if np.ndim(share) or any(np.ndim(number) for number in self._along(view, run).values()):
+        memory = bool(self._branch.element.declares.states)
+        if (memory and np.ndim(share)) or any(np.ndim(number) for number in self._along(view, run).values()):
             return self._moved(view, run, key, share)
         return share * self._whole(view, run)[key]
 
@@ -203,8 +204,8 @@ class Changes:
     def _columns(self, view: View, run: str) -> Mapping[str, Array]:
         known = self._in(view.settings(run))
         ends = {key: self._ends(key, known[key]) for key in self.keys}
-        moved = [{**known, key: end} for key in self.keys for end in ends[key]]
-        forces = view.respond(run, self._branch.element.word, moved)
+        sets = [{**known, key: end} for key in self.keys for end in ends[key]]
+        forces = view.respond(run, self._branch.element.word, sets)
         return {
             key: (more - less) / (ends[key][1] - ends[key][0]) * self._values[key].number
             for key, less, more in zip(self.keys, forces[::2], forces[1::2], strict=True)
