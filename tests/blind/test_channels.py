@@ -114,3 +114,20 @@ def test_a_damping_that_follows_a_channel_within_runs_is_found(seed, branch, for
     for run in data.runs:
         misfit = (forces[run.name] - run.force)[score_run(run).first :]
         assert np.sqrt(np.mean(misfit**2)) == pytest.approx(found.after.per_run[run.name], rel=1e-6)
+
+
+def test_a_temperature_that_does_nothing_is_not_blamed_for_friction(seed):
+    """A slider beside spring and dashpot, in the same runs that warm up or cool down."""
+
+    def with_slider(damping, amplitude, fast):
+        slid, held, force = amplitude * np.sin(angle(TIME, fast)), 0.0, np.zeros(TIME.size)
+        for k in range(1, TIME.size):
+            held = float(np.clip(held + 2e5 * (slid[k] - slid[k - 1]), -25.0, 25.0))
+            force[k] = held
+        return dashpot(damping, amplitude, fast) + force
+
+    registry = load_registry()
+    data = measured("temperature", rising, lambda kelvin: DAMPING + 0.0 * kelvin, with_slider, seed)
+    found = diagnose(parse_network(PLAIN + DAMPER, registry.elements), data, registry=registry)
+    print(found.verdict, [(named.cause.word, named.accepted) for named in found.named], found.before, found.after)
+    assert {named.cause.word for named in found.named if named.accepted} == {"friction"}
