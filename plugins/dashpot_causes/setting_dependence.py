@@ -1,15 +1,17 @@
-"""Parameters of the network that are others under other settings."""
+"""Parameters of the network that are others under other settings, or that follow a measured channel along a run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, free_name
+from dashpot.kernel.following import moved
 from dashpot.kernel.settings import with_settings
 from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
@@ -26,6 +28,7 @@ MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
 MOST_PLACES = 5  # of a table
+NEAREST = 0.1  # of how far all of them go: places of a table over a channel
 RUNS_KEPT = 2  # all forms ask for the same changes of a run, one after the other; runs may be seen at once
 
 
@@ -35,7 +38,10 @@ class SettingDependence(Cause):
     word = "setting_dependence"
     kind = "specimen"
     about = "dependence on a setting or on a measured channel"
-    shows = "the residual depends on the setting: alike in runs of one setting, opposite in those of another"
+    shows = (
+        "the residual depends on the setting: alike in runs of one setting, opposite in those of another; or it goes "
+        "along with the channel"
+    )
     changes_numbers = True
     confused_with = {
         "gain": "the same setting once more: a gain of single runs does not come back with it",
@@ -63,32 +69,47 @@ class SettingDependence(Cause):
 class Setting:
     """A setting by the name under which runs have it, with its mean over them and how far it goes, all in SI.
 
-    ``unit`` is the one in which they tell it.
+    Its value in a run may be one (n,) for each sample, that of a channel. ``unit`` is the one in which runs tell it.
     """
 
     name: str
     middle: float
     spread: float
-    values: Mapping[str, float]
+    values: Mapping[str, float | Array]
     unit: str = ""
 
     @classmethod
-    def of(cls, name: str, values: Mapping[str, float], unit: str = "") -> Setting:
+    def of(cls, name: str, values: Mapping[str, float | Array], unit: str = "") -> Setting:
         """The setting with its values by run."""
-        middle = float(f"{np.mean(list(values.values())):.{DIGITS}g}")
-        return cls(name, middle, max(values.values()) - min(values.values()), values, unit)
-
-    def share(self, run: str) -> float:
-        """How far a run is from the middle, over the spread."""
-        return (self.values[run] - self.middle) / self.spread
+        middle = float(f"{np.mean([np.mean(each) for each in values.values()]):.{DIGITS}g}")
+        ends = [(np.min(each), np.max(each)) for each in values.values()]
+        return cls(name, middle, float(np.max(ends) - np.min(ends)), values, unit)
 
     @property
+    def title(self) -> str:
+        """What it is called."""
+        return f"the channel {self.name.removeprefix(MEAN)}" if self.of_channel else self.name
+
+    @property
+    def of_channel(self) -> bool:
+        """Whether it was measured along the runs."""
+        return self.name.startswith(MEAN)
+
+    def share(self, run: str) -> float | Array:
+        """How far a run, or each of its samples (n,), is from the middle, over the spread."""
+        return (self.values[run] - self.middle) / self.spread
+
+    @cached_property
     def places(self) -> tuple[float, ...]:
         """The places of a table over the setting: its values, or where there are many, a few of them.
 
-        At each there is a run: a factor that no run tells could be anything.
+        At each there is a run: a factor that no run tells could be anything. Each place over a channel that moves
+        stands for as many samples, unless it would be as good as the one before.
         """
-        values = sorted({float(f"{value:.{DIGITS}g}") for value in self.values.values()})
+        if any(np.ndim(each) for each in self.values.values()):
+            samples = np.concatenate([np.ravel(each) for each in self.values.values()])
+            return _apart(_rounded(np.quantile(samples, (np.arange(MOST_PLACES) + 0.5) / MOST_PLACES)))
+        values = sorted(set(_rounded(np.array([*self.values.values()]))))
         if len(values) <= MOST_PLACES:
             return tuple(values)
         return tuple(values[round(at)] for at in np.linspace(0, len(values) - 1, MOST_PLACES))
@@ -108,8 +129,21 @@ class Setting:
 
     @property
     def _word(self) -> str:
-        kind = "channel" if self.name.startswith(MEAN) else "setting"
+        kind = "channel" if self.of_channel else "setting"
         return f"{kind}: {plain_or_quoted(self.name.removeprefix(MEAN))}"
+
+
+def _rounded(values: Array) -> list[float]:
+    return [float(f"{value:.{DIGITS}g}") for value in values]
+
+
+def _apart(places: Sequence[float]) -> tuple[float, ...]:
+    """Growing places without those that are hardly farther than the last one that stays."""
+    kept = list(places[:1])
+    for place in places[1:]:
+        if place - kept[-1] > NEAREST * (places[-1] - places[0]):
+            kept.append(place)
+    return tuple(kept)
 
 
 class Changes:
@@ -126,7 +160,34 @@ class Changes:
         """Each of them."""
         return (Number(self._branch, key, self._values[key], self) for key in self.keys)
 
-    def columns(self, view: View, run: str) -> Mapping[str, Array]:
+    def column(self, view: View, run: str, key: str, share: float | Array) -> Array:
+        """The change of the force (n,) with a number, when it changes by a ``share`` (n,) of the size at which a
+        dependence is told.
+        """
+        memory = bool(self._branch.element.declares.states)
+        if (memory and np.ndim(share)) or any(np.ndim(number) for number in self._along(view, run).values()):
+            return self._moved(view, run, key, share)
+        return share * self._whole(view, run)[key]
+
+    def _moved(self, view: View, run: str, key: str, share: float | Array) -> Array:
+        """The derivative of the force where numbers move along the run: a memory knows how they have moved."""
+        known, value = self._along(view, run), self._values[key]
+        ways = (side * NUDGE * abs(value.number) * share for side in (-1.0, 1.0))
+        ends = [np.clip(known[key] + way, *value.sensible) for way in ways]
+        less, more = view.respond(run, self._branch.element.word, [{**known, key: end} for end in ends])
+        return (more - less) / (2.0 * NUDGE) * np.sign(value.number)
+
+    def _along(self, view: View, run: str) -> dict[str, float | Array]:
+        """All numbers of the branch, as they are in a run or, where they follow a channel, at each sample (n,)."""
+        found: dict[str, float | Array] = dict(self._in(view.settings(run)))
+        channels = view.channels(run)
+        for key, value in self._values.items():
+            if value.over and value.over.channel and value.over.word in channels:
+                numbers = [each.number for each in value.over.numbers]
+                found[key] = moved(value.over, value.number, numbers, channels[value.over.word], value.sensible)
+        return found
+
+    def _whole(self, view: View, run: str) -> Mapping[str, Array]:
         """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
         if self._view() is not view:
             self._view, self._kept = ref(view), {}
@@ -143,8 +204,8 @@ class Changes:
     def _columns(self, view: View, run: str) -> Mapping[str, Array]:
         known = self._in(view.settings(run))
         ends = {key: self._ends(key, known[key]) for key in self.keys}
-        moved = [{**known, key: end} for key in self.keys for end in ends[key]]
-        forces = view.respond(run, self._branch.element.word, moved)
+        sets = [{**known, key: end} for key in self.keys for end in ends[key]]
+        forces = view.respond(run, self._branch.element.word, sets)
         return {
             key: (more - less) / (ends[key][1] - ends[key][0]) * self._values[key].number
             for key, less, more in zip(self.keys, forces[::2], forces[1::2], strict=True)
@@ -178,18 +239,27 @@ class Number:
         """Where it stands in the network."""
         return f"{self.branch.name}.{self.key}"
 
-    def column(self, view: View, run: str) -> Array:
-        """The change of the force (n,) when the number changes by all of the size at which its dependence is told."""
-        return self.changes.columns(view, run)[self.key]
+    def column(self, view: View, run: str, share: float | Array = 1.0) -> Array:
+        """The change of the force (n,) when the number changes by a ``share`` (n,) of the size at which its dependence
+        is told.
+        """
+        return self.changes.column(view, run, self.key, share)
 
 
 def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
     for name in sorted(common - OF_THE_MOTION):
-        setting = Setting.of(name, {run: each[name] for run, each in found.items()}, view.unit_of(name))
+        values = {run: _value(view, run, name, each[name]) for run, each in found.items()}
+        setting = Setting.of(name, values, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
             yield setting
+
+
+def _value(view: View, run: str, name: str, number: float) -> float | Array:
+    """That of a setting in a run; the samples of a channel that moves."""
+    signal = view.channels(run).get(name.removeprefix(MEAN)) if name.startswith(MEAN) else None
+    return number if signal is None or not np.ptp(signal) else signal
 
 
 def numbers_of(network: NetworkSpec) -> Iterator[Number]:
@@ -216,7 +286,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     """One or two of the parameters along a straight line over the setting."""
 
     def columns(view: View, run: str) -> Array:
-        return setting.share(run) * np.array([number.column(view, run) for number in numbers])
+        return np.array([number.column(view, run, setting.share(run)) for number in numbers])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         for strength, place in atoms:
@@ -227,7 +297,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
 
     grid = tuple(map(float, range(len(numbers))))
     return Suspect(
-        f"a number over {setting.name}",
+        f"a number over {setting.title}",
         grid,
         columns,
         extend,
@@ -236,7 +306,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
         most=2,
         quantity="change over the settings",
         unit="1",
-        of=tuple(f"{number.path} over {setting.name}" for number in numbers),
+        of=tuple(f"{number.path} over {setting.title}" for number in numbers),
     )
 
 
@@ -245,15 +315,15 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
     places = setting.places
 
     def columns(view: View, run: str) -> Array:
-        shares = np.array([np.interp(setting.values[run], places, one) for one in np.eye(len(places))])
-        return shares[:, None] * number.column(view, run)
+        shares = (np.interp(setting.values[run], places, one) for one in np.eye(len(places)))
+        return np.array([number.column(view, run, share) for share in shares])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         factors, reference = factors_of([strength for strength, _ in at_all_places(places, atoms)])
         return make_dependent(text, number.branch.name, number.key, setting.table(factors.tolist(), reference))
 
     return Suspect(
-        f"{number.path} in a table over {setting.name}",
+        f"{number.path} in a table over {setting.title}",
         places,
         columns,
         extend,
@@ -262,7 +332,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         unknowns=0,
         quantity="change of the factor",
         unit="1",
-        of=(f"{number.path} over {setting.name}",) * len(places),
+        of=(f"{number.path} over {setting.title}",) * len(places),
     )
 
 
@@ -287,7 +357,7 @@ def stiffness_over(setting: Setting) -> Suspect:
         return add_branch(text, f"{name}:\n  element: signed_spring\n  {entry}")
 
     return Suspect(
-        f"a stiffness over {setting.name}",
+        f"a stiffness over {setting.title}",
         (0.0,),
         columns,
         extend,
@@ -295,13 +365,13 @@ def stiffness_over(setting: Setting) -> Suspect:
         unknowns=0,
         quantity="change over the settings",
         unit="N/m",
-        of=(f"stiffness over {setting.name}",),
+        of=(f"stiffness over {setting.title}",),
     )
 
 
 def _force(setting: Setting) -> Suspect:
     def columns(view: View, run: str) -> Array:
-        return np.full((1, view.displacement(run).size), setting.share(run))
+        return np.ones((1, view.displacement(run).size)) * setting.share(run)
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         slope = atoms[0][0] / setting.spread
@@ -309,7 +379,7 @@ def _force(setting: Setting) -> Suspect:
         return add_branch(text, f"{free_name(text, 'setting_force')}:\n  element: constant_force\n  {entry}")
 
     return Suspect(
-        f"a force over {setting.name}",
+        f"a force over {setting.title}",
         (0.0,),
         columns,
         extend,
@@ -317,5 +387,5 @@ def _force(setting: Setting) -> Suspect:
         unknowns=0,
         quantity="change over the settings",
         unit="N",
-        of=(f"force over {setting.name}",),
+        of=(f"force over {setting.title}",),
     )

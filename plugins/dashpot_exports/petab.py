@@ -81,14 +81,15 @@ class Petab(Export):
         setting = prepare(read_dataset(Path(self.data), readers))
         require_settings(network, {name: run.excitation.settings for name, run in setting.scored.items()})
         noise = self.noise or setting.floor.value
+        channels = _channels(setting.dataset.runs, network)
         ranged = with_ranges(network, natural_sizes(setting.train))
         tables: dict[str, tuple[Sequence[str], Iterable[Row]]] = {
             "parameters": (PARAMETERS, [*parameter_rows(ranged), *_noise_rows(noise, setting)]),
-            "observables": (("observableId", "observableFormula", "noiseFormula"), list(_observables(setting, noise))),
+            "observables": (("observableId", "observableFormula", "noiseFormula"), list(_observables(channels, noise))),
             "conditions": _conditions(network, setting.dataset),
             "measurements": (
                 ("observableId", "simulationConditionId", "measurement", "time", "datasetId"),
-                _measurements(setting),
+                _measurements(setting, channels),
             ),
         }
         found = {f"{name}.tsv": _tsv(columns, rows) for name, (columns, rows) in tables.items()}
@@ -164,8 +165,8 @@ def _noise_rows(noise: float | None, setting: Setting) -> list[dict[str, Any]]:
     return [{**row, **bounds, "estimate": 1}]
 
 
-def _observables(setting: Setting, noise: float | None) -> Iterator[Row]:
-    for channel, identifier in identifiers(_channels(setting.dataset.runs)).items():
+def _observables(channels: Sequence[str], noise: float | None) -> Iterator[Row]:
+    for channel, identifier in identifiers(channels).items():
         force = channel.startswith("force")
         yield {
             "observableId": f"measured_{identifier}",
@@ -174,8 +175,12 @@ def _observables(setting: Setting, noise: float | None) -> Iterator[Row]:
         }
 
 
-def _channels(runs: Sequence[Run]) -> list[str]:
-    return list(dict.fromkeys(name for run in runs for name in run.channels if name.partition("@")[0] in MEASURED))
+def _channels(runs: Sequence[Run], network: NetworkSpec) -> list[str]:
+    """What is written of the runs: forces, motions, and the channels that numbers of the network follow."""
+    overs = (slot.value.over for slot in network.slots())
+    followed = {over.word for over in overs if over and over.channel}
+    names = dict.fromkeys(name for run in runs for name in run.channels)
+    return [name for name in names if name.partition("@")[0] in MEASURED or name in followed]
 
 
 def _conditions(network: NetworkSpec, dataset: Dataset) -> tuple[tuple[str, ...], list[Row]]:
@@ -196,12 +201,12 @@ def _conditions(network: NetworkSpec, dataset: Dataset) -> tuple[tuple[str, ...]
     return ("conditionId", "conditionName", *ids.values()), rows
 
 
-def _measurements(setting: Setting) -> Iterator[Row]:
+def _measurements(setting: Setting, channels: Sequence[str]) -> Iterator[Row]:
     names = identifiers(run.name for run in setting.dataset.runs)
-    channels = identifiers(_channels(setting.dataset.runs))
+    written = identifiers(channels)
     for run in setting.dataset.runs:
         share = "held_out" if run.name in setting.split.held_out else "training"
-        for channel, identifier in channels.items():
+        for channel, identifier in written.items():
             common = {"observableId": f"measured_{identifier}", "simulationConditionId": names[run.name]}
             for time, number in zip(run.time.tolist(), run.channels.get(channel, np.empty(0)).tolist(), strict=False):
                 yield {**common, "measurement": repr(number), "time": repr(time), "datasetId": share}

@@ -74,14 +74,20 @@ class View(Protocol):
         ``mean of temperature``.
         """
 
+    def channels(self, run: str) -> Mapping[str, Array]:
+        """What was measured (n,) beside motion and force, in SI by name."""
+
     def unit_of(self, setting: str) -> str:
         """The unit in which the runs tell a setting, as ``bar``; nothing for a bare number."""
 
     def moved(self, run: str, change: Array) -> Array:
         """The force (n,) in N of the present model if the deflection were larger by ``change`` (n,) in m."""
 
-    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
-        """The forces (m, n) of an element with each of m sets of values, moved like the specimen."""
+    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float | Array]]) -> Array:
+        """The forces (m, n) of an element with each of m sets of values, moved like the specimen.
+
+        A value may be another one (n,) at every sample.
+        """
 
 
 @dataclass(frozen=True)

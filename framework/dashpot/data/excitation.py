@@ -33,9 +33,9 @@ def channel_at(quantity: str, node: str) -> str:
 class Excitation:
     """Motions (Drive) and loads (n,) in N by the name of the node, and the settings of the test procedure, in SI.
 
-    The node of a network with two ends has the name "". Among the settings are the means of all further channels that
-    were measured (temperature, pressure ...), as ``mean_of`` names them, the ``order`` of a run in its dataset, and
-    the deflection that was ``reached`` before it.
+    The node of a network with two ends has the name "". ``channels`` (n,) in SI are all further ones that were measured
+    (temperature, pressure ...). Among the settings are their means, as ``mean_of`` names them, the ``order`` of a run
+    in its dataset, and the deflection that was ``reached`` before it.
     ``name`` is that of the run, ``source`` its file, ``units`` are those in which settings were told.
     """
 
@@ -47,6 +47,13 @@ class Excitation:
     name: str = ""
     source: str = ""
     units: Mapping[str, str] = field(default_factory=dict)
+    channels: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """The means of the channels join the settings, where these do not tell them."""
+        unknown = {name: each for name, each in self.channels.items() if mean_of(name) not in self.settings}
+        if unknown:
+            object.__setattr__(self, "settings", {**self.settings, **_means(unknown)})
 
     @classmethod
     def of_drive(cls, drive: Drive) -> Excitation:
@@ -74,8 +81,17 @@ class Excitation:
             for name, samples in run.channels.items()
             if name.partition("@")[0] == "force" and _node(name) not in motions
         }
-        samples = run.time.size
-        return cls(motions, loads, settings_of(run), run.sample_time, samples, run.record, run.source, run.units)
+        return cls(
+            motions,
+            loads,
+            settings_of(run),
+            run.sample_time,
+            run.time.size,
+            run.record,
+            run.source,
+            run.units,
+            further_channels(run),
+        )
 
     def at(self, driven: Sequence[str], loaded: Sequence[str]) -> Excitation:
         """The excitation of a network with these nodes; a single motion without a name is that of its only driven node.
@@ -100,17 +116,21 @@ class Excitation:
 
 def settings_of(run: Run) -> dict[str, float]:
     """The settings of a run, its ``order`` in the dataset, its history, and the means of its further channels."""
-    means = {
-        mean_of(name): float(np.mean(samples))
-        for name, samples in run.channels.items()
-        if name.partition("@")[0] not in MOVING
-    }
-    return {ORDER: float(run.order), **NOTHING, **run.history, **run.settings, **means}
+    return {ORDER: float(run.order), **NOTHING, **run.history, **run.settings, **_means(further_channels(run))}
+
+
+def further_channels(run: Run) -> dict[str, Array]:
+    """What was measured (n,) beside motions and forces, in SI."""
+    return {name: samples for name, samples in run.channels.items() if name.partition("@")[0] not in MOVING}
 
 
 def mean_of(channel: str) -> str:
     """The name of the mean of a channel among the settings."""
     return f"mean of {channel}"
+
+
+def _means(channels: Mapping[str, Array]) -> dict[str, float]:
+    return {mean_of(name): float(np.mean(samples)) for name, samples in channels.items()}
 
 
 def _node(channel: str) -> str:

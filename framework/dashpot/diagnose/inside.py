@@ -122,7 +122,7 @@ class Inside:
         }
         runs = self.records[record]
         changes = self._influence.changes(runs[0].excitation, forces)
-        observation = self._system.observation(self._system.start)
+        observation = self._system.observation(self._system.start, runs[0].excitation)
         seen = {}
         for run in runs:
             end = self._system.number_of(run.end)
@@ -135,7 +135,8 @@ class Inside:
         deflection = motions[pair[0]] - motions[pair[1]] + site.offset
         # a simulated motion has no sensor noise
         drive = drive_from_path(run.drive.dt, deflection, *interpolated_rates(run.drive.dt, deflection, QUINTIC))
-        whole = replace(Excitation.of_drive(drive), settings=run.excitation.settings)
+        driven = Excitation.of_drive(drive)
+        whole = replace(driven, settings=run.excitation.settings, channels=run.excitation.channels)
         return replace(run, name=_name(record, pair), drive=drive, end="", record="", whole=whole)
 
     @cached_property

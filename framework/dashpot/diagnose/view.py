@@ -9,14 +9,15 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.drive import moved_drive
+from dashpot.data.drive import Drive, moved_drive
+from dashpot.data.excitation import Excitation
 from dashpot.fit.objective import Objective
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.thinned import highest_frequency, largest_stroke
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.system import CompiledSystem
 from dashpot.model.element import Element
-from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Value
+from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec, Over, Value
 from dashpot.text.problem import InputError, Place, nearest
 
 Array = NDArray[np.float64]
@@ -87,6 +88,10 @@ class ModelView:
         """What was set at a run, and the means of its further channels, SI."""
         return self.scored[run].excitation.settings
 
+    def channels(self, run: str) -> Mapping[str, Array]:
+        """What was measured (n,) beside motion and force, in SI by name."""
+        return self.scored[run].excitation.channels
+
     def unit_of(self, setting: str) -> str:
         """The unit in which the runs tell a setting; nothing for a bare number."""
         known = (run.excitation.units for run in self.scored.values())
@@ -104,19 +109,24 @@ class ModelView:
             raise ValueError("expected a view that knows its network, got one made of forces alone")
         return compile_network(self.network)
 
-    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float]]) -> Array:
+    def respond(self, run: str, element: str, values: Sequence[Mapping[str, float | Array]]) -> Array:
         """The forces (m, n) of an element with each of m sets of values; what a set leaves out has its default.
 
-        Raises InputError for an element that no plugin provides and for a value that is missing and has no default.
+        A value may be another one (n,) at every sample. Raises InputError for an element that no plugin provides and
+        for a value that is missing and has no default.
         """
         if element not in self.elements:
             raise InputError.at(Place(), f"there is no element '{element}'", nearest(element, self.elements))
         law = self.elements[element]
         keys = tuple(dict.fromkeys(key for entry in values for key in entry))
         complete = [_with_defaults(law, keys, entry) for entry in values]
+        drive = self.scored[run].drive
+        moving = frozenset(key for entry in complete for key, value in entry.items() if np.ndim(value))
+        if moving:
+            return np.array([_along(_probe(law, keys, moving), drive, entry, moving) for entry in complete])
         probe = _probe(law, keys)
         lanes = np.array([[entry[path.partition(".")[2]] for path in probe.paths] for entry in complete])
-        return np.atleast_2d(probe.simulate(probe.prepare(self.scored[run].drive), lanes))
+        return np.atleast_2d(probe.simulate(probe.prepare(drive), lanes))
 
 
 def view_of(
@@ -129,20 +139,37 @@ def view_of(
     return ModelView({run.name: run for run in runs}, seen, elements, network)
 
 
-def _with_defaults(law: type[Element], keys: Sequence[str], entry: Mapping[str, float]) -> dict[str, float]:
+def _along(probe: CompiledNetwork, drive: Drive, entry: Mapping[str, float | Array], moving: frozenset[str]) -> Array:
+    """The force (n,) of a probe some of whose values move along the run."""
+    signals = {key: np.broadcast_to(entry[key], (drive.samples,)).astype(float) for key in moving}
+    rows = probe.prepare(replace(Excitation.of_drive(drive), channels=signals))
+    own_of = zip(probe.paths, probe.start, strict=True)
+    numbers = {f"probe.{key}": value for key, value in entry.items() if key not in moving}
+    return probe.simulate(rows, np.array([numbers.get(path, own) for path, own in own_of]))
+
+
+def _with_defaults(
+    law: type[Element], keys: Sequence[str], entry: Mapping[str, float | Array]
+) -> dict[str, float | Array]:
     parameters = law.declares.parameters
     given = {key: entry.get(key, parameters[key].default if key in parameters else None) for key in keys}
     if missing := [key for key, value in given.items() if value is None]:
         raise InputError.at(Place(), f"'{missing[0]}' is missing in a set of values, and it has no default")
-    return {key: float(value) for key, value in given.items() if value is not None}
+    return {key: value if np.ndim(value) else float(value) for key, value in given.items() if value is not None}
 
 
 @lru_cache(maxsize=64)
-def _probe(element: type[Element], keys: tuple[str, ...]) -> CompiledNetwork:
+def _probe(element: type[Element], keys: tuple[str, ...], moving: frozenset[str] = frozenset()) -> CompiledNetwork:
+    """One branch of an element; each ``moving`` number is that of a channel of its name."""
     declared = element.declares
-    values = {key: Value(1.0, declared.parameters[key].unit) for key in keys if key in declared.parameters}
+
+    def value(key: str, unit: str) -> Value:
+        follows = Over(key, "slope", (0.0,), (Value(1.0, "1"),), channel=True)
+        return Value(0.0, unit, over=follows) if key in moving else Value(1.0, unit)
+
+    values = {key: value(key, declared.parameters[key].unit) for key in keys if key in declared.parameters}
     curves = {
-        key: Characteristic(declared.curves[key], "constant", (Value(1.0, declared.curves[key].slope_unit),))
+        key: Characteristic(declared.curves[key], "constant", (value(key, declared.curves[key].slope_unit),))
         for key in keys
         if key in declared.curves
     }

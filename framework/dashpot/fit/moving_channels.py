@@ -1,4 +1,4 @@
-"""Channels on whose mean a number depends, and that move within runs: what the intervals of a fit leave out."""
+"""Channels on whose mean a mass or an offset depends, and that move within runs: what a fit leaves out."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.data.channel import unit_of_channel
 from dashpot.data.run import Run
+from dashpot.kernel.following import held_at_mean
 from dashpot.model.network import NetworkSpec
 from dashpot.text.quantity import pretty
 
@@ -20,10 +21,14 @@ _LOW, _HIGH = 0.05, 0.95
 def moving_channels(spec: NetworkSpec, runs: Sequence[Run]) -> list[str]:
     """A sentence for each channel that moves within one of the runs by half as much as between them, or by more.
 
-    A number over a channel has one value in a run, that at the mean of the channel, as if it rested there.
+    A mass, or the offset of a deflection, has one value in a run, that at the mean of the channel; all other numbers
+    follow the channel.
     """
-    found = {slot.value.over.word for slot in spec.slots() if slot.value.over and slot.value.over.channel}
-    return [sentence for word in sorted(found) if (sentence := _sentence(word, [run.channels[word] for run in runs]))]
+    held = held_at_mean(spec)
+    overs = [slot.value.over for slot in spec.slots() if slot.path in held]
+    words = sorted({over.word for over in overs if over and over.channel})
+    signals = {word: [run.channels[word] for run in runs if word in run.channels] for word in words}
+    return [sentence for word in words if signals[word] and (sentence := _sentence(word, signals[word]))]
 
 
 def _sentence(channel: str, signals: Sequence[np.ndarray]) -> str:
@@ -33,6 +38,6 @@ def _sentence(channel: str, signals: Sequence[np.ndarray]) -> str:
         return ""
     moved, apart = (pretty(value, unit_of_channel(channel) or "1", 2) for value in (inside, between))
     return (
-        f"numbers over '{channel}' take its mean in each run, but it moves by up to {moved} within a run, while the "
-        f"means lie {apart} apart: the intervals do not allow for that; cut such runs into shorter ones"
+        f"masses and offsets over '{channel}' take its mean in each run, but it moves by up to {moved} within a run, "
+        f"while the means lie {apart} apart: the intervals do not allow for that; cut such runs into shorter ones"
     )

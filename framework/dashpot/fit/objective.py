@@ -121,11 +121,11 @@ class Objective:
     ) -> Iterator[tuple[int, Array]]:
         for number in team:
             run = self.runs[number]
-            settings, dt = run.excitation.settings, run.drive.dt
+            excitation, dt = run.excitation, run.drive.dt
             forces = self.parts.sensitivities(self.part_rows(number), lanes, len(moves), self.scratch)
-            found = run.seen(self.network.observation(values, settings).linear(forces, dt))[:, run.first :]
+            found = run.seen(self.network.observation(values, excitation).linear(forces, dt))[:, run.first :]
             for k in np.flatnonzero(moves[:, self.parts.outside].any(axis=1)):
-                other = self.network.observation(values + moves[k], settings).see(forces[:1] + forces[1 + k], dt)[0]
+                other = self.network.observation(values + moves[k], excitation).see(forces[:1] + forces[1 + k], dt)[0]
                 found[1 + k] = run.seen(other)[run.first :] - found[0]
             found[0] -= run.force[run.first :]
             yield number, found
@@ -192,7 +192,7 @@ class Objective:
     def rmse(self, values: Array) -> Array:
         """The root mean square error of every run (runs, lanes) in N; a lane that fails has infinity."""
         values = np.atleast_2d(values)
-        plain = all(self.network.observation(values, run.excitation.settings).plain for run in self.runs)
+        plain = all(self.network.observation(values, run.excitation).plain for run in self.runs)
         if not plain or any(run.kind == STEADY for run in self.runs):
             squares = np.array(self._misfits(values, lambda _, misfits: _squares(misfits) / misfits.shape[1]))
         else:
@@ -236,7 +236,7 @@ class Objective:
     def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
         # what the load cells show in runs that were measured together
         rows = self._rows(team)
-        see = self.network.observation(values, self.runs[team[0]].excitation.settings).see
+        see = self.network.observation(values, self.runs[team[0]].excitation).see
         if isinstance(self.network, CompiledNetwork):
             assert isinstance(rows, Rows)
             for number in team:
@@ -262,7 +262,7 @@ class Objective:
         # what the load cells show of a solution
         assert isinstance(self.network, CompiledSystem)
         excitation, forces = self.runs[team[0]].excitation, solution.solved_force
-        see = self.network.observation(values, excitation.settings).see
+        see = self.network.observation(values, excitation).see
         for number in team:
             shown = see(forces[:, self.network.number_of(self.runs[number].end)], excitation.dt)
             yield number, self.runs[number].seen(shown)

@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from dashpot.data.excitation import Excitation, mean_of
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.settings import key_of
+from dashpot.kernel.following import keys_of
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.text.quantity import dimensions
 
@@ -65,13 +66,18 @@ def natural_sizes(runs: Sequence[ScoredRun]) -> Sizes:
         runs=tuple(size for size in map(_size_of, dynamic) if size.force > 0.0 and size.speed > 0.0),
         shortest=0.5 * min(run.drive.dt for run in dynamic),
         longest=max(run.drive.dt * run.drive.samples for run in runs),
-        spreads=_spreads([run.excitation.settings for run in runs]),
+        spreads=_spreads([run.excitation for run in runs]),
     )
 
 
-def _spreads(settings: Sequence[Mapping[str, float]]) -> dict[str, float]:
+def _spreads(runs: Sequence[Excitation]) -> dict[str, float]:
     # where all runs have the same setting nothing can be told from it, and its size has to do
-    found = {key: [each[key] for each in settings if key in each] for each in settings for key in each}
+    found: dict[str, list[float]] = {}
+    for run in runs:
+        # a channel goes as far as it moves within runs
+        ends = {mean_of(name): [float(np.min(each)), float(np.max(each))] for name, each in run.channels.items()}
+        for key, value in run.settings.items():
+            found.setdefault(key, []).extend(ends.get(key, [value]))
     return {key: float(np.ptp(values) or np.max(np.abs(values)) or 1.0) for key, values in found.items()}
 
 
@@ -101,7 +107,7 @@ def _over_settings(value: Value, of: Value, sizes: Sizes) -> Value:
         return _ranged(value, sizes)
     if of.over.way not in ("slope", "rate"):
         return replace(value, bounds=value.sensible)
-    spread = sizes.spreads.get(key_of(of.over), 1.0)
+    spread = next((sizes.spreads[key] for key in keys_of(of.over) if key in sizes.spreads), 1.0)
     natural = sizes.of_unit(of.unit)
     size = max(abs(of.number), natural[1] if natural else 0.0) if of.over.way == "slope" else 1.0
     span = MOST_OVER_SETTINGS * max(abs(value.number), (size or 1.0) / spread)

@@ -116,7 +116,8 @@ def _every(run: ScoredRun, step: int, resample: Resampling) -> ScoredRun:
 def _excitation(whole: Excitation, step: int, cut: slice) -> Excitation:
     motions = {name: _path(drive, step, cut) for name, drive in whole.motions.items()}
     loads = {name: decimate(load, step)[cut] for name, load in whole.loads.items()}
-    return replace(whole, motions=motions, loads=loads, dt=whole.dt * step, samples=cut.stop)
+    channels = {name: _taken(signal, step)[cut] for name, signal in whole.channels.items()}
+    return replace(whole, motions=motions, loads=loads, dt=whole.dt * step, samples=cut.stop, channels=channels)
 
 
 def _path(drive: Drive, step: int, cut: slice) -> Drive:

@@ -6,9 +6,9 @@ import numpy as np
 
 from dashpot.data.drive import drive_from_samples
 from dashpot.data.excitation import Excitation
+from dashpot.kernel.following import keys_of
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import take_apart
-from dashpot.kernel.settings import key_of
 from dashpot.kernel.system import CompiledSystem
 from dashpot.kernel.targets.choice import LLVM, backend
 from dashpot.model.network import Characteristic, NetworkSpec, Value
@@ -50,7 +50,7 @@ def _compile_system(network: CompiledSystem) -> None:
 def _at_rest(network: CompiledSystem) -> Excitation:
     drive, slots = drive_from_samples(STEP, np.zeros(SAMPLES)), network.spec.slots()
     settings = {slot.value.setting: slot.value.number for slot in slots if slot.value.setting}
-    settings |= {key_of(slot.value.over): slot.value.over.at[0] for slot in slots if slot.value.over}
+    settings |= {keys_of(slot.value.over)[0]: slot.value.over.at[0] for slot in slots if slot.value.over}
     loads = {node: np.zeros(SAMPLES) for node in network.topology.held("loaded")}
     return Excitation({node: drive for node in network.outputs}, loads, settings, STEP, SAMPLES, "at rest")
 

@@ -89,7 +89,7 @@ def solve(
     tolerance: float = TOLERANCE,
 ) -> RunSolution:
     """One run with the parameters of the file. Raises InputError with the reason where it cannot be solved."""
-    observation = network.observation(network.start, excitation.settings)
+    observation = network.observation(network.start, excitation)
     if isinstance(network, CompiledNetwork):
         alone = network.simulate(network.prepare(excitation))
         return RunSolution({END: observation.see(alone[None], excitation.dt)[0]}, {}, {END: 0.0}, {END: 0.0})

@@ -13,6 +13,7 @@ from dashpot.expr.interpret import interpret
 from dashpot.expr.node import symbols_of
 from dashpot.kernel.compiler.events import after_the_one_before, follow
 from dashpot.kernel.curves import segment_of
+from dashpot.kernel.following import Seen, at_samples
 from dashpot.kernel.ir.program import Program
 from dashpot.model.network import Characteristic
 
@@ -40,10 +41,15 @@ class Rows:
 
 
 def prepare_rows(
-    program: Program, curves: Mapping[str, Characteristic], drive: Drive, settings: Mapping[str, float]
+    program: Program, curves: Mapping[str, Characteristic], drive: Drive, settings: Mapping[str, float], channels: Seen
 ) -> Rows:
-    """Everything of a network that depends on the drive alone. At the first sample no branch has a memory yet."""
-    samples, turns = see_samples(drive), see_turns(drive)
+    """Everything of a network that depends on the drive and on ``channels`` (n,) alone.
+
+    At the first sample no branch has a memory yet. A turning point has the channels at the end of its step.
+    """
+    seen = at_samples(channels)
+    samples = see_samples(drive) | seen
+    turns = see_turns(drive) | {name: signal[drive.turn_step] for name, signal in seen.items()}
     before_samples, before_turns = follow(program.followers, drive, samples, turns)
     columns = _evaluate(program, {**samples, **before_samples}, drive.samples)
     turn_columns = _evaluate(program, {**turns, **before_turns}, drive.turn_step.size)

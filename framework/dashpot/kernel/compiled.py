@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from types import MappingProxyType
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -17,6 +16,7 @@ from dashpot.data.excitation import Excitation
 from dashpot.kernel.block import Block
 from dashpot.kernel.compiler.compile import recipe_of
 from dashpot.kernel.curves import cubic_coefficients
+from dashpot.kernel.following import moved
 from dashpot.kernel.ir.program import Program
 from dashpot.kernel.observe import Observation, read_observation
 from dashpot.kernel.settings import with_settings
@@ -59,9 +59,22 @@ class Compiled(ABC, Generic[Prepared]):
         """What simulates ``values`` along a motion; this is prepared once."""
         return partial(self.simulate, self.prepare(motion))
 
-    def observation(self, values: Array, settings: Mapping[str, float] = MappingProxyType({})) -> Observation:
-        """How the load cells see each lane in a run with these settings."""
-        return read_observation(self.paths, with_settings(self.spec, np.atleast_2d(values), settings))
+    def observation(self, values: Array, excitation: Excitation | None = None) -> Observation:
+        """How the load cells see each lane in a run; gain and offset may follow channels of it, sample by sample."""
+        lanes = np.atleast_2d(values)
+        if excitation is None:
+            return read_observation(self.paths, lanes)
+        seen = read_observation(self.paths, with_settings(self.spec, lanes, excitation.settings))
+        return replace(seen, **dict(self._moving_channel(lanes, excitation))) if excitation.channels else seen
+
+    def _moving_channel(self, lanes: Array, excitation: Excitation) -> Iterator[tuple[str, Array]]:
+        # gain and offset (lanes, n) of the force channel where they follow one that was measured beside it
+        for number, slot in enumerate(self.spec.slots()):
+            over, (force, _, key) = slot.value.over, slot.path.rpartition(".")
+            if over and over.channel and over.word in excitation.channels and force == "measurement.force":
+                inner = lanes[:, number + 1 : number + 1 + len(over.numbers)].T[:, :, None]
+                signal = excitation.channels[over.word]
+                yield key, moved(over, lanes[:, number, None], list(inner), signal, slot.value.sensible)
 
     def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
         # a fit asks for the same lanes run by run; runs of one network may be in several threads

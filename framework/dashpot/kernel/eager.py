@@ -26,6 +26,7 @@ from dashpot.kernel.compiler.trace import (
     trace_network,
 )
 from dashpot.kernel.curves import TableLaw, cubic_coefficients
+from dashpot.kernel.following import without_channels
 from dashpot.model.element import Motion, Response
 from dashpot.model.network import Branch, Characteristic, NetworkSpec
 
@@ -36,10 +37,11 @@ Numbers = Mapping[str, Array]
 def simulate_eagerly(spec: NetworkSpec, drive: Drive, values: Array | None = None) -> Array:
     """The force (lanes, samples) in N for ``values`` (lanes, slots), by the elements' own numpy code.
 
+    Numbers over settings and channels are what ``values`` say.
     ``values`` are in the order of ``spec.slots()``; a single lane (slots,), or None for those of the network, is
     answered as (samples,).
     """
-    block = _block(spec, values)
+    spec, block = without_channels(spec), _block(spec, values)
     numbers = _numbers(spec, block)
     walkers = [
         _EagerWalker(branch, traced.sight, numbers, block.shape[0])
@@ -50,7 +52,7 @@ def simulate_eagerly(spec: NetworkSpec, drive: Drive, values: Array | None = Non
 
 def simulate_interpreted(spec: NetworkSpec, drive: Drive, values: Array | None = None) -> Array:
     """The same as ``simulate_eagerly`` by interpreting the traced graph."""
-    block = _block(spec, values)
+    spec, block = without_channels(spec), _block(spec, values)
     numbers = _numbers(spec, block)
     tables = {path: table_law(path, curve, numbers) for path, curve in _tabulated(spec).items()}
     walkers = [_GraphWalker(traced, numbers, tables, block.shape[0]) for traced in trace_network(spec)]

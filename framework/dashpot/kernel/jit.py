@@ -63,7 +63,9 @@ class Solver:
 
 
 def jit_network(spec: NetworkSpec, settings: Mapping[str, float] = MappingProxyType({})) -> Solver:
-    """The solver of a network; ``settings`` give the parameters that depend on the settings of a run.
+    """The solver of a network; ``settings`` in SI are those of a run on which its parameters depend.
+
+    Of a channel that a parameter follows they tell, by its name, the one value that it has here.
 
     Raises InputError for a network that cannot be compiled, or that depends on a setting that is not given.
     """

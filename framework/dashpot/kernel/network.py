@@ -17,8 +17,9 @@ from dashpot.kernel.columns import Rows, prepare_rows
 from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import program_of
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
+from dashpot.kernel.following import channels_of
 from dashpot.kernel.ir.layout import LANES, score_row, vectors_of
-from dashpot.kernel.settings import used_settings, with_settings
+from dashpot.kernel.settings import used_settings, with_constants
 from dashpot.kernel.system import CompiledSystem, compile_system
 from dashpot.kernel.targets.choice import Code, backend, target
 from dashpot.kernel.workers import spread
@@ -61,13 +62,14 @@ class CompiledNetwork(Compiled[Rows]):
     def prepare(self, motion: Drive | Excitation) -> Rows:
         """The part of the work that depends on the drive alone."""
         if isinstance(motion, Drive):
-            return prepare_rows(self.program, self.curves, motion, {})
-        settings = used_settings(self.spec, motion.settings, motion.name)
-        return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], settings)
+            alone = channels_of(self.spec, Excitation.of_drive(motion))
+            return prepare_rows(self.program, self.curves, motion, {}, alone)
+        settings, channels = used_settings(self.spec, motion.settings, motion.name), channels_of(self.spec, motion)
+        return prepare_rows(self.program, self.curves, motion.at((END,), ()).motions[END], settings, channels)
 
     def simulate(self, run: Rows, values: Array | None = None, out: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N, in ``out`` if given; one lane is answered as (samples,)."""
-        lanes = with_settings(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
+        lanes = with_constants(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
         if out is None:
             out = np.empty((lanes.shape[0], run.drive.samples))
         code, width = self._group(lanes.shape[0])
@@ -89,7 +91,7 @@ class CompiledNetwork(Compiled[Rows]):
         blocks: dict[Hashable, list[Block]] = {}
         for run in runs:
             if _make(run) not in blocks:
-                blocks[_make(run)] = self._blocks(run.drive.dt, with_settings(self.spec, lanes, run.settings), width)
+                blocks[_make(run)] = self._blocks(run.drive.dt, with_constants(self.spec, lanes, run.settings), width)
 
         def work(run: Rows, target: Array, weight: Array) -> Array:
             out = np.empty(lanes.shape[0])

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Observation:
-    """The force channel, one number per lane: what it shows of a force F is
+    """The force channel, one number per lane, gain and offset also (lanes, n): what it shows of a force F is
 
     min(gain * smoothed(max(F, least))(t - delay) + offset + hum(t), largest)
 
@@ -65,7 +65,7 @@ class Observation:
     def _unlimited(self, force: Array, dt: float) -> Array:
         held = smoothed(np.maximum(force, self.least[:, None]), self.lag, dt)
         late = _shifted(held, np.broadcast_to(self.delay / dt, len(held)))
-        shown = self.gain[:, None] * late + self.offset[:, None]
+        shown = _by_lane(self.gain) * late + _by_lane(self.offset)
         if np.any(self.cosine) or np.any(self.sine):
             phase = 2.0 * np.pi * self.frequency[:, None] * dt * np.arange(force.shape[1])
             shown = shown + self.cosine[:, None] * np.cos(phase) + self.sine[:, None] * np.sin(phase)
@@ -87,6 +87,10 @@ class Observation:
         found = np.concatenate([shown, self.gain[0] * late])
         found[0, beyond], found[1:, beyond] = self.largest[0], 0.0
         return found
+
+
+def _by_lane(numbers: Array) -> Array:
+    return numbers if numbers.ndim == 2 else numbers[:, None]
 
 
 def read_observation(paths: tuple[str, ...], values: Array) -> Observation:

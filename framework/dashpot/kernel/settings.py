@@ -2,46 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.excitation import ORDER, mean_of
+from dashpot.data.excitation import ORDER
 from dashpot.data.history import NOTHING
+from dashpot.kernel.following import follows, keys_of, moved, told_to
 from dashpot.model.network import NetworkSpec, Over, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
 Array = NDArray[np.float64]
 
-STEEPEST = 50.0  # exponent of a rate over the settings, so that a search may try what it likes
-
 
 def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
     """The lanes (lanes, slots) with the parameters that the run gives, and with those that depend on its settings.
 
-    A number over a setting that is not there stays what it is at the place where it is told.
+    A number over a channel has its value at the mean. One over a setting that is not there stays what it is at the
+    place where it is told.
     """
+    return _with_settings(spec, lanes, settings, lambda slot: True)
+
+
+def with_constants(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
+    """The same, but numbers that follow a channel along the run stay as they are: the laws move them."""
+    return _with_settings(spec, lanes, settings, lambda slot: not follows(slot, spec))
+
+
+def _with_settings(
+    spec: NetworkSpec, lanes: Array, settings: Mapping[str, float], counts: Callable[[Slot], bool]
+) -> Array:
     slots = spec.slots()
     given = {
         number: settings[slot.value.setting] for number, slot in enumerate(slots) if slot.value.setting in settings
     }
-    moving = [
+    changed = [
         (number, slot.value.over)
         for number, slot in enumerate(slots)
-        if slot.value.over and key_of(slot.value.over) in settings
+        if slot.value.over and told_to(slot.value.over, settings) is not None and counts(slot)
     ]
-    if not given and not moving:
+    if not given and not changed:
         return lanes
     own = lanes.copy()
     if given:
         own[:, list(given)] = list(given.values())
-    for number, over in moving:
+    for number, over in changed:
         # the parameters of a dependence stand behind the number that depends
         inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
-        moved = _at(over, lanes[:, number], inner, settings[key_of(over)])
-        own[:, number] = np.clip(moved, *slots[number].value.sensible)
+        sensible = slots[number].value.sensible
+        own[:, number] = moved(over, lanes[:, number], list(inner.T), told_to(over, settings), sensible)
     return own
 
 
@@ -52,7 +63,8 @@ def used_settings(spec: NetworkSpec, settings: Mapping[str, float], run: str = "
     problems = list(_missing(spec, settings, run))
     if problems:
         raise InputError(problems)
-    needed = {key for slot in spec.slots() for key in (slot.value.setting, slot.value.over and key_of(slot.value.over))}
+    needed = {slot.value.setting for slot in spec.slots()}
+    needed |= {key for slot in spec.slots() if slot.value.over for key in keys_of(slot.value.over)}
     return {key: value for key, value in settings.items() if key in needed}
 
 
@@ -66,19 +78,14 @@ def at_settings(spec: NetworkSpec, settings: Mapping[str, float]) -> NetworkSpec
     if unknown := sorted(set(settings) - set(used)):
         raise ValueError(f"no parameter of '{spec.name}' depends on the setting '{unknown[0]}'")
     numbers = with_settings(spec, np.array([[slot.value.number for slot in slots]]), used)[0]
-    moved = {
+    frozen = {
         slot.path: replace(slot.value, number=number, over=None, setting="", interval=None)
         for slot, number in zip(slots, numbers.tolist(), strict=True)
         if slot.value.over or slot.value.setting in used
     }
     told = ", ".join(f"{key} {value:.6g}" for key, value in used.items())
     record = {**spec.identified.record, **({"at": f"{told} in SI"} if used else {})}
-    return replace(spec.with_values(moved), identified=replace(spec.identified, record=record))
-
-
-def key_of(over: Over) -> str:
-    """Under which name the settings of an excitation hold what a number depends on."""
-    return mean_of(over.word) if over.channel else over.word
+    return replace(spec.with_values(frozen), identified=replace(spec.identified, record=record))
 
 
 def require_settings(spec: NetworkSpec, runs: Mapping[str, Mapping[str, float]]) -> None:
@@ -93,8 +100,8 @@ def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iter
     told = {ORDER, *NOTHING}
     for slot in spec.slots():
         over = slot.value.over
-        if over and key_of(over) not in settings and key_of(over) not in told:
-            told.add(key_of(over))
+        if over and told.isdisjoint(keys_of(over)) and settings.keys().isdisjoint(keys_of(over)):
+            told.add(keys_of(over)[0])
             yield _problem(slot, over, run)
 
 
@@ -112,21 +119,3 @@ def _problem(slot: Slot, over: Over, run: str) -> Problem:
         f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",
         f"add '{over.word}' to the {how} of the run in the dataset file, or leave the run out",
     )
-
-
-def _at(over: Over, base: Array, numbers: Array, setting: float) -> Array:
-    """The number (lanes,) at a setting."""
-    if over.way == "slope":
-        return base + numbers[:, 0] * (setting - over.at[0])
-    if over.way == "rate":
-        return base * np.exp(np.clip(numbers[:, 0] * (setting - over.at[0]), -STEEPEST, STEEPEST))
-    if over.way == "wlf":
-        away = setting - over.at[0]
-        # at C2 below the place nothing flows any more
-        shift = -numbers[:, 0] * away / np.maximum(numbers[:, 1] + away, 1e-3 * numbers[:, 1]) * np.log(10.0)
-        return base * np.exp(np.clip(shift, -STEEPEST, STEEPEST))
-    if over.way == "arrhenius":
-        return base * np.exp(np.clip(numbers[:, 0] * (1.0 / setting - 1.0 / over.at[0]), -STEEPEST, STEEPEST))
-    # hats over the places: the outer ones go on as they are
-    weights = np.array([np.interp(setting, over.at, hat) for hat in np.eye(len(over.at))])
-    return base * (numbers @ weights)

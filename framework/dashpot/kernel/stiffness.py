@@ -37,9 +37,9 @@ def dynamic_stiffness(
     ``frequency`` in Hz, ``amplitude`` and ``preload`` in m are broadcast against each other; the answer has their
     common shape. The sine begins at rest at the preload; K* is the fundamental of the force in the last period over the
     amplitude, and the periods are doubled until it changes by less than 1e-4 (else a RuntimeWarning says so).
-    ``settings`` in SI are those that its parameters depend on. InputError for a network with several driven ends,
-    with curves that have no numbers yet, or without a setting that it needs; ValueError for frequencies and amplitudes
-    that are not above 0.
+    ``settings`` in SI are those that its parameters depend on, a channel among them by its name. InputError for a
+    network with several driven ends, with curves that have no numbers yet, or without a setting that it needs;
+    ValueError for frequencies and amplitudes that are not above 0.
     """
     _refuse_several_ends(spec)
     shape = np.broadcast(frequency, amplitude, preload).shape

@@ -19,11 +19,12 @@ from dashpot.kernel.compiler.compile import system_of
 from dashpot.kernel.compiler.mechanics import MOVED, Meter, driven_symbol
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
 from dashpot.kernel.course import EXTRAPOLATED, LONG_ALONE, QUICK, QUICK_ALONE, Course, Marched
+from dashpot.kernel.following import Seen, at_parts, at_rest, channels_of
 from dashpot.kernel.ir.layout import LANES
 from dashpot.kernel.ir.system import FARTHEST, SMALLEST_SPAN, TOLERANCE, SystemProgram
 from dashpot.kernel.pieces import Changed, Piece, Pieces, SystemRows
 from dashpot.kernel.scheme import PAIR, Rule, alternate, multistep
-from dashpot.kernel.settings import used_settings, with_settings
+from dashpot.kernel.settings import used_settings, with_constants
 from dashpot.kernel.solution import HALVED, Solution, status_of
 from dashpot.kernel.targets.choice import Code, target
 from dashpot.kernel.workers import spread
@@ -69,7 +70,8 @@ class CompiledSystem(Compiled[SystemRows]):
         excitation = whole.at(self.outputs, self.topology.held("loaded"))
         if whole is motion:
             excitation = replace(excitation, settings=used_settings(self.spec, whole.settings, whole.name))
-        still = self._columns({"dt": excitation.dt, **self._still(excitation)}, 1)
+        channels = channels_of(self.spec, excitation)
+        still = self._columns({"dt": excitation.dt, **self._still(excitation), **at_rest(channels)}, 1)
         newton = self._newton(excitation, pairs)
         loads = {node: _spline(load) for node, load in excitation.loads.items()}
 
@@ -80,7 +82,7 @@ class CompiledSystem(Compiled[SystemRows]):
                 # the long steps end at every second place of the short ones
                 steps = (2, long), (1, 2 * long)
                 coarse, fine = (
-                    self._moved(excitation, _thinned(paths, skip), loads, newton, parts, (before, end), quick)
+                    self._moved(excitation, _thinned(paths, skip), loads, channels, newton, parts, (before, end), quick)
                     for skip, parts in steps
                 )
                 return Piece(first, end, coarse, fine)
@@ -283,7 +285,7 @@ class CompiledSystem(Compiled[SystemRows]):
         return list(blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, width))
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
-        return with_settings(
+        return with_constants(
             self.spec, np.atleast_2d(self.start if values is None else values), run.excitation.settings
         )
 
@@ -292,6 +294,7 @@ class CompiledSystem(Compiled[SystemRows]):
         excitation: Excitation,
         paths: Sequence[Sequence[Array]],
         loads: Mapping[str, Callable[[Array], Array]],
+        channels: Seen,
         newton: Mapping[str, float],
         parts: int,
         span: tuple[int, int],
@@ -307,6 +310,7 @@ class CompiledSystem(Compiled[SystemRows]):
             at = np.arange(before * parts + 1, before * parts + count + 1) / parts
             seen[driven_symbol(joint, "load")] = loads[joint](at)
         seen |= dict.fromkeys((driven_symbol(signal, "load") for signal in self.signals), 0.0)
+        seen |= at_parts(channels, parts, *span)
         step = excitation.dt / parts
         rule = multistep(step, before * parts, count) if quick else alternate(step, count // PAIR, before == 0)
         seen |= {f"rule.{each.name}": getattr(rule, each.name) for each in fields(rule)}

@@ -74,7 +74,7 @@ class Value:
 
 @dataclass(frozen=True)
 class Over:
-    """How a number b depends on a setting s, or on the mean of a channel over a run.
+    """How a number b depends on a setting s, or on a channel s, which it follows sample by sample.
 
     ``slope``: b + slope (s - at); ``rate``: b exp(rate (s - at)); ``factor``: b times a factor that goes along straight
     lines between the places ``at`` and stays as it is outside of them. With a temperature s in K, ``wlf``:

@@ -1,4 +1,4 @@
-"""Reading what a number does over a setting, or over the mean of a channel."""
+"""Reading what a number does over a setting, or along a channel."""
 
 from __future__ import annotations
 

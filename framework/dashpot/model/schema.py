@@ -180,10 +180,10 @@ def _prior() -> Schema:
 
 
 def _over() -> Schema:
-    """What a number does over a setting or over the mean of a channel."""
+    """What a number does over a setting, or along a channel."""
     words = {
         "setting": s.text("the setting of a run on which it depends"),
-        "channel": s.text("the channel on whose mean over the run it depends"),
+        "channel": s.text("the channel that it follows along the run; a mass or the offset of a branch takes its mean"),
     }
     place = {"at": s.quantity("", "where it has its base value")}
     ways = {

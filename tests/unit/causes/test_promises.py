@@ -63,6 +63,9 @@ class SmallView:
     def settings(self, run):
         return {"small": {"pressure": 2e5, "preload": 0.01}, "large": {"pressure": 3e5, "preload": 0.0}}[run]
 
+    def channels(self, run):
+        return {}
+
     def unit_of(self, setting):
         return ""
 

@@ -10,8 +10,12 @@ import pytest
 from scipy.interpolate import make_interp_spline
 from unit.causes.test_promises import NETWORK, REGISTRY, STEP, VIEW, SmallView
 
+from dashpot.data.excitation import Excitation
 from dashpot.diagnose.term import Term, first_model
+from dashpot.diagnose.view import view_of
+from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.network import compile_network
 from dashpot.model.patch import add_branch, replace_branch
 from dashpot.model.reading import parse_network
 from dashpot.text.problem import InputError
@@ -267,3 +271,78 @@ def test_what_a_number_does_is_the_derivative_of_the_force_where_the_run_has_it(
     plain, _ = dependence()
     for run in VIEW.runs:
         assert numbers.columns(VIEW, run)[1] == pytest.approx(plain.columns(VIEW, run)[1], rel=1e-6)
+
+
+WARMING = 293.15 + 25.0 * np.linspace(0.0, 1.0, 120) ** 2
+
+
+class Warming(SmallView):
+    """The large sweep warms the specimen up, the small one cools it down; the force is that of a real view."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.signals = {"small": {"temperature": WARMING[::-1]}, "large": {"temperature": WARMING}}
+        runs = {
+            name: ScoredRun(name, "sweep", drive, np.zeros(120), 0, whole=self.excitation(name))
+            for name, drive in self.drives.items()
+        }
+        self.real = view_of(parse_network(text, REGISTRY.elements), list(runs.values()), REGISTRY.elements)
+
+    def excitation(self, run):
+        return replace(Excitation.of_drive(self.drives[run]), channels=self.signals[run])
+
+    def settings(self, run):
+        return self.real.settings(run)
+
+    def channels(self, run):
+        return self.real.channels(run)
+
+    def respond(self, run, element, values):
+        return self.real.respond(run, element, values)
+
+
+RELAXING = NETWORK + "  slow: {element: maxwell, stiffness: 90 N/mm, relaxation_time: 20 ms}\n"
+FOLLOWING = NETWORK + (
+    "  slow: {element: maxwell, relaxation_time: 20 ms, stiffness: {fixed: 90 N/mm, over: "
+    "{channel: temperature, at: 20 degC, rate: -3 %/K}}}\n"
+)
+
+
+@pytest.mark.parametrize("text", [RELAXING, FOLLOWING], ids=["constant", "moving already"])
+def test_over_a_channel_the_cure_adds_what_the_columns_show_with_all_memory(text):
+    """Central differences of the written networks, each simulated along the channel."""
+    view = Warming(text)
+    straight, *_ = forms = dependence(text, view)
+    tables = [form for form in forms if "in a table" in form.form]
+    assert straight.form == "a number over the channel temperature"
+    assert len(straight.grid) == len(tables) == 4
+    assert [form.form for form in forms[-1:]] == ["a force over the channel temperature"]
+    small = 1e-4
+
+    def along(extend, atoms, run):
+        network = compile_network(parse_network(extend(text, atoms), REGISTRY.elements))
+        return network.simulate(network.prepare(view.excitation(run)))
+
+    for run in view.runs:
+        for number, place in enumerate(straight.grid):
+            if "over" in text and straight.of[number].startswith("slow.stiffness"):
+                continue  # it depends already: nothing is written beside that
+            more, less = (along(straight.extend, [(side * small, place)], run) for side in (1.0, -1.0))
+            shown = straight.columns(view, run)[number]
+            assert (more - less) / (2.0 * small) == pytest.approx(shown, abs=2e-3 * np.max(np.abs(shown)))
+        time = next(form for form in tables if form.form.startswith("slow.relaxation_time"))
+        columns = time.columns(view, run)
+        for number in range(len(time.grid)):
+            ends = [[(side * small * (k == number), at) for k, at in enumerate(time.grid)] for side in (1.0, -1.0)]
+            more, less = (along(_all_factors, each, run) for each in ends)
+            # a factor bends at its place, somewhere within a step of the memory
+            near = 5e-3 * np.max(np.abs(columns))
+            assert (more - less) / (2.0 * small) == pytest.approx(columns[number], abs=near)
+
+
+def _all_factors(text, atoms):
+    """A table with all factors as they are asked for: the one that is written has five digits of them."""
+    at = ", ".join(f"{place!r}" for _, place in atoms)
+    factors = ", ".join(f"{1.0 + strength!r}" for strength, _ in atoms)
+    over = f"{{fixed: 20 ms, over: {{channel: temperature, at: [{at}], factor: [{factors}]}}}}"
+    return text.replace("relaxation_time: 20 ms", f"relaxation_time: {over}")

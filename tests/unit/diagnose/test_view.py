@@ -27,3 +27,14 @@ def test_what_a_set_of_values_leaves_out_has_its_default(view):
 def test_a_value_without_a_default_is_asked_for(view):
     with pytest.raises(InputError, match="'compression' is missing in a set of values"):
         view.respond(view.runs[0], "asymmetric_damper", [{"rebound": 1.0}, {"compression": 1.0}])
+
+
+def test_a_value_may_move_along_the_run(view):
+    """A dashpot whose damping is another one at every sample, and a spring whose stiffness is."""
+    run = view.runs[0]
+    moving = 300.0 + np.cumsum(np.abs(view.displacement(run)))
+    damped, plain = view.respond(run, "damper", [{"damping": moving}, {"damping": 7.0}])
+    assert damped == pytest.approx(moving * view.velocity(run), rel=1e-9, abs=1e-9)
+    assert plain == pytest.approx(7.0 * view.velocity(run), rel=1e-9, abs=1e-9)
+    [pressed] = view.respond(run, "spring", [{"stiffness": moving}])
+    assert pressed == pytest.approx(moving * view.displacement(run), rel=1e-9, abs=1e-9)

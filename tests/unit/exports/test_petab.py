@@ -148,3 +148,22 @@ def test_the_tables_are_read_as_they_were_written(home, tmp_path):
     original = dp.load_dataset(home).run("run-1")
     assert back.force == pytest.approx(original.force, rel=1e-15)
     assert back.displacement == pytest.approx(original.displacement, rel=1e-15)
+
+
+def test_a_channel_that_a_number_follows_stands_among_the_measurements(home, tmp_path):
+    """As it was measured, at every sample; another channel is left out, and so is this one where nothing follows it."""
+    time = np.arange(300) * 1e-3
+    columns = [time, 1e-3 * np.sin(30.0 * time), np.zeros(300), 0.5 + time, np.ones(300)]
+    np.savetxt(tmp_path / "run.csv", np.array(columns).T, delimiter=",", header="t,x,F,i,j", comments="")
+    channels = "time: {column: t, unit: s}, displacement: {column: x, unit: m}, force: {column: F, unit: N}"
+    more = "current: {column: i, unit: A}, current@other: {column: j, unit: A}"
+    run = f"{{name: run, file: run.csv, kind: sweep, settings: {{bias: 0 N}}, channels: {{{channels}, {more}}}}}"
+    (tmp_path / "dataset.yaml").write_text(f"format: dashpot-dataset/1\nname: one\nruns:\n  - {run}\n")
+    over = "{start: 100 N*s/m, bounds: [1 N*s/m, 1 kN*s/m], over: {channel: current, at: 0 A, slope: 2 N*s/m/A}}"
+    following = MODEL.replace("{expression: 1 ms * rubber.stiffness}", over)
+    found = rows(exported(tmp_path, following, noise=1.0), "measurements.tsv")
+    shown = [float(row["measurement"]) for row in found if row["observableId"] == "measured_current"]
+    assert shown == pytest.approx((0.5 + time).tolist(), rel=1e-12)
+    assert {row["observableId"] for row in found} == {"measured_displacement", "measured_force", "measured_current"}
+    plain = rows(exported(tmp_path, noise=1.0), "measurements.tsv")
+    assert {row["observableId"] for row in plain} == {"measured_displacement", "measured_force"}

@@ -14,6 +14,7 @@ from dashpot.data.excitation import Excitation
 from dashpot.data.run import Run
 from dashpot.fit.api import fit_network
 from dashpot.fit.scored import score_run
+from dashpot.fit.thinned import thinned
 from dashpot.kernel.api import simulate_runs
 from dashpot.kernel.network import compile_network
 from dashpot.model.reading import parse_network
@@ -132,16 +133,35 @@ def test_a_number_stays_inside_its_sensible_range():
     assert np.max(np.abs(force)) < 1.0
 
 
-def test_a_channel_counts_with_its_mean_over_the_run():
-    text = HEAD + (
-        "  oil: {element: damper, damping: {fixed: 100 N*s/m, over: {channel: temperature, at: 20 degC, "
-        "slope: -2 N*s/m/K}}}\n"
-    )
-    made = run("r", 1.0, 2e-3, 5.0)
-    warm = replace(made, channels={**made.channels, "temperature": 303.15 + np.linspace(-5.0, 5.0, TIME.size)})
-    found = simulate_runs(parse_network(text, REGISTRY.elements), Dataset("d", (warm,)))["r"]
-    plain = parse_network(HEAD + "  oil: {element: damper, damping: 80 N*s/m}\n", REGISTRY.elements)
-    assert found == pytest.approx(simulate_runs(plain, Dataset("d", (warm,)))["r"], abs=1e-9)
+def along(celsius, name="r", law=lambda celsius: 300.0 - 4.0 * (celsius - 20.0), amplitude=2e-3, frequency=5.0):
+    """A run of a spring and a damper whose damping has the temperature of each sample, by its own formula."""
+    omega = 2.0 * np.pi * frequency
+    x, v = amplitude * np.sin(omega * TIME), amplitude * omega * np.cos(omega * TIME)
+    noise = 0.1 * np.random.default_rng(len(name)).standard_normal(x.size)
+    channels = {"displacement": x, "force": 5e4 * x + law(celsius) * v + noise, "temperature": 273.15 + celsius}
+    return Run(name, "harmonic", TIME, channels, {}, group=name)
+
+
+WARM = HEAD + (
+    "  rubber: {element: spring, stiffness: {start: 30 N/mm}}\n"
+    "  oil: {element: damper, damping: {start: 100 N*s/m, over: {channel: temperature, at: 20 degC, "
+    "slope: {start: 0 N*s/m/K}}}}\n"
+)
+
+
+def test_a_fit_finds_what_a_temperature_does_that_moves_within_runs_alone():
+    """The means of all runs are the same: nothing but what happens within them can tell."""
+    swings = [8.0 * np.sin(2.0 * np.pi * f * TIME / TIME[-1]) for f in (1.0, 2.0, 3.0)]
+    runs = [
+        along(30.0 + swing, f"r{k}", amplitude=a, frequency=f)
+        for k, (swing, a, f) in enumerate(zip(swings, (2e-3, 1e-3, 3e-3), (5.0, 9.0, 3.0), strict=True))
+    ]
+    fit = fit_network(parse_network(WARM, REGISTRY.elements), Dataset("d", tuple(runs)), registry=REGISTRY)
+    numbers = {slot.path: slot.value.number for slot in fit.fitted.slots()}
+    assert numbers["oil.damping"] == pytest.approx(300.0, rel=1e-2)
+    assert numbers["oil.damping.slope"] == pytest.approx(-4.0, rel=1e-2)
+    assert fit.errors.train == pytest.approx(0.1, rel=0.1)
+    assert "take its mean" not in fit.summary()
 
 
 def test_runs_without_the_setting_are_named_before_anything_is_simulated():
@@ -248,18 +268,74 @@ def test_the_terminal_tells_the_factors_and_no_points_of_a_curve():
 
 
 @pytest.mark.parametrize(("drift", "told"), [(2.0, False), (30.0, True)])
-def test_a_channel_that_moves_within_runs_is_told_with_the_fit(drift, told):
-    """The means of the two training runs lie 10 K apart."""
-    text = HEAD + (
-        "  oil: {element: damper, damping: {start: 90 N*s/m, over: {channel: temperature, at: 20 degC, "
-        "slope: {start: 0 N*s/m/K}}}}\n"
-    )
-    runs = []
-    for celsius in (20.0, 30.0, 40.0):
-        made = run(f"at{celsius:g}", 2.0, 2e-3, 5.0, HEAD + f"  oil: {{element: damper, damping: {celsius} N*s/m}}\n")
-        kelvin = 273.15 + celsius + drift * np.linspace(-0.5, 0.5, TIME.size)
-        runs.append(replace(made, channels={**made.channels, "temperature": kelvin}))
+def test_a_channel_of_a_mass_that_moves_within_runs_is_told_with_the_fit(drift, told):
+    """A mass has one value in a run. The means of the two training runs lie 10 K apart."""
+    text = """\
+format: dashpot-network/1
+name: heavy
+nodes:
+  top: {hold: driven, mass: {start: 1 kg, over: {channel: temperature, at: 20 degC, slope: {start: 0 kg/K}}}}
+  base: ground
+branches:
+  oil: {element: damper, between: [base, top], damping: {start: 90 N*s/m}}
+"""
+    runs = [
+        along(celsius + drift * np.linspace(-0.5, 0.5, TIME.size), f"at{celsius:g}") for celsius in (20.0, 30.0, 40.0)
+    ]
     fit = fit_network(parse_network(text, REGISTRY.elements), Dataset("d", tuple(runs)), registry=REGISTRY)
     wanted = "it moves by up to 27 K within a run, while the means lie 10 K apart"
     assert (wanted in fit.summary()) is told
     assert any(wanted in sentence for sentence in fit.as_dict()["identifiability"]["weak"]) is told
+
+
+MOVING = {
+    "alone": """
+rubber: {element: spring, stiffness: {start: 50 N/mm, over: {channel: temperature, at: 20 degC, rate: {start: -1 %/K}}}}
+slow:
+  element: maxwell
+  stiffness: {start: 30 N/mm}
+  relaxation_time: {start: 20 ms, over: {channel: temperature, at: 20 degC, wlf: [{start: 9}, {start: 100 K}]}}
+oil:
+  element: damper
+  damping:
+    start: 100 N*s/m
+    over: {channel: temperature, at: [22 degC, 30 degC, 36 degC], factor: [1, {start: 0.8}, {start: 0.5}]}
+""",
+    "in series": """
+strut:
+  series:
+    coil: {element: spring, stiffness: {start: 50 N/mm}}
+    oil:
+      element: damper
+      damping: {start: 1 N*s/mm, over: {channel: temperature, at: 300 K, slope: {start: -9 N*s/m/K}}}
+""",
+}
+CELL = """\
+measurement: {force: {offset: {start: 2 N, over: {channel: temperature, at: 30 degC, slope: {start: 0.1 N/K}}}}}
+"""
+
+
+@pytest.mark.parametrize("text", MOVING)
+def test_the_jacobian_follows_the_channel(text):
+    scored = [score_run(along(30.0 + 8.0 * np.sin(4.0 * TIME))), score_run(along(20.0 + 9.0 * TIME, "other"))]
+    _, objective, coordinates = ready(MOVING[text], scored, CELL)
+    values = coordinates.to_values(coordinates.start)[0]
+    shifts = 1e-4 * np.maximum(np.abs(values[coordinates.which]), 1e-4)
+    _, changes = rows_of(objective, values, coordinates.which, shifts)
+    for change, slot, shift in zip(changes, coordinates.which, shifts, strict=True):
+        ends = np.repeat(values[None], 2, axis=0)
+        ends[:, slot] += 0.5 * shift * np.array([-1.0, 1.0])
+        less, more = objective.residuals(ends)
+        assert np.max(np.abs(more - less)) > 0.0
+        assert change == pytest.approx(more - less, abs=2e-3 * np.max(np.abs(more - less)))
+
+
+def test_thinned_runs_have_the_channel_at_the_samples_that_stay():
+    slow = along(30.0 + 8.0 * np.sin(4.0 * TIME), frequency=8.0)
+    [run] = thinned([score_run(slow)])
+    step = round(run.drive.dt / 1e-3)
+    assert step > 5
+    assert (
+        run.excitation.channels["temperature"].tolist()
+        == slow.channels["temperature"][::step][: run.force.size].tolist()
+    )

@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import Any
 
 from dashpot.expr.interpret import Recipe
-from dashpot.expr.node import Node, constant, symbol
+from dashpot.expr.node import Node, constant, symbol, symbols_of
 from dashpot.expr.written import write_graphs
 from dashpot.kernel.compiler.equations import write_equations
 from dashpot.kernel.compiler.kept import kept_graphs
@@ -20,6 +20,7 @@ from dashpot.kernel.compiler.mechanics import DONE, Meter, driven_symbol, force_
 from dashpot.kernel.compiler.multistep import KEPT_TANGENTS, PACE, TURNS
 from dashpot.kernel.compiler.tiers import Regrouping, hoist, shared_nodes, sort_tiers
 from dashpot.kernel.compiler.trace import refuse_missing_numbers, trace_along, trace_network
+from dashpot.kernel.following import channel_symbols, dependences, without_channels
 from dashpot.kernel.ir.layout import Layout, shelves_of
 from dashpot.kernel.ir.online import Online
 from dashpot.kernel.ir.program import Program
@@ -55,8 +56,12 @@ def system_of(
 
 
 def online_of(spec: NetworkSpec) -> Online:
-    """The program of a network that somebody else steps. InputError for a curve that has no numbers yet."""
+    """The program of a network that somebody else steps: nothing is measured there, numbers over channels stay.
+
+    InputError for a curve that has no numbers yet.
+    """
     refuse_missing_numbers(spec)
+    spec = without_channels(spec)
     topology = topology_of(spec)
     system = None if topology.parallel else system_of(spec, topology)
     program = system.program if system else program_of(spec)
@@ -126,8 +131,9 @@ def _sorted_equations(
     topology: Topology, meter: Meter | None, signals: Sequence[str]
 ) -> tuple[Program, Passes, frozenset[str]]:
     equations = write_equations(topology, meter)
-    known = equations.known | {driven_symbol(signal, "load") for signal in signals}
     roots = [node for rows in equations.passes.values() for node in rows.values()]
+    channels = channel_symbols(name for root in roots for name in symbols_of(root))
+    known = equations.known | {driven_symbol(signal, "load") for signal in signals} | channels
     regroup = Regrouping(set(equations.rows), set(known), shared_nodes(roots))
     passes = {name: {row: regroup(node) for row, node in rows.items()} for name, rows in equations.passes.items()}
     columns, constants, _ = hoist([node for rows in passes.values() for node in rows.values()], (), regroup.tiers)
@@ -150,7 +156,8 @@ def _places_of(topology: Topology) -> Hashable:
 
 def _structure(branch: Branch) -> Hashable:
     curves = tuple((key, curve.form, len(curve.values)) for key, curve in branch.characteristics().items())
-    return branch.name, branch.numbers, branch.element, _law(branch.element), tuple(branch.values), curves
+    law, followed = _law(branch.element), dependences(branch)
+    return branch.name, branch.numbers, branch.element, law, tuple(branch.values), curves, followed
 
 
 def _law(element: type[Element]) -> Hashable:

@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from dashpot.expr.node import Node, apply, constant, symbol, walk, with_arguments
+from dashpot.expr.node import Node, apply, constant, symbol, symbols_of, walk, with_arguments
 from dashpot.kernel.compiler.events import DRIVE_SYMBOLS, Correction, find_followers, merge_followers, split_events
 from dashpot.kernel.compiler.trace import TracedBranch
+from dashpot.kernel.following import channel_symbols
 from dashpot.kernel.ir.program import Lookup, Program
 
 ONE, ZERO = constant(1.0), constant(0.0)
@@ -31,8 +32,9 @@ def sort_tiers(branches: Sequence[TracedBranch]) -> Program:
     laws = {name: node for branch in branches for name, node in branch.states.items()}
     followers = find_followers(laws)
     states = tuple(name for name in laws if name not in followers)
-    known = {*DRIVE_SYMBOLS, *followers}
     roots = merge_followers([total, *(laws[name] for name in states)], followers)
+    channels = channel_symbols(name for root in roots for name in symbols_of(root))
+    known = {*DRIVE_SYMBOLS, *followers, *channels}
     roots, corrections = split_events(roots, known)
     events = _unique(correction.condition for correction in corrections)
     before = [_corrected(correction, len(events) > 1) for correction in corrections]

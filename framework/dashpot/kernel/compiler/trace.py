@@ -8,9 +8,10 @@ from types import SimpleNamespace
 from typing import Any, Literal
 
 from dashpot.expr.node import Node, TraceError, as_node, symbol, symbols_of, table, walk
+from dashpot.kernel.following import Moment, channel_symbol, channel_symbols, moved
 from dashpot.model.element import Motion, Response
 from dashpot.model.law_fault import told_of_law
-from dashpot.model.network import Branch, Characteristic, NetworkSpec
+from dashpot.model.network import Branch, Characteristic, NetworkSpec, Value
 from dashpot.text.problem import InputError, Place
 
 # how a branch sees the drive: "still" without memory, "path" along the cubic of a whole step, "monotone" from turning
@@ -42,20 +43,30 @@ class TracedBranch:
 
 @dataclass(frozen=True)
 class CurveLaw:
-    """A curve as a traced law meets it: called with its argument."""
+    """A curve as a traced law meets it: called with its argument. ``numbers`` are those beside the knots of a table."""
 
     path: str
     form: str
-    count: int
+    numbers: tuple[Node, ...]
+
+    @classmethod
+    def of(cls, path: str, curve: Characteristic, moment: Moment) -> CurveLaw:
+        """A curve whose numbers see channels at a moment of the step."""
+        numbers: tuple[Node, ...] = ()
+        if curve.form == "constant":
+            numbers = (_number(path, curve.values[0], moment),)
+        elif curve.form == "polynomial":
+            numbers = tuple(_number(f"{path}[{k}]", value, moment) for k, value in enumerate(curve.values))
+        return cls(path, curve.form, numbers)
 
     def __call__(self, argument: Any) -> Node:
         """The value of the curve as a graph."""
         if self.form == "constant":
-            return symbol(self.path) * argument
+            return self.numbers[0] * argument
         if self.form == "polynomial":
-            total = symbol(f"{self.path}[{self.count - 1}]")
-            for number in reversed(range(self.count - 1)):
-                total = symbol(f"{self.path}[{number}]") + argument * total
+            *lower, total = self.numbers
+            for factor in reversed(lower):
+                total = factor + argument * total
             return argument * total
         return table(self.path, as_node(argument))
 
@@ -103,36 +114,50 @@ def rate_independent(traced: TracedBranch) -> bool:
 def trace_along(branch: Branch, sight: Sight) -> TracedBranch:
     """The law of a branch as a graph of the symbols ``<sight>.old``, ``<sight>.new`` and so on.
 
-    Raises InputError, naming the element and the line, for a law that cannot be traced.
+    The memory of a law that depends on rates or on time sees channels halfway through the step. Raises InputError,
+    naming the element and the line, for a law that cannot be traced.
     """
-    motion, states = _motion(sight), _states(branch)
+    traced = _trace(branch, sight, "channel")
+    if not traced.states or rate_independent(traced) or not any(_channels(node) for node in traced.states.values()):
+        return traced
+    return replace(traced, states=_trace(branch, sight, "halfway").states)
+
+
+def _trace(branch: Branch, sight: Sight, moment: Moment) -> TracedBranch:
+    motion, states, parameters = _motion(sight), _states(branch), _parameters(branch, moment)
     with told_of_law(branch.element):
-        response = branch.element().step(motion, _symbols(states), _parameters(branch), symbol("dt"))
+        response = branch.element().step(motion, _symbols(states), parameters, symbol("dt"))
         check_states(branch, response)
         force, answered = as_node(response.force), {states[k]: as_node(v) for k, v in response.states.items()}
-        stops = branch.element().stops(_parameters(branch))
+        stops = branch.element().stops(parameters)
     if branch.scale:
-        force = force * _scale(branch, motion)
+        force = force * _scale(branch, motion, moment)
     held = None if stops is None else (as_node(stops[0]), as_node(stops[1]))
     return TracedBranch(branch.name, sight, force, answered, held)
+
+
+def _channels(node: Node) -> set[str]:
+    return channel_symbols(symbols_of(node))
 
 
 def trace_stored(branch: Branch, sight: Sight) -> Node | None:
     """The energy in J that a branch stores, from the motion and the states at the end of a step; None: not known.
 
     A law of the deflection alone stores all ``work`` that is done on it, one of the rates alone stores nothing. The
-    others have to say it; a ``scale`` multiplies what they say.
+    others have to say it; a ``scale`` multiplies what they say. Where what is stored moves with a channel, something
+    beside the motion does work on the branch, so that it is not known.
     """
     motion, states = _motion(sight), _states(branch)
     with told_of_law(branch.element):
-        said = branch.element().stored(motion, _symbols(states), _parameters(branch))
+        said = branch.element().stored(motion, _symbols(states), _parameters(branch, "channel"))
         stored = None if said is None else as_node(said)
     if stored is not None:
-        return stored * _scale(branch, motion)
+        whole = stored * _scale(branch, motion, "channel")
+        return None if _channels(whole) else whole
     law = trace_along(replace(branch, scale=None), sight)
     moving = symbols_of(law.force) & {*(f"{sight}.{key}" for key in ("old", "new", *RATES)), *states.values(), "dt"}
     if moving <= {f"{sight}.new"}:
-        return symbol("work")
+        return None if _channels(law.force) else symbol("work")
     return as_node(0.0) if moving <= {f"{sight}.{rate}" for rate in RATES} else None
 
 
@@ -148,15 +173,13 @@ def _symbols(names: Mapping[str, str]) -> SimpleNamespace:
     return SimpleNamespace(**{key: symbol(name) for key, name in names.items()})
 
 
-def _parameters(branch: Branch) -> SimpleNamespace:
+def _parameters(branch: Branch, moment: Moment) -> SimpleNamespace:
     declared = branch.element.declares
-    return SimpleNamespace(**{key: _parameter(branch, key) for key in (*declared.parameters, *declared.curves)})
+    return SimpleNamespace(**{key: _parameter(branch, key, moment) for key in (*declared.parameters, *declared.curves)})
 
 
-def _scale(branch: Branch, motion: Motion) -> Any:
-    if not branch.scale:
-        return 1.0
-    return CurveLaw(f"{branch.numbers}.scale", branch.scale.form, len(branch.scale.values))(motion.new)
+def _scale(branch: Branch, motion: Motion, moment: Moment) -> Any:
+    return CurveLaw.of(f"{branch.numbers}.scale", branch.scale, moment)(motion.new) if branch.scale else 1.0
 
 
 def check_states(branch: Branch, response: Response) -> None:
@@ -169,13 +192,21 @@ def check_states(branch: Branch, response: Response) -> None:
         )
 
 
-def _parameter(branch: Branch, key: str) -> Node | CurveLaw | float | None:
+def _parameter(branch: Branch, key: str, moment: Moment) -> Node | CurveLaw | float | None:
+    path = f"{branch.numbers}.{key}"
     if key in branch.curves:
-        curve: Characteristic = branch.curves[key]
-        return CurveLaw(f"{branch.numbers}.{key}", curve.form, len(curve.values))
+        return CurveLaw.of(path, branch.curves[key], moment)
     if key in branch.values:
-        return symbol(f"{branch.numbers}.{key}")
+        return _number(path, branch.values[key], moment)
     return branch.element.declares.parameters[key].default
+
+
+def _number(path: str, value: Value, moment: Moment) -> Node:
+    over = value.over
+    if over is None or not over.channel:
+        return symbol(path)
+    numbers = [symbol(path + ending) for ending in over.endings]
+    return as_node(moved(over, symbol(path), numbers, symbol(channel_symbol(over.word, moment)), value.sensible))
 
 
 def _refuse_moving_tables(branch: Branch, traced: TracedBranch) -> None:
