@@ -17,13 +17,15 @@ from dashpot.model.network import Branch, NetworkSpec, Value
 from dashpot.model.patch import add_branch, make_dependent
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
-from dashpot.text.quantity import in_unit
+from dashpot.text.quantity import base_unit_of, in_unit
 from dashpot_causes.factors import at_all_places, factors_of
 from dashpot_causes.session import HISTORY
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
 OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", *HISTORY}
+# kinds of channels that answer to the test, as a second load cell does: no state of the specimen either
+MECHANICAL = {base_unit_of(f"1 {unit}") for unit in ("N", "m", "m/s", "m/s^2")}
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
@@ -249,7 +251,7 @@ class Number:
 def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
-    for name in sorted(common - OF_THE_MOTION):
+    for name in sorted(name for name in common - OF_THE_MOTION if not _answers(name, view.unit_of(name))):
         values = {run: _value(view, run, name, each[name]) for run, each in found.items()}
         setting = Setting.of(name, values, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
@@ -260,6 +262,11 @@ def _value(view: View, run: str, name: str, number: float) -> float | Array:
     """That of a setting in a run; the samples of a channel that moves."""
     signal = view.channels(run).get(name.removeprefix(MEAN)) if name.startswith(MEAN) else None
     return number if signal is None or not np.ptp(signal) else signal
+
+
+def _answers(name: str, unit: str) -> bool:
+    """Whether a channel in a ``unit`` is another force or motion of the specimen."""
+    return name.startswith(MEAN) and bool(unit) and base_unit_of(f"1 {unit}") in MECHANICAL
 
 
 def numbers_of(network: NetworkSpec) -> Iterator[Number]:
