@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import View
+from dashpot.data.history import is_history
 
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
 MOVED = "moved"  # the integral of the squared velocity over the run before
-HISTORY = {ORDER, REACHED, MOVED}
+WORKED = "worked"  # the work that the specimen took up in the run before
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
 CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs
@@ -32,9 +33,14 @@ def order_of(view: View) -> Mapping[str, float]:
     return dict(zip(settings, (places - places.min()).tolist(), strict=True))
 
 
+def is_condition(setting: str) -> bool:
+    """Whether a setting says in which state a run was made, and not after which others."""
+    return setting != ORDER and not is_history(setting)
+
+
 def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
     """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
-    common = sorted(set.intersection(*(set(each) for each in settings.values())) - HISTORY)
+    common = sorted(filter(is_condition, set.intersection(*(set(each) for each in settings.values()))))
     moved = [
         [np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))] for run in settings
     ]

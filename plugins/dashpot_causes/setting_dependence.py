@@ -17,11 +17,11 @@ from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
 from dashpot.text.quantity import in_unit
 from dashpot_causes.factors import at_all_places, factors_of
-from dashpot_causes.session import HISTORY
+from dashpot_causes.session import is_condition
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
-OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", *HISTORY}
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass"}
 MEAN = "mean of "
 NUDGE = 1e-3
 DIGITS = 10
@@ -186,7 +186,7 @@ class Number:
 def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
-    for name in sorted(common - OF_THE_MOTION):
+    for name in sorted(filter(is_condition, common - OF_THE_MOTION)):
         setting = Setting.of(name, {run: each[name] for run, each in found.items()}, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
             yield setting

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import ORDER, mean_of
-from dashpot.data.history import NOTHING
-from dashpot.model.network import NetworkSpec, Over, Slot
+from dashpot.data.history import EACH, NOTHING, name_of, runs_before
+from dashpot.model.network import NetworkSpec, Over, Slot, Value
 from dashpot.text.problem import InputError, Place, Problem
 
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ def with_settings(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]
     for number, over in moving:
         # the parameters of a dependence stand behind the number that depends
         inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
-        moved = _at(over, lanes[:, number], inner, settings[key_of(over)])
+        moved = _at(over, lanes[:, number], inner, settings)
         own[:, number] = np.clip(moved, *slots[number].value.sensible)
     return own
 
@@ -52,8 +52,16 @@ def used_settings(spec: NetworkSpec, settings: Mapping[str, float], run: str = "
     problems = list(_missing(spec, settings, run))
     if problems:
         raise InputError(problems)
-    needed = {key for slot in spec.slots() for key in (slot.value.setting, slot.value.over and key_of(slot.value.over))}
+    needed = {key for slot in spec.slots() for key in _needed(slot.value, settings)}
     return {key: value for key, value in settings.items() if key in needed}
+
+
+def _needed(value: Value, settings: Mapping[str, float]) -> Iterator[str]:
+    yield value.setting
+    if over := value.over:
+        yield key_of(over)
+        if over.way == "kept":
+            yield from (name_of(over.word, earlier) for earlier in range(len(runs_before(settings, over.word))))
 
 
 def at_settings(spec: NetworkSpec, settings: Mapping[str, float]) -> NetworkSpec:
@@ -93,9 +101,19 @@ def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iter
     told = {ORDER, *NOTHING}
     for slot in spec.slots():
         over = slot.value.over
-        if over and key_of(over) not in settings and key_of(over) not in told:
+        if over and over.way == "kept" and (over.channel or over.word not in EACH):
+            yield _not_of_the_runs_before(slot, over)
+        elif over and key_of(over) not in settings and key_of(over) not in told:
             told.add(key_of(over))
             yield _problem(slot, over, run)
+
+
+def _not_of_the_runs_before(slot: Slot, over: Over) -> Problem:
+    return Problem(
+        slot.value.node.place if slot.value.node else Place(),
+        f"'{slot.path}' over '{over.word}': expected a setting that adds up over the runs before",
+        f"write one of {', '.join(EACH)}, or 'slope' in place of 'kept'",
+    )
 
 
 def _problem(slot: Slot, over: Over, run: str) -> Problem:
@@ -114,8 +132,12 @@ def _problem(slot: Slot, over: Over, run: str) -> Problem:
     )
 
 
-def _at(over: Over, base: Array, numbers: Array, setting: float) -> Array:
-    """The number (lanes,) at a setting."""
+def _at(over: Over, base: Array, numbers: Array, settings: Mapping[str, float]) -> Array:
+    """The number (lanes,) at the settings of a run."""
+    if over.way == "kept":
+        before = np.array(runs_before(settings, over.word))
+        return base + numbers ** np.arange(1, before.size + 1) @ before
+    setting = settings[key_of(over)]
     if over.way == "slope":
         return base + numbers[:, 0] * (setting - over.at[0])
     if over.way == "rate":

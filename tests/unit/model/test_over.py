@@ -65,7 +65,9 @@ def test_factors_between_places():
     ("number", "message"),
     [
         ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
-        ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
+        ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius, kept"),
+        ("{start: 30 N, over: {setting: worked, at: 0 J, kept: 0.5}}", "has no key 'at'"),
+        ("{start: 30 N, over: {setting: worked, kept: 1.5}}", "expected 0 to 1"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
         ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
@@ -97,6 +99,13 @@ def test_most_numbers_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
         read("30 N", f"measurement: {{force: {{largest: {over}}}}}\n")
     with pytest.raises(InputError, match="a knot of a table cannot depend on a setting"):
         read("30 N", f"  s: {{element: spring, stiffness: {{deflection: [0 mm, 1 mm], force: [0 N, {over}]}}}}\n")
+
+
+def test_what_is_kept_of_the_runs_before_needs_no_place():
+    found = slots(read("{start: 30 N, over: {setting: worked, kept: {start: 0.4}}}"))
+    assert list(found)[2:] == ["it.limit.kept"]
+    assert (found["it.limit.kept"].number, found["it.limit.kept"].sensible) == (0.4, (0.0, 1.0))
+    assert found["it.limit.kept"].searched
 
 
 def test_shifts_with_temperature():
