@@ -9,7 +9,7 @@ from seeds import seed_of
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.data.trouble import Trouble
-from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.actuator import actuator_remarks
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.examine import examine
 
@@ -135,8 +135,21 @@ def test_harmonics_of_the_actuator_are_remarked():
     for share in (0.1, 0.0):
         phase = 2.0 * np.pi * 5.0 * TIME
         x = 0.02 + 1e-3 * (np.sin(phase) + share * np.sin(2.0 * phase))
-        said = actuator_harmonics(Run("a", "harmonic", TIME, {"displacement": x, "force": 2e5 * x}))
-        assert ("harmonic 2 of the displacement itself is 10%" in said) == (share > 0.0)
+        said = actuator_remarks([Run("a", "harmonic", TIME, {"displacement": x, "force": 2e5 * x})])
+        expected = "Run 'a': harmonic 2 of the displacement itself is 10% of the motion; the actuator adds it"
+        assert [text.partition(",")[0] for text in said] == [expected] * (share > 0.0)
+
+
+def test_harmonics_of_the_actuator_in_many_runs_are_one_remark():
+    """Of 8, 12 and 10 % of the motion, and none."""
+    phase, runs = 2.0 * np.pi * 5.0 * TIME, []
+    for name, share in (("a", 0.08), ("b", 0.12), ("c", 0.1), ("d", 0.0)):
+        x = 0.02 + 1e-3 * (np.sin(phase) + share * np.sin(2.0 * phase))
+        runs.append(Run(name, "harmonic", TIME, {"displacement": x, "force": 2e5 * x}))
+    (said,) = actuator_remarks(runs)
+    assert said.startswith("3 of 4 runs, most of all 'b': harmonic 2 of the displacement itself is 12% of the motion")
+    assert actuator_remarks(runs[:3])[0].startswith("All 3 runs, most of all 'b'")
+    assert len(actuator_remarks(runs[:2])) == 2
 
 
 def test_a_prescribed_force_may_come_back_to_the_last_digit(rng):
