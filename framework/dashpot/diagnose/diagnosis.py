@@ -176,7 +176,7 @@ class Diagnosis(Findings):
         return {
             "cause": named.cause.word,
             "class": named.cause.kind,
-            "title": named.cause.about,
+            "title": named.about,
             "place": named.site.words if named.site else None,
             "rank": rank,
             "accepted": named.accepted,
