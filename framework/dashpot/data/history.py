@@ -29,7 +29,7 @@ def with_history(made: Iterable[tuple[Run, bool]]) -> Iterator[Run]:
         reached = max(reached, run.settings.get(REACHED, 0.0))
         if counts:
             each = {name: value for word in EACH for name, value in _named(word, before[word])}
-            yield replace(run, history={**NOTHING, REACHED: reached, **each})
+            yield replace(run, history={REACHED: reached, **each})
         if "displacement" in run.channels:
             reached = max(reached, float(np.max(np.abs(run.displacement))))
             before[MOVED].append(float(np.sum(np.gradient(run.displacement) ** 2)) / run.sample_time)
@@ -42,6 +42,18 @@ def runs_before(settings: Mapping[str, float], word: str) -> list[float]:
     while (name := name_of(word, len(found))) in settings:
         found.append(settings[name])
     return found
+
+
+def knowing_better(run: Run, wrong: Run, force: float, displacement: float) -> Run:
+    """A run that knows of a wrong one before it how much it moved and worked with its channels times these factors."""
+    factors = {MOVED: displacement**2, WORKED: abs(force * displacement)}
+    earlier = {word: len(runs_before(run.history, word)) - len(runs_before(wrong.history, word)) - 1 for word in EACH}
+    better = {
+        name: run.history[name] * factors[word]
+        for word in EACH
+        if earlier[word] >= 0 and (name := name_of(word, earlier[word])) in run.history
+    }
+    return replace(run, history={**run.history, **better})
 
 
 def name_of(word: str, earlier: int) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.groups import group_repeats
+from dashpot.data.history import knowing_better
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.text.problem import Place, Problem
@@ -71,13 +72,23 @@ def examine(dataset: Dataset) -> Triage:
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
-    left = group_repeats([kept[run.name] for run in whole if run.name in kept])
+    left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
     sound = {run.name for run in runs}
     remarks = late + actuator_remarks([run for run in left if run.name in sound])
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")
     return Triage(replace(dataset, runs=tuple(left)), (*read, *faults), tuple(remarks), len(read), len(measured))
+
+
+def _knowing_better(runs: Sequence[Run], measured: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:
+    """The runs with what they know of those before them put right where a channel of these was corrected."""
+    left, by_name = list(runs), {run.name: run for run in measured}
+    for fault in faults:
+        if fault.factor is not None:
+            factors = [fault.factor if fault.channel == channel else 1.0 for channel in ("force", "displacement")]
+            left = [knowing_better(run, by_name[fault.run], *factors) for run in left]
+    return left
 
 
 def _without(runs: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:

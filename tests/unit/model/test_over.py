@@ -30,6 +30,7 @@ LINE = "{start: 30 N, over: {setting: pressure, at: 2 bar, slope: {start: 5 N/ba
 RATE = "{fixed: 30 N, over: {channel: temperature, at: 20 degC, rate: -1 %/K}}"
 TABLE = "{start: 30 N, over: {setting: current, at: [0 A, 1 A, 2 A], factor: [1, {start: 2}, {start: 2.5}]}}"
 
+KEPT = "{start: 30 N, over: {setting: worked, kept: {start: 0.4}}}"
 WLF = "{start: 30 N, over: {setting: temperature, at: 20 degC, wlf: [17.44, {start: 51.6 K}]}}"
 ARRHENIUS = "{start: 30 N, over: {channel: temperature, at: 20 degC, arrhenius: {start: 5000 K}}}"
 
@@ -102,7 +103,7 @@ def test_most_numbers_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
 
 
 def test_what_is_kept_of_the_runs_before_needs_no_place():
-    found = slots(read("{start: 30 N, over: {setting: worked, kept: {start: 0.4}}}"))
+    found = slots(read(KEPT))
     assert list(found)[2:] == ["it.limit.kept"]
     assert (found["it.limit.kept"].number, found["it.limit.kept"].sensible) == (0.4, (0.0, 1.0))
     assert found["it.limit.kept"].searched
@@ -119,7 +120,7 @@ def test_shifts_with_temperature():
     assert found["it.limit.arrhenius"].number == 5000.0 and found["it.limit"].over.at == (pytest.approx(293.15),)
 
 
-@pytest.mark.parametrize("number", [LINE, RATE, TABLE, WLF, ARRHENIUS])
+@pytest.mark.parametrize("number", [LINE, RATE, TABLE, WLF, ARRHENIUS, KEPT])
 def test_the_schema_knows_them(number):
     validator = Draft7Validator(network_schema(ELEMENTS))
     assert not list(validator.iter_errors(Document.parse(text(number)).root.plain()))
@@ -142,7 +143,7 @@ def test_the_schema_refuses_what_reading_refuses(over):
         read(number)
 
 
-@pytest.mark.parametrize("number", [LINE, TABLE])
+@pytest.mark.parametrize("number", [LINE, TABLE, KEPT])
 def test_what_was_found_is_written_and_read_again(number):
     spec = read(number)
     moved = {
