@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
-from dashpot.data.history import runs_before
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot_causes.session import MOVED, ORDER, WORKED, order_of
+from dashpot_causes.session import MOVED, ORDER, WORKED, kept_of_runs_before, left_of_runs_before, order_of, room_of
 from dashpot_causes.setting_dependence import Setting, changed, has_curved_spring, numbers_of, stiffness_over
 
 Array = NDArray[np.float64]
@@ -22,7 +21,7 @@ WARMTHS = (0.3, 1.0, 3.0)  # of the fastest run in the end, in powers of two of 
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
 SPRINGS = (0.0, 1.0)  # stiffness over damping and angular frequency at the end of the band
 KEPT = (0.1, 0.5, 0.9)  # of the heat at the next run
-ROOM = 10.0  # of the times of cooling beyond those that are tried
+HARDLY = 0.03  # of the stiffness: the force at the end of the band of a dashpot beside a spring that softens
 
 
 class Heating(Cause):
@@ -57,15 +56,16 @@ class Heating(Cause):
             {"power": mean_square / warmth, "time": -2.0 * view.duration / float(np.log(kept)), "kept": kept}
             for warmth, kept in product(WARMTHS, KEPT)
         ]
-        for stiffness in (share * band for share in SPRINGS):
-            yield _heated(anew, stiffness)
+        for share in SPRINGS:
+            yield _heated(anew, share, band)
             if any(view.settings(run).get(WORKED, 0.0) > 0.0 for run in view.runs):
-                yield _still_warm(view, warm, stiffness)
+                yield _still_warm(view, warm, share, band)
         yield from _from_run_to_run(view, network)
 
 
-def _heated(places: Sequence[Mapping[str, float]], stiffness: float) -> Suspect:
-    """A dashpot that warms up, alone or beside a spring, told of a damping of 1 N*s/m."""
+def _heated(places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
+    """A dashpot that warms up, alone or beside a spring, told of a damping of 1 N*s/m; ``band`` is its end in rad/s."""
+    stiffness = share * band
     return added_branch(
         "self_heating",
         "heating",
@@ -73,6 +73,7 @@ def _heated(places: Sequence[Mapping[str, float]], stiffness: float) -> Suspect:
         lambda damping, number: _values(damping, places[int(number)], stiffness),
         UNITS,
         unknowns=3 if stiffness else 2,
+        admits=lambda numbers: numbers["damping"] * band > HARDLY * numbers.get("stiffness", 0.0),
         form="a dashpot and a spring that warm up" if stiffness else "a dashpot that warms up",
     )
 
@@ -82,30 +83,29 @@ def _values(damping: float, place: Mapping[str, float], stiffness: float) -> dic
     return found | ({"stiffness": damping * stiffness} if stiffness else {})
 
 
-def _still_warm(view: View, places: Sequence[Mapping[str, float]], stiffness: float) -> Suspect:
+def _still_warm(view: View, places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
     """The same with what is kept of the heat of the runs before: as a column that of its own damping, as it was cold,
     in the file a share of the work of the specimen.
     """
-    cold = _heated(places, stiffness)
-    times = [place["time"] for place in places]
-    ends = min(times) / ROOM, max(times) * ROOM  # a fit looks no farther than one run by itself
+    cold, stiffness = _heated(places, share, band), share * band
+    ends = room_of([place["time"] for place in places])
     squares, works = (sum(view.settings(run).get(word, 0.0) for run in view.runs) for word in (MOVED, WORKED))
 
     def columns(view: View, run: str) -> Array:
-        moved = np.array(runs_before(view.settings(run), MOVED))
-        left = [float(np.sum(moved * place["kept"] ** np.arange(1, moved.size + 1))) for place in places]
+        settings = view.settings(run)
+        left = [left_of_runs_before(settings, MOVED, place["kept"]) for place in places]
         values = [
-            _values(1.0, place, stiffness) | {"before": before} for place, before in zip(places, left, strict=True)
+            _values(1.0, place, stiffness) | {"before": before, "share": place["kept"]}
+            for place, before in zip(places, left, strict=True)
         ]
         return view.respond(run, "self_heating", values)
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         damping, number = atoms[0]
         place = places[int(number)]
-        values = _values(damping, place, stiffness) | {"share": min(damping * squares / works, 1.0)}
-        over = f"{{setting: {WORKED}, kept: {{start: {place['kept']:g}}}}}"
+        values = _values(damping, place, stiffness) | {"share": place["kept"] * min(damping * squares / works, 1.0)}
         lines = branch_lines(free_name(text, "heating"), "self_heating", values, UNITS, bounds={"time": ends})
-        return add_branch(text, f"{lines}\n  before: {{fixed: 0 J, over: {over}}}")
+        return add_branch(text, f"{lines}\n  before: {kept_of_runs_before(WORKED, 'J', place['kept'])}")
 
     form = f"{cold.form}, from run to run"
     return replace(cold, form=form, columns=columns, extend=extend, unknowns=cold.unknowns + 2)

@@ -23,9 +23,9 @@ class SelfHeating(Element):
     run away.
 
     Every record begins at the temperature of its surroundings, or with w = share before/(power time), what is left of
-    the runs before. `before: {fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}` is kept of the work of the run
-    before, kept^2 of that of the run before that one, and so on, as of a specimen that cools by the same share from
-    each run to the next. The rest of the work went into other branches.
+    the runs before. `before: {fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}` is the work of the run before,
+    kept of that of the run before that one, kept^2 of the next, and so on, as of a specimen that cools by the same
+    share from each run to the next. What is not in `share` went into other branches, or has cooled since.
 
     The heat of a step is that of its mean squared velocity, with the damping in the middle of the step: second order.
     Not passive by itself, as a spring that cools under load takes up energy as heat.
@@ -51,14 +51,19 @@ class SelfHeating(Element):
     )
     before = Parameter(
         "J",
-        "work of the runs before, as far as it still warms",
+        "work of the run before, and what is kept of that of earlier ones",
         bounds=(0.0, 1e9),
         scale="linear",
         symbol="E_1",
         default=0.0,
     )
     share = Parameter(
-        "1", "share of that work that heats this dashpot", bounds=(0.0, 1.0), scale="linear", symbol="s", default=1.0
+        "1",
+        "share of that work that is still heat of this dashpot",
+        bounds=(0.0, 1.0),
+        scale="linear",
+        symbol="s",
+        default=1.0,
     )
     warmth = State("1", "rise of temperature over that which halves the damping, less what is left of the runs before")
     cooled = State("1", "share of the heat of the runs before that is gone")

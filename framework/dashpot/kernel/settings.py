@@ -136,7 +136,7 @@ def _at(over: Over, base: Array, numbers: Array, settings: Mapping[str, float]) 
     """The number (lanes,) at the settings of a run."""
     if over.way == "kept":
         before = np.array(runs_before(settings, over.word))
-        return base + numbers ** np.arange(1, before.size + 1) @ before
+        return base + numbers ** np.arange(before.size) @ before
     setting = settings[key_of(over)]
     if over.way == "slope":
         return base + numbers[:, 0] * (setting - over.at[0])

@@ -81,8 +81,8 @@ class Over:
     lines between the places ``at`` and stays as it is outside of them. With a temperature s in K, ``wlf``:
     b 10^(-C1 (s - at) / (C2 + s - at)) with numbers C1 and C2, and ``arrhenius``: b exp(E (1 / s - 1 / at)) with an
     activation energy over the gas constant E in K (Ferry, Viscoelastic Properties of Polymers, chapter 11). With a
-    setting that tells of the runs before, ``kept``: b + kept s1 + kept^2 s2 + ..., of the run before, the one before
-    that, and so on.
+    setting that tells of the runs before, ``kept``: b + s1 + kept s2 + kept^2 s3 + ..., of the run before, the one
+    before that, and so on.
     ``numbers`` are fixed or to be found like all numbers. What comes out is kept inside the sensible range of b.
     """
 
