@@ -11,12 +11,20 @@ from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 from dashpot_causes.levelling import levelling_force
 
-UNITS = {"limit": "N", "compression": "N", "rebound": "N", "stiffness": "N/m", "exponent": "1"}
+UNITS = {
+    "limit": "N",
+    "compression": "N",
+    "rebound": "N",
+    "stiffness": "N/m",
+    "exponent": "1",
+    "creep_velocity": "m/s",
+}
 PLACES = 15
 DIRECTED = 7  # yield travels, for each direction in which it rubs harder
 ONE_WAY = 0.3  # of the limit in one direction, that in the other one
 SPEEDS = 5
 RIGID = (1e-3, 1e-2)  # of the speed: a force that is rounded off over more is a digressive damper's
+ROOM = (0.1, 1.5)  # of the least and the largest of them: how far a refit may go
 MOST = 3
 ONE_CONTACT = 25.0  # longest over shortest yield travel: sliders spread wider are a filler network that softens
 HARDLY = 0.03  # of the limits, or the stiffness, of all sliders together: no contact of its own
@@ -36,7 +44,7 @@ class Friction(Cause):
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A slider of any approach, some behind springs, over yield travels, one that rubs harder in one direction; a
-        rigid contact over creep velocities.
+        rigid contact over creep velocities, and one that rubs harder in one direction.
         """
         grid = tuple(np.geomspace(2e-4 * view.stroke, 0.6 * view.stroke, PLACES))
         yield added_branch(
@@ -57,7 +65,8 @@ class Friction(Cause):
             admits=is_one_contact,
         )
         yield _directed(view)
-        yield levelling_force(view, "friction", RIGID, SPEEDS, (0.1, 1.5))
+        yield levelling_force(view, "friction", RIGID, SPEEDS, ROOM)
+        yield _directed_at_once(view)
 
 
 def _directed(view: View) -> Suspect:
@@ -65,14 +74,34 @@ def _directed(view: View) -> Suspect:
     sides = [side * travel for side in (1.0, -1.0) for travel in travels]
 
     def values(limit: float, place: float) -> Mapping[str, float]:
-        limits = (limit, ONE_WAY * limit) if place > 0.0 else (ONE_WAY * limit, limit)
-        found = dict(zip(("compression", "rebound"), limits, strict=True))
-        return {**found, "stiffness": limit / abs(place), "exponent": 1.0}
+        return {**_limits(limit, place), "stiffness": limit / abs(place), "exponent": 1.0}
 
     suspect = added_branch(
         "directional_friction", "friction", sides, values, UNITS, unknowns=3, form="a limit for each direction"
     )
     return replace(suspect, quantity="limit", unit="N")
+
+
+def _directed_at_once(view: View) -> Suspect:
+    low, high = (share * view.speed for share in RIGID)
+    sides = [side * creep for side in (1.0, -1.0) for creep in np.geomspace(low, high, SPEEDS)]
+    suspect = added_branch(
+        "directional_coulomb",
+        "friction",
+        sides,
+        lambda limit, place: {**_limits(limit, place), "creep_velocity": abs(place)},
+        UNITS,
+        unknowns=2,
+        bounds={"creep_velocity": (ROOM[0] * low, ROOM[1] * high)},
+        form="a limit for each direction, sliding at once",
+    )
+    return replace(suspect, quantity="limit", unit="N")
+
+
+def _limits(limit: float, place: float) -> dict[str, float]:
+    """The limits of a slider that rubs harder in the direction in which its place lies."""
+    compression, rebound = (limit, ONE_WAY * limit) if place > 0.0 else (ONE_WAY * limit, limit)
+    return {"compression": compression, "rebound": rebound}
 
 
 def is_one_contact(numbers: Mapping[str, float]) -> bool:

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
+from numpy.typing import NDArray
 
-from dashpot.contract.cause import Cause, Suspect, View, added_branch
+from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.session import ORDER, order_of
+from dashpot.model.patch import add_branch
+from dashpot_causes.session import MOVED, ORDER, WORKED, kept_of_runs_before, left_of_runs_before, order_of, room_of
 from dashpot_causes.setting_dependence import Setting, changed, has_curved_spring, numbers_of, stiffness_over
 
-UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1"}
+Array = NDArray[np.float64]
+UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1", "share": "1"}
 WARMTHS = (0.3, 1.0, 3.0)  # of the fastest run in the end, in powers of two of the damping
 TIMES = (0.1, 0.4, 1.6)  # of the length of a run
 SPRINGS = (0.0, 1.0)  # stiffness over damping and angular frequency at the end of the band
+KEPT = (0.1, 0.5, 0.9)  # of the heat at the next run
+HARDLY = 0.03  # of the stiffness: the force at the end of the band of a dashpot beside a spring that softens
 
 
 class Heating(Cause):
@@ -38,31 +43,72 @@ class Heating(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; parameters of the
-        network over the order of the runs.
+        """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; one that is still warm
+        of the runs before, over powers and shares; parameters of the network over the order of the runs.
         """
         mean_square = max(float(np.mean(np.square(view.velocity(run)))) for run in view.runs)
         band = 2.0 * np.pi * view.highest_frequency
+        anew = [
+            {"power": mean_square / warmth, "time": part * view.duration} for warmth, part in product(WARMTHS, TIMES)
+        ]
+        # heat that cools by the same law in a run and in a rest of its length
+        warm = [
+            {"power": mean_square / warmth, "time": -2.0 * view.duration / float(np.log(kept)), "kept": kept}
+            for warmth, kept in product(WARMTHS, KEPT)
+        ]
         for share in SPRINGS:
-            places = list(product(WARMTHS, [part * view.duration for part in TIMES]))
-
-            def values(
-                damping: float, number: float, share: float = share, places: list[tuple[float, float]] = places
-            ) -> Mapping[str, float]:
-                warmth, time = places[int(number)]
-                found = {"damping": damping, "power": damping * mean_square / warmth, "time": time}
-                return found | ({"stiffness": share * damping * band} if share else {})
-
-            yield added_branch(
-                "self_heating",
-                "heating",
-                tuple(float(number) for number in range(len(places))),
-                values,
-                UNITS,
-                unknowns=3 if share else 2,
-                form="a dashpot and a spring that warm up" if share else "a dashpot that warms up",
-            )
+            yield _heated(anew, share, band)
+            if any(view.settings(run).get(WORKED, 0.0) > 0.0 for run in view.runs):
+                yield _still_warm(view, warm, share, band)
         yield from _from_run_to_run(view, network)
+
+
+def _heated(places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
+    """A dashpot that warms up, alone or beside a spring, told of a damping of 1 N*s/m; ``band`` is its end in rad/s."""
+    stiffness = share * band
+    return added_branch(
+        "self_heating",
+        "heating",
+        tuple(float(number) for number in range(len(places))),
+        lambda damping, number: _values(damping, places[int(number)], stiffness),
+        UNITS,
+        unknowns=3 if stiffness else 2,
+        admits=lambda numbers: numbers["damping"] * band > HARDLY * numbers.get("stiffness", 0.0),
+        form="a dashpot and a spring that warm up" if stiffness else "a dashpot that warms up",
+    )
+
+
+def _values(damping: float, place: Mapping[str, float], stiffness: float) -> dict[str, float]:
+    found = {"damping": damping, "power": damping * place["power"], "time": place["time"]}
+    return found | ({"stiffness": damping * stiffness} if stiffness else {})
+
+
+def _still_warm(view: View, places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
+    """The same with what is kept of the heat of the runs before: as a column that of its own damping, as it was cold,
+    in the file a share of the work of the specimen.
+    """
+    cold, stiffness = _heated(places, share, band), share * band
+    ends = room_of([place["time"] for place in places])
+    squares, works = (sum(view.settings(run).get(word, 0.0) for run in view.runs) for word in (MOVED, WORKED))
+
+    def columns(view: View, run: str) -> Array:
+        settings = view.settings(run)
+        left = [left_of_runs_before(settings, MOVED, place["kept"]) for place in places]
+        values = [
+            _values(1.0, place, stiffness) | {"before": before, "share": place["kept"]}
+            for place, before in zip(places, left, strict=True)
+        ]
+        return view.respond(run, "self_heating", values)
+
+    def extend(text: str, atoms: Sequence[Atom]) -> str:
+        damping, number = atoms[0]
+        place = places[int(number)]
+        values = _values(damping, place, stiffness) | {"share": place["kept"] * min(damping * squares / works, 1.0)}
+        lines = branch_lines(free_name(text, "heating"), "self_heating", values, UNITS, bounds={"time": ends})
+        return add_branch(text, f"{lines}\n  before: {kept_of_runs_before(WORKED, 'J', place['kept'])}")
+
+    form = f"{cold.form}, from run to run"
+    return replace(cold, form=form, columns=columns, extend=extend, unknowns=cold.unknowns + 2)
 
 
 def _from_run_to_run(view: View, network: NetworkSpec) -> Iterable[Suspect]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from dashpot.contract.cause import Suspect, View, added_branch
@@ -10,14 +12,14 @@ UNITS = {"limit": "N", "creep_velocity": "m/s"}
 
 
 def levelling_force(
-    view: View, branch: str, shares: tuple[float, float], places: int, room: tuple[float, float]
+    view: View, branch: str, shares: tuple[float, float], places: int, room: tuple[float, float], about: str = ""
 ) -> Suspect:
-    """The suspect of such a force over velocities between two ``shares`` of the largest one.
+    """The suspect of such a force over velocities between two ``shares`` of the largest one, and what it is.
 
     A refit may go as far as ``room`` times the first and the last of them.
     """
     low, high = shares[0] * view.speed, shares[1] * view.speed
-    return added_branch(
+    suspect = added_branch(
         "coulomb",
         branch,
         tuple(np.geomspace(low, high, places)),
@@ -25,3 +27,4 @@ def levelling_force(
         UNITS,
         bounds={"creep_velocity": (room[0] * low, room[1] * high)},
     )
+    return replace(suspect, about=about)

@@ -29,7 +29,10 @@ class PowerLawDamping(Cause):
     word = "power_law_damping"
     kind = "specimen"
     about = "damping with a power of the velocity"
-    shows = "loss stiffness follows a broken power of frequency and the same power, less one, of amplitude"
+    shows = (
+        "loss stiffness follows a broken power of frequency and the same power, less one, of amplitude; where "
+        "the force levels off it falls with amplitude and grows no more with frequency"
+    )
     confused_with = {
         "viscous_damping": "an amplitude ladder at one frequency: the loss stiffness of a dashpot does not change",
         "quadratic_damping": "a wider range of velocities: the slope of force over velocity in a log-log plot",
@@ -67,7 +70,7 @@ class PowerLawDamping(Cause):
             admits=is_broken_power,
             of_motion=True,
         )
-        yield levelling_force(view, "power_law_damping", LEVELLING, LEVELS, (0.75, 4.0))
+        yield levelling_force(view, "digressive_damping", LEVELLING, LEVELS, (0.75, 4.0), "digressive damping")
 
 
 def is_broken_power(numbers: Mapping[str, float]) -> bool:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import View
+from dashpot.data.history import is_history, runs_before
 
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
 MOVED = "moved"  # the integral of the squared velocity over the run before
-HISTORY = {ORDER, REACHED, MOVED}
+WORKED = "worked"  # the work that the specimen took up in the run before
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
+ROOM = 10.0  # of the times of cooling beyond those that are tried
+SENSIBLE = (1e-2, 1e5)  # s, of the times of cooling of elements
 CHANGES = 0.01  # of its size: a condition that changes by less is the same in all runs
 
 
@@ -32,9 +35,30 @@ def order_of(view: View) -> Mapping[str, float]:
     return dict(zip(settings, (places - places.min()).tolist(), strict=True))
 
 
+def left_of_runs_before(settings: Mapping[str, float], word: str, kept: float) -> float:
+    """A setting of the run before, and what is left of earlier ones by the share kept from a run to the next."""
+    before = np.array(runs_before(settings, word))
+    return float(np.sum(before * kept ** np.arange(before.size)))
+
+
+def kept_of_runs_before(word: str, unit: str, kept: float) -> str:
+    """The same as it stands in a file, with the share to be found."""
+    return f"{{fixed: 0 {unit}, over: {{setting: {word}, kept: {{start: {kept:g}}}}}}}"
+
+
+def room_of(times: Sequence[float]) -> tuple[float, float]:
+    """The bounds of a time of cooling in s: a fit by itself looks no farther than one run is long."""
+    return max(min(times) / ROOM, SENSIBLE[0]), min(max(times) * ROOM, SENSIBLE[1])
+
+
+def is_condition(setting: str) -> bool:
+    """Whether a setting says in which state a run was made, and not after which others."""
+    return setting != ORDER and not is_history(setting)
+
+
 def _conditions(view: View, settings: Mapping[str, Mapping[str, float]]) -> NDArray[np.float64]:
     """What was set at each run (runs, conditions): how far and how fast it was moved, and the settings of all runs."""
-    common = sorted(set.intersection(*(set(each) for each in settings.values())) - HISTORY)
+    common = sorted(filter(is_condition, set.intersection(*(set(each) for each in settings.values()))))
     moved = [
         [np.min(view.displacement(run)), np.max(view.displacement(run)), np.std(view.velocity(run))] for run in settings
     ]

@@ -19,11 +19,11 @@ from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError
 from dashpot.text.quantity import base_unit_of, in_unit
 from dashpot_causes.factors import at_all_places, factors_of
-from dashpot_causes.session import HISTORY
+from dashpot_causes.session import is_condition
 
 Array = NDArray[np.float64]
 # what says how the specimen was moved, and not in which state it was
-OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "speed", "warm_up", "added_mass", *HISTORY}
+OF_THE_MOTION = {"amplitude", "preload", "start", "stop", "frequency", "warm_up", "added_mass"}
 # kinds of channels that answer to the test, as a second load cell does: no state of the specimen either
 MECHANICAL = {base_unit_of(f"1 {unit}") for unit in ("N", "m", "m/s", "m/s^2")}
 MEAN = "mean of "
@@ -251,7 +251,9 @@ class Number:
 def _settings(view: View) -> Iterator[Setting]:
     found = {run: view.settings(run) for run in view.runs}
     common = set.intersection(*(set(each) for each in found.values())) if found else set()
-    for name in sorted(name for name in common - OF_THE_MOTION if not _answers(name, view.unit_of(name))):
+    for name in sorted(filter(is_condition, common - OF_THE_MOTION)):
+        if _answers(name, view.unit_of(name)) or (name == "speed" and _moves_so(view, found)):
+            continue
         values = {run: _value(view, run, name, each[name]) for run, each in found.items()}
         setting = Setting.of(name, values, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
@@ -267,6 +269,12 @@ def _value(view: View, run: str, name: str, number: float) -> float | Array:
 def _answers(name: str, unit: str) -> bool:
     """Whether a channel in a ``unit`` is another force or motion of the specimen."""
     return name.startswith(MEAN) and bool(unit) and base_unit_of(f"1 {unit}") in MECHANICAL
+
+
+def _moves_so(view: View, settings: Mapping[str, Mapping[str, float]]) -> bool:
+    """Whether the speed of each run is that of its motion, to a factor of two; a rolling tire has another one."""
+    largest = {run: float(np.max(np.abs(view.velocity(run)))) for run in settings}
+    return all(0.5 * largest[run] <= abs(each["speed"]) <= 2.0 * largest[run] for run, each in settings.items())
 
 
 def numbers_of(network: NetworkSpec) -> Iterator[Number]:

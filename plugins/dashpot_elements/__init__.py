@@ -42,6 +42,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "prandtl",
         "stribeck",
         "stribeck_curve",
+        "directional_coulomb",
         "directional_friction",
         "side_load_friction",
         "loaded_slider",

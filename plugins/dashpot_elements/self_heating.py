@@ -20,7 +20,12 @@ class SelfHeating(Element):
     w is the rise of temperature over the one that halves the damping; there the stiffness has fallen to 2^-ratio. At a
     steady dissipated power it is that power over `power`. As a damper that is warm takes up less, it warms up less. The
     heat goes with the dissipated power and not with the square of the velocity, as in `softening`, so that it does not
-    run away. Every record begins at the temperature of its surroundings: warmth is not carried from run to run.
+    run away.
+
+    Every record begins at the temperature of its surroundings, or with w = share before/(power time), what is left of
+    the runs before. `before: {fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}` is the work of the run before,
+    kept of that of the run before that one, kept^2 of the next, and so on, as of a specimen that cools by the same
+    share from each run to the next. What is not in `share` went into other branches, or has cooled since.
 
     The heat of a step is that of its mean squared velocity, with the damping in the middle of the step: second order.
     Not passive by itself, as a spring that cools under load takes up energy as heat.
@@ -44,18 +49,43 @@ class SelfHeating(Element):
         symbol="r",
         default=1.0,
     )
-    warmth = State("1", "rise of temperature over that which halves the damping")
+    before = Parameter(
+        "J",
+        "work of the run before, and what is kept of that of earlier ones",
+        bounds=(0.0, 1e9),
+        scale="linear",
+        symbol="E_1",
+        default=0.0,
+    )
+    share = Parameter(
+        "1",
+        "share of that work that is still heat of this dashpot",
+        bounds=(0.0, 1.0),
+        scale="linear",
+        symbol="s",
+        default=1.0,
+    )
+    warmth = State("1", "rise of temperature over that which halves the damping, less what is left of the runs before")
+    cooled = State("1", "share of the heat of the runs before that is gone")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """A first guess of the warmth, then the step with the damping in between."""
         gained = -np.expm1(-dt / p.time)
         heat = p.damping * mean_square(x, dt) / p.power
-        guess = z.warmth + gained * (heat * np.exp(-LN2 * z.warmth) - z.warmth)
-        middle = 0.5 * (z.warmth + np.maximum(guess, 0.0))
+        cooled = z.cooled + gained * (1.0 - z.cooled)
+        old = _whole(z.warmth, z.cooled, p)
+        guess = old + gained * (heat * np.exp(-LN2 * old) - old)
+        middle = 0.5 * (old + np.maximum(guess, 0.0))
         warmth = z.warmth + gained * (heat * np.exp(-LN2 * middle) - z.warmth)
-        spring = p.stiffness * x.new * np.exp(-LN2 * p.ratio * warmth)
-        return Response(spring + p.damping * x.velocity_new * np.exp(-LN2 * warmth), warmth=warmth)
+        whole = _whole(warmth, cooled, p)
+        spring = p.stiffness * x.new * np.exp(-LN2 * p.ratio * whole)
+        force = spring + p.damping * x.velocity_new * np.exp(-LN2 * whole)
+        return Response(force, warmth=warmth, cooled=cooled)
 
     def stored(self, x: Motion, z: Any, p: Any) -> Any:
         """The energy of the softened spring, without the warmth."""
-        return 0.5 * p.stiffness * x.new * x.new * np.exp(-LN2 * p.ratio * z.warmth)
+        return 0.5 * p.stiffness * x.new * x.new * np.exp(-LN2 * p.ratio * _whole(z.warmth, z.cooled, p))
+
+
+def _whole(warmth: Any, cooled: Any, p: Any) -> Any:
+    return warmth + p.share * p.before / (p.power * p.time) * (1.0 - cooled)

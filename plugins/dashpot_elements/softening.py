@@ -19,7 +19,8 @@ class Softening(Element):
     passive by itself, as a spring that cools under load takes up energy as heat.
 
     Every record begins cold, or with a warmth of kept before/(speed^2 time). With `before: {setting: moved, value: 0
-    m^2/s}`, the integral of the squared velocity over the run before, that is a share of what this run gained.
+    m^2/s}`, the integral of the squared velocity over the run before, that is a share of what this run gained; `before:
+    {fixed: 0 m^2/s, over: {setting: moved, kept: {start: 0.5}}}` adds what is left of earlier runs.
     """
 
     picture = Symbol.SPRING

@@ -131,6 +131,11 @@ def lip_seal(motion: Motion, state: State) -> Array:
     return np.where(motion.velocity > 0.0, 55.0, 20.0) * np.tanh(motion.velocity / 1e-3)
 
 
+def rod_wiper(motion: Motion, state: State) -> Array:
+    """The same of another lip, whose friction changes sides by a root."""
+    return np.where(motion.velocity > 0.0, 18.0, 45.0) * motion.velocity / np.hypot(motion.velocity, 2e-3)
+
+
 def rod_seal(motion: Motion, state: State) -> Array:
     """Bristles of 250 N/mm and 100 N s/m that bend up to 60 N at rest and 35 N at speed (LuGre)."""
     bent, found, part = 0.0, [], STEP / 8.0
@@ -242,6 +247,7 @@ CASES = [
     Case("end_stop", droop_strap),
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("friction", lip_seal),
+    Case("friction", rod_wiper),
     Case("velocity_dependent_friction", rod_seal),
     Case("load_dependent_friction", side_load),
     Case("load_dependent_friction", leaves),
@@ -305,3 +311,20 @@ def test_the_law_is_the_cause_that_is_worth_most(tmp_path, seed, case):
     print(found["verdict"], told, found["rmse"])
     most = max(found["causes"], key=lambda cause: cause["gain"] or 0.0, default={"cause": "nothing"})
     assert most["cause"] == case.word
+
+
+def test_a_lip_that_grips_one_way_and_slides_at_once_is_told_by_its_two_limits(tmp_path, seed):
+    registry = load_registry()
+    readers = {each: reader() for each, reader in registry.formats.items()}
+    case = next(case for case in CASES if case.law is rod_wiper)
+    dataset = read_dataset(measured(tmp_path, seed, case), readers)
+    found = diagnose(parse_network(case.model, registry.elements), dataset, registry=registry)
+    assert [named.cause.word for named in found.named if named.accepted] == ["friction"]
+    assert found.after.held_out < 1.1 * NOISE
+    (friction,) = (
+        branch
+        for branch in parse_network(found.extended_text, registry.elements).leaves()
+        if branch.family == "friction"
+    )
+    assert friction.values["compression"].number == pytest.approx(18.0, rel=0.03)
+    assert friction.values["rebound"].number == pytest.approx(45.0, rel=0.03)

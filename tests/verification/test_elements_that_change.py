@@ -89,6 +89,29 @@ def test_at_its_power_the_damping_is_halved_in_the_end():
     assert np.max(found[last]) == pytest.approx(0.5 * 300.0 * AMPLITUDE * OMEGA, rel=0.02)
 
 
+def test_heat_is_carried_over_a_rest_into_the_next_run():
+    """One course of the temperature over a run, a rest and a run; the second run alone begins with what is left."""
+    damping, power, cooling, rest, dt = 300.0, 0.5, 0.8, 0.7, 5e-4
+    numbers = {"stiffness": 2e4, "damping": damping, "power": power, "time": cooling, "ratio": 0.4}
+    time, first = march("self_heating", dt, 8.0, **numbers)
+
+    def rate(t, w):
+        return [(damping * speed(t) ** 2 * 2.0 ** -w[0] / power - w[0]) / cooling]
+
+    warm = integrate(rate, [0.0], time)[0][-1]
+    still = solve_ivp(lambda t, w: [-w[0] / cooling], (0.0, rest), [warm], **EXACT).y[0, -1]
+    warmth = integrate(rate, [still], time)[0]
+    # of the work of the first run, by its own force, a share of it in the spring and 1 in 4 elsewhere
+    work = float(np.sum(0.5 * (first[1:] + first[:-1]) * np.diff(place(time)))) / 0.75
+    left = still * power * cooling / (0.75 * work)
+    assert 0.2 < left < 0.8
+    found = march("self_heating", dt, 8.0, **numbers, before=left * work, share=0.75)[1]
+    expected = 2e4 * place(time) * 2.0 ** (-0.4 * warmth) + damping * speed(time) * 2.0**-warmth
+    # at the first sample a step has passed
+    assert relative(found[1:], expected[1:]) < 1e-4
+    assert relative(first, expected) > 0.05
+
+
 def test_a_rattling_mass_flies_rings_and_flies_again(state):
     """Each contact is integrated by itself, from the instant at which it begins to that at which it ends."""
     mass, stiffness, gap, loss = 0.5, 4e4, 0.6e-3, 0.8

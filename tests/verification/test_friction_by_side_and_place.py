@@ -54,6 +54,27 @@ def test_sliding_to_and_fro_takes_the_work_of_both_limits_and_leaves_half_their_
     assert np.mean(force) == pytest.approx(0.5 * (20.0 - 50.0), rel=1e-2)
 
 
+def test_rounded_friction_by_direction_follows_its_curve():
+    """tanh from its exponentials, with the limit of each direction; with equal ones it is that of both."""
+    numbers = {"compression": 12.0, "rebound": 30.0, "creep_velocity": 5e-3}
+    time, found = march("directional_coulomb", 1e-3, 2.0, **numbers)
+    fast = np.exp(-2.0 * np.abs(speed(time)) / 5e-3)
+    level = (1.0 - fast) / (1.0 + fast)
+    assert relative(found, np.where(speed(time) > 0.0, 12.0 * level, -30.0 * level)) < 1e-12
+    _, equal = march("directional_coulomb", 1e-3, 2.0, compression=12.0, rebound=12.0, creep_velocity=5e-3)
+    assert relative(equal, march("coulomb", 1e-3, 2.0, limit=12.0, creep_velocity=5e-3)[1]) < 1e-12
+
+
+def test_rounded_friction_takes_the_work_of_both_limits_less_that_of_its_creep():
+    """Over a half sine at v, the limit times the stroke times 1 less pi^2/24 (creep/v)^2, where the creep is slow."""
+    _, x, force = last_cycle(
+        "directional_coulomb", 5e-3, 1.0, 3, 4000, compression=20.0, rebound=50.0, creep_velocity=1e-3
+    )
+    work = np.sum(0.5 * (force + np.roll(force, 1)) * (x - np.roll(x, 1)))
+    share = 1.0 - np.pi**2 / 24.0 * (1e-3 / (2.0 * np.pi * 5e-3)) ** 2
+    assert work == pytest.approx(2.0 * 5e-3 * (20.0 + 50.0) * share, rel=1e-4)
+
+
 @pytest.mark.parametrize(("growth", "middle"), [(0.0, 0.0), (2e3, 1.5e-3), (5e3, 0.0), (5e4, 3e-3), (59999.0, 1e-3)])
 def test_friction_by_place_solves_its_equation(growth, middle):
     """The limit has a kink where the way crosses the middle: the integration begins anew there."""

@@ -90,8 +90,8 @@ def _told(found: Found) -> Outcome:
         content = found.as_dict()
         kept = ("cause", "class", "title", "place", "probability", "accepted", "evidence")
         causes = [{key: cause[key] for key in kept} for cause in content["causes"]]
-        faults = [fault.sentence for fault in found.triage.faults]
-        return {"models": [_model(found.fit)], "verdict": content["verdict"], "causes": causes, "remarks": faults}
+        remarks = found.triage.sentences
+        return {"models": [_model(found.fit)], "verdict": content["verdict"], "causes": causes, "remarks": remarks}
     fits = found.fits if isinstance(found, Comparison) else (found,)
     failures = dict(found.failures) if isinstance(found, Comparison) else {}
     dataset = fits[0].dataset if fits else None

@@ -24,6 +24,7 @@ from dashpot.fit.result import floor_of
 from dashpot.triage.energy import runs_that_give_back
 from dashpot.triage.examine import examine
 from dashpot.triage.fault import Fault
+from dashpot.triage.telling import told_once
 
 Array = NDArray[np.float64]
 
@@ -79,7 +80,7 @@ class Look:
             "spectra": [spectrum for each in self.seen for spectrum in spectra(each)],
             "repeats": self.repeats(),
             "warnings": [
-                *(f"Run '{fault.run}': {fault.evidence}. {fault.cure}." for fault in self.faults),
+                *(each.sentence for each in told_once(self.faults, len(self.seen))),
                 *map(str, self.setting.dataset.problems),
                 *false_repeats(self.setting.dataset),
             ],

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.compare.levels import ORDER, ROUNDING, levelled
 from dashpot.compare.strokes import Seen
-from dashpot.fit.alike import SAME_MOTION
-from dashpot.text.quantity import base_unit
 
 Array = NDArray[np.float64]
 
@@ -82,19 +81,8 @@ def _variables(seen: Sequence[Seen], rows: Sequence[NDArray[np.intp]]) -> dict[s
     parts = [_of_run(each, part) for each, part in zip(seen, rows, strict=True)]
     common = [name for name in parts[0] if all(name in part for part in parts)]
     joined = {name: np.concatenate([part[name] for part in parts]) for name in common}
-    return {name: values for name, values in joined.items() if np.ptp(values) > _alike(name, values, seen)}
-
-
-def _alike(name: str, values: Array, seen: Sequence[Seen]) -> float:
-    """By how much the values of a variable may differ that is one value: of a condition, by what a rig repeats.
-
-    A temperature has no size, and the order of the tests is counted.
-    """
-    units = {each.run.units.get(name) for each in seen}
-    if name in OF_SAMPLES or name == "order of tests" or any(unit and base_unit(unit) == "K^1" for unit in units):
-        return 1e-9 * float(np.abs(values).max())
-    stroke = 2.0 * max(each.amplitude for each in seen)
-    return SAME_MOTION * (stroke if name == "preload" else float(np.abs(values).max()))
+    found = {name: values if name in OF_SAMPLES else levelled(name, values, seen) for name, values in joined.items()}
+    return {name: values for name, values in found.items() if np.ptp(values) > ROUNDING * np.abs(values).max()}
 
 
 def _of_run(seen: Seen, rows: NDArray[np.intp]) -> dict[str, Array]:
@@ -103,7 +91,7 @@ def _of_run(seen: Seen, rows: NDArray[np.intp]) -> dict[str, Array]:
     whole: Mapping[str, float] = {
         "amplitude": seen.amplitude,
         "preload": seen.preload,
-        "order of tests": float(seen.run.order + 1),
+        ORDER: float(seen.run.order + 1),
         **{name: value for name, value in seen.run.settings.items() if name not in NO_VARIABLES},
     }
     reversal = seen.displacement[last]

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.compare.levels import ORDER, levelled
 from dashpot.compare.residual_map import residual_maps
 from dashpot.compare.strokes import Seen, see
 from dashpot.data.loop import mean_loop
@@ -35,8 +36,8 @@ def shapes_of(runs: Sequence[Run], simulated: Simulated | None = None) -> dict[s
 
     ``labels``; ``runs``: each ``run`` and its ``shade``, the value of the condition ``shaded_by``; ``mid_stroke``,
     ``low_speed``, ``less_spring`` and ``after_reversals``: lists of curves ``{run, label, x, y}`` in SI;
-    ``conditions``: values by run and label, see ``conditions_of``; ``cycles``: the same over time; ``residual_maps``:
-    see ``residual_map``.
+    ``conditions``: values by run and label, see ``conditions_of``, at the levels of all runs; ``cycles``: the same
+    over time; ``residual_maps``: see ``residual_map``.
     """
     seen = [see(run, simulated) for run in runs]
     slow = [curve for each in slow_runs(seen) for curve in low_speed(each)]
@@ -47,7 +48,7 @@ def shapes_of(runs: Sequence[Run], simulated: Simulated | None = None) -> dict[s
         "low_speed": slow,
         "less_spring": less_spring(slow),
         "after_reversals": [curve for each in seen for curve in after_reversals(each)],
-        "conditions": [row for each in seen for row in conditions_of(each)],
+        "conditions": _at_levels([row for each in seen for row in conditions_of(each)], seen),
         "cycles": [row for each in seen for row in over_time(each)],
         "residual_maps": residual_maps(seen),
     }
@@ -138,13 +139,24 @@ def conditions_of(seen: Seen) -> list[dict[str, Any]]:
     """
     settings = {name: value for name, value in seen.run.settings.items() if name not in NO_CONDITIONS}
     conditions = {"amplitude": seen.amplitude, "preload": seen.preload} | settings
-    conditions["order of tests"] = float(seen.run.order + 1)
+    conditions[ORDER] = float(seen.run.order + 1)
     rows = []
     for label, values in seen.cycle_values.items():
         if values.time.size:
             medians = {name: float(np.median(getattr(values, name))) for name in ("stiffness", "loss", "energy")}
             rows.append({"run": seen.name, "label": label, "conditions": conditions, **medians})
     return rows
+
+
+def _at_levels(rows: Sequence[dict[str, Any]], seen: Sequence[Seen]) -> list[dict[str, Any]]:
+    """The rows with what a rig does not tell apart under one value."""
+    conditions: list[dict[str, float]] = [dict(row["conditions"]) for row in rows]
+    for name in dict.fromkeys(name for each in conditions for name in each):
+        having = [each for each in conditions if name in each]
+        values = levelled(name, np.array([each[name] for each in having]), seen)
+        for each, value in zip(having, values.tolist(), strict=True):
+            each[name] = value
+    return [{**row, "conditions": each} for row, each in zip(rows, conditions, strict=True)]
 
 
 def over_time(seen: Seen) -> list[dict[str, Any]]:

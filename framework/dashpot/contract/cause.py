@@ -105,7 +105,7 @@ class Suspect:
     belong to this cause: the borders between causes.
     ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once. Where forms of
     a cause change different things, ``of`` (m,) names for each place what: the law that acts may be another form of
-    a law of the same thing only.
+    a law of the same thing only. ``about`` says what the form is, where the words of its cause do not fit it.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -127,6 +127,7 @@ class Suspect:
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
     of_motion: bool = False
     of: tuple[str, ...] = ()
+    about: str = ""
 
     @property
     def each_of(self) -> tuple[str, ...]:

@@ -176,7 +176,7 @@ class Diagnosis(Findings):
         return {
             "cause": named.cause.word,
             "class": named.cause.kind,
-            "title": named.cause.about,
+            "title": named.about,
             "place": named.site.words if named.site else None,
             "rank": rank,
             "accepted": named.accepted,
@@ -254,7 +254,7 @@ class Diagnosis(Findings):
         residuals = {"before": self.residuals(self.written_before, self.setting)}
         if self.terms:
             residuals["after"] = self.residuals(self.written, self.after_setting)
-        triage = [*(fault.sentence for fault in self.triage.faults), *self.remarks]
+        triage = [*self.triage.sentences, *self.remarks]
         untried = [f"The cause '{word}' could not be tried: {reason}" for word, reason in self.pursuit.look.unavailable]
         signals = signal_evidence(self.setting.dataset.runs, residuals)
         return {

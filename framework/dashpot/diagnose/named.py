@@ -76,6 +76,11 @@ class NamedCause:
         return self.terms[0].title if self.terms else self.cause.about
 
     @property
+    def about(self) -> str:
+        """What it is."""
+        return self.terms[0].about if self.terms else self.cause.about
+
+    @property
     def branch(self) -> str | None:
         """The first branch it added; None for a fault of single runs."""
         return next(iter(self.slots)).partition(".")[0] if self.slots else None

@@ -58,7 +58,12 @@ class Term:
     @property
     def title(self) -> str:
         """What the cause is, and where."""
-        return " ".join([self.cause.about, self.site.words] if self.site else [self.cause.about])
+        return " ".join([self.about, self.site.words] if self.site else [self.about])
+
+    @property
+    def about(self) -> str:
+        """What the form is, else what its cause is."""
+        return self.suspect.about or self.cause.about
 
     @property
     def changes(self) -> frozenset[str]:

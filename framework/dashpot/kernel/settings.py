@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import ORDER
-from dashpot.data.history import NOTHING
+from dashpot.data.history import EACH, NOTHING, name_of, runs_before
 from dashpot.kernel.following import follows, keys_of, moved, told_to
-from dashpot.model.network import NetworkSpec, Over, Slot
+from dashpot.model.network import NetworkSpec, Over, Slot, Value
 from dashpot.text.problem import InputError, Place, Problem
 
 Array = NDArray[np.float64]
@@ -51,8 +51,7 @@ def _with_settings(
     for number, over in changed:
         # the parameters of a dependence stand behind the number that depends
         inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
-        sensible = slots[number].value.sensible
-        own[:, number] = moved(over, lanes[:, number], list(inner.T), told_to(over, settings), sensible)
+        own[:, number] = _at(over, lanes[:, number], inner, settings, slots[number].value.sensible)
     return own
 
 
@@ -63,9 +62,16 @@ def used_settings(spec: NetworkSpec, settings: Mapping[str, float], run: str = "
     problems = list(_missing(spec, settings, run))
     if problems:
         raise InputError(problems)
-    needed = {slot.value.setting for slot in spec.slots()}
-    needed |= {key for slot in spec.slots() if slot.value.over for key in keys_of(slot.value.over)}
+    needed = {key for slot in spec.slots() for key in _needed(slot.value, settings)}
     return {key: value for key, value in settings.items() if key in needed}
+
+
+def _needed(value: Value, settings: Mapping[str, float]) -> Iterator[str]:
+    yield value.setting
+    if over := value.over:
+        yield from keys_of(over)
+        if over.way == "kept":
+            yield from (name_of(over.word, earlier) for earlier in range(len(runs_before(settings, over.word))))
 
 
 def at_settings(spec: NetworkSpec, settings: Mapping[str, float]) -> NetworkSpec:
@@ -100,9 +106,19 @@ def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iter
     told = {ORDER, *NOTHING}
     for slot in spec.slots():
         over = slot.value.over
-        if over and told.isdisjoint(keys_of(over)) and settings.keys().isdisjoint(keys_of(over)):
+        if over and over.way == "kept" and (over.channel or over.word not in EACH):
+            yield _not_of_the_runs_before(slot, over)
+        elif over and told.isdisjoint(keys_of(over)) and settings.keys().isdisjoint(keys_of(over)):
             told.add(keys_of(over)[0])
             yield _problem(slot, over, run)
+
+
+def _not_of_the_runs_before(slot: Slot, over: Over) -> Problem:
+    return Problem(
+        slot.value.node.place if slot.value.node else Place(),
+        f"'{slot.path}' over '{over.word}': expected a setting that adds up over the runs before",
+        f"write one of {', '.join(EACH)}, or 'slope' in place of 'kept'",
+    )
 
 
 def _problem(slot: Slot, over: Over, run: str) -> Problem:
@@ -119,3 +135,11 @@ def _problem(slot: Slot, over: Over, run: str) -> Problem:
         f"'{slot.path}' depends on the {what} '{over.word}', which {which} does not have",
         f"add '{over.word}' to the {how} of the run in the dataset file, or leave the run out",
     )
+
+
+def _at(over: Over, base: Array, numbers: Array, settings: Mapping[str, float], sensible: tuple[float, float]) -> Array:
+    """The number (lanes,) at the settings of a run."""
+    if over.way == "kept":
+        before = np.array(runs_before(settings, over.word))
+        return np.clip(base + numbers ** np.arange(before.size) @ before, *sensible)
+    return np.asarray(moved(over, base, list(numbers.T), told_to(over, settings), sensible))

@@ -26,9 +26,10 @@ Hold = Literal["driven", "loaded", "ground", "free"]
 END, GROUND = "", "ground"  # the nodes of a network that has only two ends
 MASSES = ("mass", "added_mass")
 # what a number may do over a setting: rise along a line, grow by an exponential, follow factors between places; over a
-# temperature: shift by the law of Williams, Landel and Ferry or by that of Arrhenius
-Way = Literal["slope", "rate", "factor", "wlf", "arrhenius"]
-WAYS_OVER: tuple[Way, ...] = ("slope", "rate", "factor", "wlf", "arrhenius")
+# temperature: shift by the law of Williams, Landel and Ferry or by that of Arrhenius; over the history of the specimen:
+# add up what is kept of each run before
+Way = Literal["slope", "rate", "factor", "wlf", "arrhenius", "kept"]
+WAYS_OVER: tuple[Way, ...] = ("slope", "rate", "factor", "wlf", "arrhenius", "kept")
 LISTED: tuple[Way, ...] = ("factor", "wlf")  # those with several numbers
 
 
@@ -79,7 +80,9 @@ class Over:
     ``slope``: b + slope (s - at); ``rate``: b exp(rate (s - at)); ``factor``: b times a factor that goes along straight
     lines between the places ``at`` and stays as it is outside of them. With a temperature s in K, ``wlf``:
     b 10^(-C1 (s - at) / (C2 + s - at)) with numbers C1 and C2, and ``arrhenius``: b exp(E (1 / s - 1 / at)) with an
-    activation energy over the gas constant E in K (Ferry, Viscoelastic Properties of Polymers, chapter 11).
+    activation energy over the gas constant E in K (Ferry, Viscoelastic Properties of Polymers, chapter 11). With a
+    setting that tells of the runs before, ``kept``: b + s1 + kept s2 + kept^2 s3 + ..., of the run before, the one
+    before that, and so on.
     ``numbers`` are fixed or to be found like all numbers. What comes out is kept inside the sensible range of b.
     """
 

@@ -15,6 +15,7 @@ from dashpot.text.quantity import base_unit_of, measure
 
 UNBOUNDED = (-math.inf, math.inf)
 FACTORS = (1e-3, 1e3)
+SHARES = (0.0, 1.0)
 # the parameters of a shift with temperature: name, unit, and the range in which they make sense
 SHIFTS = {
     "wlf": (("C1", "1", (0.1, 100.0)), ("C2", "K", (5.0, 1000.0))),
@@ -30,20 +31,23 @@ def read_over(form: Form, unit: str, read: ReadNumber) -> Over | None:
     """The dependence of a number in ``unit``: ``{setting: pressure, at: 2 bar, slope: 5 N/bar}``.
 
     Instead of ``setting`` there may be ``channel``, instead of ``slope`` a ``rate``, a ``factor`` for each of several
-    places, or, over a temperature, ``wlf: [C1, C2]`` or ``arrhenius``. None where something is wrong; every mistake is
-    noted.
+    places, or, over a temperature, ``wlf: [C1, C2]`` or ``arrhenius``. ``kept: 0.5`` needs no ``at``. None where
+    something is wrong; every mistake is noted.
     """
     channel = "channel" in form
     word = form.text("channel" if channel else "setting")
     way = next((key for key in WAYS_OVER if key in form), None)
-    node, entry = form.node("at"), form.node(way) if way else None
+    node, entry = form.node("at") if way != "kept" else None, form.node(way) if way else None
     if way is None:
         form.complain(
             None, f"{form.what} lacks one of {', '.join(WAYS_OVER)}", "write 'slope: {start: 0}' for a straight line"
         )
-    elif node is None:
+    elif node is None and way != "kept":
         form.complain(None, f"{form.what} lacks 'at'", "give the setting at which the parameter has its base value")
     form.close()
+    if way == "kept" and word and entry:
+        share = read(entry, "1", SHARES, "linear", way)
+        return Over(word, way, (0.0,), (share,), channel) if share else None
     if word is None or way is None or node is None or entry is None:
         return None
     try:

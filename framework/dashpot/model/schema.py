@@ -207,6 +207,11 @@ def _over() -> Schema:
             ("at", "arrhenius"),
             "over a temperature, by Arrhenius",
         ),
+        "kept": s.mapping(
+            {"setting": words["setting"], "kept": s.part("value", "share that is left of it at the next run")},
+            ("setting", "kept"),
+            "the sum over the runs before",
+        ),
     }
     table = s.mapping(
         {

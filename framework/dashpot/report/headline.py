@@ -276,8 +276,10 @@ def _gain_of(causes: list[Json]) -> float | None:
 
 def _bad_data(diagnosis: Json, errors: Errors) -> str:
     faults = diagnosis.get("faults") or []
-    first = f"{faults[0]['evidence']} (run '{faults[0]['run']}')" if faults else _measurement_faults(diagnosis)
-    more = f", and {len(faults) - 1} more" if len(faults) > 1 else ""
+    same = [fault["run"] for fault in faults if fault["evidence"] == faults[0]["evidence"]]
+    runs = f"run '{same[0]}'" if len(same) == 1 else f"{len(same)} runs"
+    first = f"{faults[0]['evidence']} ({runs})" if faults else _measurement_faults(diagnosis)
+    more = f", and {len(faults) - len(same)} more" if len(faults) > len(same) else ""
     causes = [cause for cause in likely_causes(diagnosis) if cause.get("branch")]
     rest = f"; the sound runs show {_named(causes)}" if causes else ""
     return f"The measurement is at fault first: {first}{more}. {error_phrase(errors)}{rest}."

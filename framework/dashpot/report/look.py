@@ -72,9 +72,12 @@ def look_figures(evidence: Evidence) -> list[Figure]:
 def look_headline(look: Json) -> str:
     """What is wrong with the runs, or what is to be explained."""
     if look["faults"]:
-        first, more = look["faults"][0], len(look["faults"]) - 1
+        first = look["faults"][0]
+        same = sum(fault["evidence"] == first["evidence"] for fault in look["faults"])
+        more = len(look["faults"]) - same
         further = f" {more} more {'run is' if more == 1 else 'runs are'} at fault." if more else ""
-        return f"Run '{first['run']}': {first['evidence']}.{further}"
+        runs = f"Run '{first['run']}'" if same == 1 else f"{same} runs"
+        return f"{runs}: {first['evidence']}.{further}"
     wrong = [run["run"] for run in look["runs"] if run["gives_back"]]
     if wrong:
         gives = "gives" if len(wrong) == 1 else "give"

@@ -8,22 +8,24 @@ from dataclasses import dataclass, replace
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.groups import group_repeats
+from dashpot.data.history import knowing_better
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.text.problem import Place, Problem
-from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.actuator import actuator_remarks
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.duplicates import duplicate_runs
 from dashpot.triage.fault import Fault, corrected
 from dashpot.triage.passivity import work_faults
 from dashpot.triage.scale import wrong_scales
+from dashpot.triage.telling import told_once
 
 
 @dataclass(frozen=True, eq=False)
 class Triage:
     """``dataset`` without the runs at fault, or with a channel corrected; ``faults`` and ``remarks`` say why.
 
-    Its runs measure one force each. The first ``read`` faults were told by reading.
+    Its runs measure one force each. The first ``read`` faults were told by reading; ``measured`` runs were looked at.
     """
 
     dataset: Dataset
@@ -31,6 +33,7 @@ class Triage:
     remarks: tuple[str, ...]
 
     read: int = 0
+    measured: int = 0
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -38,14 +41,14 @@ class Triage:
 
         A fault that several runs have together is told once.
         """
-        runs: dict[tuple[str, str], list[str]] = {}
-        for fault in self.faults[self.read :]:
-            runs.setdefault((f"{fault.evidence}; {fault.done}", fault.cure), []).append(f"'{fault.run}'")
-        found = [
-            Problem(Place(), f"run{'s' * (len(names) > 1)} {', '.join(names)}: {message}", cure)
-            for (message, cure), names in runs.items()
-        ]
+        told = told_once(self.faults[self.read :], self.measured)
+        found = [Problem(Place(), f"{each.runs}: {each.what}", each.cure) for each in told]
         return (*found, *(Problem(Place(), remark, severity="warning") for remark in self.remarks))
+
+    @property
+    def sentences(self) -> list[str]:
+        """All faults for a list of warnings, those of reading among them, each once."""
+        return [each.sentence for each in told_once(self.faults, self.measured)]
 
 
 def examined(dataset: Dataset) -> Dataset:
@@ -69,13 +72,23 @@ def examine(dataset: Dataset) -> Triage:
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
-    left = group_repeats([kept[run.name] for run in whole if run.name in kept])
+    left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
     sound = {run.name for run in runs}
-    remarks = late + [remark for run in left if run.name in sound and (remark := actuator_harmonics(run))]
+    remarks = late + actuator_remarks([run for run in left if run.name in sound])
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")
-    return Triage(replace(dataset, runs=tuple(left)), (*read, *faults), tuple(remarks), len(read))
+    return Triage(replace(dataset, runs=tuple(left)), (*read, *faults), tuple(remarks), len(read), len(measured))
+
+
+def _knowing_better(runs: Sequence[Run], measured: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:
+    """The runs with what they know of those before them put right where a channel of these was corrected."""
+    left, by_name = list(runs), {run.name: run for run in measured}
+    for fault in faults:
+        if fault.factor is not None:
+            factors = [fault.factor if fault.channel == channel else 1.0 for channel in ("force", "displacement")]
+            left = [knowing_better(run, by_name[fault.run], *factors) for run in left]
+    return left
 
 
 def _without(runs: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:

@@ -22,11 +22,6 @@ class Fault:
     channel: str = "force"
 
     @property
-    def sentence(self) -> str:
-        """The fault for a list of warnings."""
-        return f"Run '{self.run}': {self.evidence}; {self.done}. {self.cure}."
-
-    @property
     def done(self) -> str:
         """What was done here."""
         if self.factor is None:

@@ -62,15 +62,17 @@ def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[st
         return []
     if any(_by_itself(run, works[run.name]).kind != "polarity" for run in bad):
         return []
-    shares = [-works[run.name].power_factor for run in bad]
-    which = "most" if sound else "all"
+    # beside most runs, the others need no more evidence than that they do the same, be it within what a delay explains
+    every = all(works[run.name].mean < 0.0 and _by_itself(run, works[run.name]).kind == "polarity" for run in sound)
+    turned = [*bad, *sound] if every else bad
+    shares = [-works[run.name].power_factor for run in turned]
+    given = "work is given back over closed cycles" if every else f"{len(bad)} of {len(works)} runs give back work"
     evidence = (
-        f"{len(bad)} of {len(works)} runs with closed cycles give back work, {min(shares):.1%} to {max(shares):.1%} "
-        "of what goes to and fro, which no passive specimen does; with their force turned round they take up work: "
-        f"the force of {which} runs has the wrong sign"
+        f"{given}, {min(shares):.1%} to {max(shares):.1%} of what goes to and fro, which no passive specimen does; "
+        f"with the force turned round it is taken up: the force of {'all' if every else 'most'} runs has the wrong sign"
     )
-    cure = f"Write 'sign: -1' under the force channel of {'these' if sound else 'all'} runs"
-    return [Fault(run.name, "polarity", evidence, cure, -1.0) for run in bad]
+    cure = f"Write 'sign: -1' under the force channel of {'all' if every else 'these'} runs"
+    return [Fault(run.name, "polarity", evidence, cure, -1.0) for run in turned]
 
 
 def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> float | None:

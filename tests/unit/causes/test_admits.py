@@ -22,6 +22,7 @@ VIEW = SimpleNamespace(
     highest_frequency=DRIVEN,
     displacement=lambda run: 0.01 * np.sin(ANGLE),
     step=lambda run: STEP,
+    settings=lambda run: {},
     velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE),
 )
 
@@ -187,3 +188,11 @@ def test_a_valve_with_its_knee_at_rest_is_dry_friction(compression, rebound, adm
     assert suspect("valve", "a knee behind a spring").admits({**equal, **knees}) is admitted
     sharp = {**knees, "compression": 1e6, "rebound": 1e3}  # nearly all of the force in one direction
     assert not suspect("valve", "a knee behind a spring").admits(sharp)
+
+
+@pytest.mark.parametrize(("damping", "admitted"), [(5.0, False), (100.0, True)])
+def test_a_spring_that_warms_up_beside_hardly_any_dashpot_is_no_heating(damping, admitted):
+    """At 8 Hz 0.25 and 5 N/mm beside 100 N/mm: 0.25 and 5 %."""
+    found = {"damping": damping, "stiffness": 1e5}
+    assert suspect("heating", "a dashpot and a spring that warm up").admits(found) is admitted
+    assert suspect("heating", "a dashpot that warms up").admits({"damping": 1.0})

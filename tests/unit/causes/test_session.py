@@ -7,6 +7,9 @@ import pytest
 from unit.causes.test_promises import NETWORK, REGISTRY, SmallView
 
 from dashpot.data.drive import drive_from_samples
+from dashpot.data.history import name_of
+from dashpot.kernel.eager import simulate_eagerly
+from dashpot.kernel.settings import with_settings
 from dashpot.model.reading import parse_network
 from dashpot_causes.session import order_of
 
@@ -53,6 +56,41 @@ def test_where_strokes_foretell_the_order_nothing_is_said_of_it(view):
     assert order_of(view) == {}
     assert suspects("drift", view) == {}
     assert not [form for form in suspects("heating", view) if "run to run" in form]
+
+
+class Worked(Session):
+    """The same specimen, and what its dashpot alone would have taken up before each run."""
+
+    DAMPING = 250.0
+
+    def settings(self, run):
+        before = [self.drives[f"r{k}"].velocity for k in range(self.orders[run])]
+        squares = [STEP * float(np.sum(speed**2)) for speed in reversed(before)]
+        told = {name_of("moved", k): square for k, square in enumerate(squares)}
+        told |= {name_of("worked", k): self.DAMPING * square for k, square in enumerate(squares)}
+        return {**super().settings(run), "moved": 0.0, "worked": 0.0, **told}
+
+
+@pytest.mark.parametrize(
+    ("word", "form", "strength"),
+    [
+        ("heating", "a dashpot that warms up, from run to run", Worked.DAMPING),
+        ("heating", "a dashpot and a spring that warm up, from run to run", Worked.DAMPING),
+        ("softening", "softening from run to run", 4e4),
+    ],
+)
+def test_heat_of_the_runs_before_is_written_as_its_column_shows_it(word, form, strength):
+    view = Worked()
+    suspect = suspects(word, view)[form]
+    place = len(suspect.grid) // 2
+    spec = parse_network(suspect.extend(NETWORK, [(strength, suspect.grid[place])]), REGISTRY.elements)
+    for run in ("r0", "r1", "r7"):
+        lanes = with_settings(spec, np.array([[slot.value.number for slot in spec.slots()]]), view.settings(run))
+        added = simulate_eagerly(spec, view.drives[run], lanes)[0] - view.force(run)
+        shown = strength * suspect.columns(view, run)[place]
+        # the file tells numbers to six digits
+        assert added == pytest.approx(shown, abs=1e-4 * np.abs(shown).max())
+    assert not [form for form in suspects(word, Session()) if "run to run" in form and "numbers" not in form]
 
 
 def test_a_zero_that_drifts_is_one_number_of_the_load_cell():

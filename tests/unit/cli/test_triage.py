@@ -52,3 +52,29 @@ def test_fit_and_compare_go_on_with_the_mended_runs(call, folder, tmp_path):
     assert code == 0 and "run 'r1': it gives back" in err
     (model,) = json.loads((tmp_path / "compared" / "compare.json").read_text())["models"]
     assert model["rmse"]["all"] < 2.0 and set(model["per_run"]) == {f"r{number}" for number in range(5)}
+
+
+@pytest.fixture
+def all_turned(folder):
+    """The same five runs, the force of all of them turned, and in newtons."""
+    for number in range(5):
+        path = folder / f"r{number}.csv"
+        table = np.loadtxt(path, delimiter=",", skiprows=1)
+        table[:, 2] *= {1: 1.0, 3: -1e-3}.get(number, -1.0)
+        np.savetxt(path, table, delimiter=",", header="t,x,F", comments="", fmt="%.9g")
+    return folder
+
+
+def test_a_sign_that_is_wrong_in_all_runs_is_told_once_by_every_verb(call, all_turned, tmp_path):
+    told = "work is given back over closed cycles, "
+    assert [line.partition(told)[1] for line in call("check", all_turned)[2].splitlines()] == [told]
+    _, _, err = call("fit", "kelvin_voigt", all_turned, "-o", tmp_path / "fit", "--quiet")
+    assert err.count(told) == 1 and "all 5 runs" in err
+    for verb, name in (("look", "look"), ("diagnose", "diagnosis")):
+        more = () if verb == "look" else ("kelvin_voigt",)
+        code, out, err = call(verb, *more, all_turned, "-o", tmp_path / verb, "--quiet")
+        assert code == 0 and (out + err).count(told) <= 1
+        found = json.loads((tmp_path / verb / f"{name}.json").read_text())
+        assert {fault["run"] for fault in found["faults"]} == {f"r{number}" for number in range(5)}
+        # in the headline, and once among the warnings
+        assert (tmp_path / verb / "report.html").read_text().count(told) == 2

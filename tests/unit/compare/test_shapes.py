@@ -11,6 +11,7 @@ from unit.compare.specimens import DT, run, slide, sweep
 from dashpot.compare.residual_map import residual_maps
 from dashpot.compare.shapes import after_reversals, conditions_of, less_spring, low_speed, mid_stroke, shapes_of
 from dashpot.compare.strokes import see, work
+from dashpot.report.figures.conditions import over_conditions
 
 STIFFNESS, DAMPING = 200e3, 900.0
 TIME = DT * np.arange(6000)
@@ -89,6 +90,39 @@ def test_conditions_have_the_settings_and_the_order():
         "pressure": 2e5,
         "order of tests": 7.0,
     }
+
+
+def shown(amplitudes, **settings):
+    """The conditions of sines of some amplitudes, as the report gets them."""
+    runs = []
+    for k, amplitude in enumerate(amplitudes):
+        x, _ = sine(amplitude, 4.0)
+        told = {key: each[k] for key, each in settings.items()}
+        runs.append(run(f"r{k}", 10e-3 + x, STIFFNESS * x, "harmonic", order=k, **told))
+    return shapes_of(runs)["conditions"]
+
+
+def test_amplitudes_that_a_rig_does_not_tell_apart_are_one_condition():
+    """Three of each, by up to 1.7 % apart: two levels, not six, and none where all are of one."""
+    rows = shown([1.000e-3, 1.009e-3, 1.017e-3, 2.00e-3, 2.015e-3, 2.034e-3])
+    found = [row["conditions"]["amplitude"] for row in rows]
+    assert found == pytest.approx([1.009e-3] * 3 + [2.015e-3] * 3, rel=1e-3)
+    assert len(set(found)) == 2
+    (panel,) = panels(shown([1.000e-3, 1.009e-3, 1.017e-3]))
+    assert panel == "order of tests"
+    assert panels(rows) == ["amplitude (mm)", "order of tests"]
+
+
+def test_levels_that_are_farther_apart_stay_as_they_are():
+    rows = shown([1.00e-3, 1.05e-3, 1.10e-3], pressure=(2.0e5, 2.02e5, 2.5e5))
+    assert [row["conditions"]["amplitude"] for row in rows] == pytest.approx([1.00e-3, 1.05e-3, 1.10e-3], rel=1e-3)
+    assert [row["conditions"]["pressure"] for row in rows] == [2.0e5, 2.0e5, 2.5e5]
+
+
+def panels(rows):
+    figure = over_conditions(rows)
+    axes = figure.plot["layout"]
+    return [axes[key]["title"]["text"] for key in axes if key.startswith("xaxis") and axes[key]["title"]["text"]]
 
 
 def test_the_residual_is_shown_over_the_variables_that_made_it():

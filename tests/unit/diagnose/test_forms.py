@@ -26,3 +26,19 @@ def test_a_sharp_slider_is_written_as_one(late):
     assert {term.cause.word for term in found.named} == {"friction"} | ({"delay"} if late else set())
     assert found.after.train < 1.05 * NOISE
     assert found.verdict == "explained"
+
+
+def levelling(motion):
+    """Spring and dashpot, and a damper whose force levels off along a root (n,) N."""
+    return plain(motion) + 150.0 * motion.v() / np.hypot(motion.v(), 0.06)
+
+
+def test_a_damping_that_levels_off_is_titled_by_its_form_and_not_as_a_power():
+    found = diagnose(parse_network(NETWORK, REGISTRY.elements), dataset(levelling, repeats=REPEATS), registry=REGISTRY)
+    (told,) = found.as_dict()["causes"]
+    assert (told["cause"], told["title"], told["branch"]) == (
+        "power_law_damping",
+        "digressive damping",
+        "digressive_damping",
+    )
+    assert "# cause: digressive damping" in found.extended_text

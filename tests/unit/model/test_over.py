@@ -30,6 +30,7 @@ LINE = "{start: 30 N, over: {setting: pressure, at: 2 bar, slope: {start: 5 N/ba
 RATE = "{fixed: 30 N, over: {channel: temperature, at: 20 degC, rate: -1 %/K}}"
 TABLE = "{start: 30 N, over: {setting: current, at: [0 A, 1 A, 2 A], factor: [1, {start: 2}, {start: 2.5}]}}"
 
+KEPT = "{start: 30 N, over: {setting: worked, kept: {start: 0.4}}}"
 WLF = "{start: 30 N, over: {setting: temperature, at: 20 degC, wlf: [17.44, {start: 51.6 K}]}}"
 ARRHENIUS = "{start: 30 N, over: {channel: temperature, at: 20 degC, arrhenius: {start: 5000 K}}}"
 
@@ -65,7 +66,9 @@ def test_factors_between_places():
     ("number", "message"),
     [
         ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
-        ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius"),
+        ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius, kept"),
+        ("{start: 30 N, over: {setting: worked, at: 0 J, kept: 0.5}}", "has no key 'at'"),
+        ("{start: 30 N, over: {setting: worked, kept: 1.5}}", "expected 0 to 1"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
         ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
@@ -99,6 +102,13 @@ def test_most_numbers_of_the_load_cell_and_a_knot_of_a_table_stay_as_they_are():
         read("30 N", f"  s: {{element: spring, stiffness: {{deflection: [0 mm, 1 mm], force: [0 N, {over}]}}}}\n")
 
 
+def test_what_is_kept_of_the_runs_before_needs_no_place():
+    found = slots(read(KEPT))
+    assert list(found)[2:] == ["it.limit.kept"]
+    assert (found["it.limit.kept"].number, found["it.limit.kept"].sensible) == (0.4, (0.0, 1.0))
+    assert found["it.limit.kept"].searched
+
+
 def test_shifts_with_temperature():
     found = slots(read(WLF))
     assert list(found)[2:] == ["it.limit.wlf[0]", "it.limit.wlf[1]"]
@@ -110,7 +120,7 @@ def test_shifts_with_temperature():
     assert found["it.limit.arrhenius"].number == 5000.0 and found["it.limit"].over.at == (pytest.approx(293.15),)
 
 
-@pytest.mark.parametrize("number", [LINE, RATE, TABLE, WLF, ARRHENIUS])
+@pytest.mark.parametrize("number", [LINE, RATE, TABLE, WLF, ARRHENIUS, KEPT])
 def test_the_schema_knows_them(number):
     validator = Draft7Validator(network_schema(ELEMENTS))
     assert not list(validator.iter_errors(Document.parse(text(number)).root.plain()))
@@ -133,7 +143,7 @@ def test_the_schema_refuses_what_reading_refuses(over):
         read(number)
 
 
-@pytest.mark.parametrize("number", [LINE, TABLE])
+@pytest.mark.parametrize("number", [LINE, TABLE, KEPT])
 def test_what_was_found_is_written_and_read_again(number):
     spec = read(number)
     moved = {

@@ -7,9 +7,10 @@ import pytest
 from seeds import seed_of
 
 from dashpot.data.dataset import Dataset
+from dashpot.data.history import with_history
 from dashpot.data.run import Run
 from dashpot.data.trouble import Trouble
-from dashpot.triage.actuator import actuator_harmonics
+from dashpot.triage.actuator import actuator_remarks
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.examine import examine
 
@@ -130,13 +131,41 @@ def test_clipped_runs_that_reading_set_aside_are_remembered(rng):
     assert (fault.run, fault.kind) == ("gone", "clipping")
 
 
+@pytest.mark.parametrize(("channel", "factor"), [("force", 1000.0), ("displacement", 1000.0), ("force", -1.0)])
+def test_runs_know_the_work_of_a_run_before_them_as_it_was_corrected(rng, channel, factor):
+    """A run with kN, or mm, as if they were N or m, or turned, has moved and worked the specimen like the sound one."""
+    sound = dataset(rng)
+    wrong = with_run(sound, 3, **{channel: factor * sound.runs[3].channels[channel]})
+    expected, made = (list(with_history((run, True) for run in data.runs)) for data in (sound, wrong))
+    found = examine(replace(wrong, runs=tuple(made)))
+    assert [fault.factor for fault in found.faults] == [pytest.approx(1.0 / factor)]
+    for run, other in zip(found.dataset.runs, expected, strict=True):
+        assert {key: value for key, value in run.history.items() if key != "reached"} == pytest.approx(
+            {key: value for key, value in other.history.items() if key != "reached"}, rel=1e-9
+        )
+    assert len(found.dataset.runs[-1].history) == 2 * (len(expected) - 1) + 1
+
+
 def test_harmonics_of_the_actuator_are_remarked():
     """A tenth of the motion in the second harmonic, and none."""
     for share in (0.1, 0.0):
         phase = 2.0 * np.pi * 5.0 * TIME
         x = 0.02 + 1e-3 * (np.sin(phase) + share * np.sin(2.0 * phase))
-        said = actuator_harmonics(Run("a", "harmonic", TIME, {"displacement": x, "force": 2e5 * x}))
-        assert ("harmonic 2 of the displacement itself is 10%" in said) == (share > 0.0)
+        said = actuator_remarks([Run("a", "harmonic", TIME, {"displacement": x, "force": 2e5 * x})])
+        expected = "Run 'a': harmonic 2 of the displacement itself is 10% of the motion; the actuator adds it"
+        assert [text.partition(",")[0] for text in said] == [expected] * (share > 0.0)
+
+
+def test_harmonics_of_the_actuator_in_many_runs_are_one_remark():
+    """Of 8, 12 and 10 % of the motion, and none."""
+    phase, runs = 2.0 * np.pi * 5.0 * TIME, []
+    for name, share in (("a", 0.08), ("b", 0.12), ("c", 0.1), ("d", 0.0)):
+        x = 0.02 + 1e-3 * (np.sin(phase) + share * np.sin(2.0 * phase))
+        runs.append(Run(name, "harmonic", TIME, {"displacement": x, "force": 2e5 * x}))
+    (said,) = actuator_remarks(runs)
+    assert said.startswith("3 of 4 runs, most of all 'b': harmonic 2 of the displacement itself is 12% of the motion")
+    assert actuator_remarks(runs[:3])[0].startswith("All 3 runs, most of all 'b'")
+    assert len(actuator_remarks(runs[:2])) == 2
 
 
 def test_a_prescribed_force_may_come_back_to_the_last_digit(rng):

@@ -7,7 +7,10 @@ import pytest
 
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
+from dashpot.triage.energy import giving_back, works_of
 from dashpot.triage.examine import examine, examined
+from dashpot.triage.fault import Fault
+from dashpot.triage.telling import told_once
 from dashpot.triage.work import REVERSIBILITY, work_of_cycles
 
 STEP = 1e-3
@@ -221,6 +224,40 @@ def test_turned_forces_of_most_runs_are_all_turned_back():
     assert all(np.array_equal(one.force, other.force) for one, other in zip(found.dataset.runs, mounts(), strict=True))
 
 
+def turned(each):
+    return replace(each, channels={**each.channels, "force": -each.force})
+
+
+def test_a_sign_that_is_wrong_in_all_runs_is_told_once():
+    """In two of them the loss is within what a sample of delay explains: they need no evidence of their own."""
+    hardly = []
+    for k, amplitude in enumerate((1e-3, 2e-3)):
+        x = sine(amplitude, 5.0, 5e-3)
+        hardly.append(run(f"r{k + 5}", x, 1e5 * x + 4e6 * x**2 + 80.0 * np.gradient(x, STEP), 2.0, k))
+    assert not {"r5", "r6"} & giving_back([*map(turned, hardly)], works_of([*map(turned, hardly)]))
+    runs = [turned(each) for each in [*mounts(), *hardly]]
+    found = examined(Dataset("made", tuple(runs)))
+    (problem,) = found.problems
+    assert str(problem).startswith("all 7 runs: work is given back over closed cycles, ")
+    assert "the force of all runs has the wrong sign; the force was multiplied by -1 here" in problem.message
+    assert problem.hint == "Write 'sign: -1' under the force channel of all runs"
+    assert all(np.array_equal(one.force, -other.force) for one, other in zip(found.runs, runs, strict=True))
+    (sentence,) = examine(Dataset("made", tuple(runs))).sentences
+    assert sentence == f"All 7 runs: {problem.message.partition(': ')[2]}. {problem.hint}."
+
+
+def test_what_many_runs_have_alike_is_told_of_the_first():
+    faults = [Fault(f"r{k}", "unit", f"its force is {k + 2} times too large", "Correct the 'unit'") for k in range(3)]
+    other = Fault("r9", "delay", "its force is late", "Write its 'delay'")
+    (alike, alone) = told_once([*faults, other], 12)
+    assert alike.sentence == (
+        "Runs 'r0', 'r1', 'r2': they are at fault alike; of run 'r0': its force is 2 times too large; left out here. "
+        "Correct the 'unit'."
+    )
+    assert alone.sentence == "Run 'r9': its force is late; left out here. Write its 'delay'."
+    assert [each.runs for each in told_once(faults[:2], 12)] == ["run 'r0'", "run 'r1'"]
+
+
 def test_a_dataset_never_loses_its_last_run():
     """Every force comes late by the same: that is said, and the runs stay."""
     found = examine(Dataset("made", tuple(mount(f"r{k}", a, 5.0, 12e-3, k) for k, a in enumerate((1e-3, 2e-3)))))
@@ -263,7 +300,7 @@ def short_mounts(cycles, stiffness=5e4, turned=()):
 def test_the_wrong_sign_of_all_runs_is_told_once_even_of_few_cycles(cycles, stiffness):
     found = examine(Dataset("made", tuple(short_mounts(cycles, stiffness, turned=range(4)))))
     (problem,) = found.problems
-    assert "runs 'r0', 'r1', 'r2', 'r3': 4 of 4 runs" in problem.message
+    assert problem.message.startswith("all 4 runs: work is given back over closed cycles, ")
     assert "the force of all runs has the wrong sign" in problem.message
     sound = short_mounts(cycles, stiffness)
     assert all(float(run.force @ other.force) > 0.0 for run, other in zip(found.dataset.runs, sound, strict=True))

@@ -21,7 +21,7 @@ GAP = 0.05
 def over_conditions(rows: Sequence[Mapping[str, Any]], series: Sequence[str] = ()) -> Figure | None:
     """A point for each run and label: `{run, label, conditions, stiffness, loss}`, N/m; None where nothing varies.
 
-    A panel for each of the first five conditions that vary.
+    A panel for each of the first five conditions that vary. Those of one level have the same value in all rows.
     """
     names = [name for name in dict.fromkeys(name for row in rows for name in row["conditions"]) if _varies(name, rows)]
     if not names:
@@ -51,7 +51,7 @@ def _varies(name: str, rows: Sequence[Mapping[str, Any]]) -> bool:
     values = [row["conditions"][name] for row in rows if name in row["conditions"]]
     # a middle that moves by less than a tenth of the amplitude is no preload
     least = 0.1 * max(row["conditions"]["amplitude"] for row in rows) if name == "preload" else 0.0
-    return max(values) - min(values) > max(1e-2 * max(map(abs, values)), least)
+    return max(values) - min(values) > least
 
 
 def _block(label: str, rows: Sequence[Mapping[str, Any]], names: Sequence[str]) -> dict[str, Any]:
