@@ -162,8 +162,11 @@ def refine_beside_priors(
     noise: float | None,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
+    hopeless: Callable[[Array, float], bool] = lambda point, loss: False,
 ) -> tuple[Refined, float]:
     """A refinement from its start with the priors of the network, and what a sample counts for in it, in N.
+
+    Without priors it may be ``hopeless``; see ``refine``.
 
     What a sample counts for is known where the network is fitted: with priors it is fitted twice. The first time it
     also starts where the other numbers fit best with those at the middles of their priors: what the data leave open is
@@ -171,7 +174,9 @@ def refine_beside_priors(
     """
     coordinates, priors = whole.coordinates, priors_of(whole.free)
     if priors is None:
-        return refine(whole.loss, coordinates, coordinates.start, steps, watch=watch, budget=budget), 0.0
+        start = coordinates.start
+        found = refine(whole.loss, coordinates, start, steps, watch=watch, budget=budget, hopeless=hopeless)
+        return found, 0.0
     spent, starts = 0, [coordinates.start]
 
     def refined(loss: Loss, among: Coordinates, start: Array) -> Refined:

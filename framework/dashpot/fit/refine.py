@@ -57,7 +57,7 @@ def refine(
     tolerance: float = 1e-7,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
-    hopeless: Callable[[float, float], bool] = lambda before, after: False,
+    hopeless: Callable[[Array, float], bool] = lambda point, loss: False,
     thorough: bool = True,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
@@ -69,7 +69,7 @@ def refine(
     After some that hardly help at all steps are bent as the valley is; see ``bent_steps``.
     Structures of a diagnosis are refitted and compared; one that happens to leap would be ahead, so
     that they do without. The Jacobian counts as one parameter vector for each coordinate, and ``budget`` is the largest
-    number of vectors. The second of two steps, each from one loss to another that is ``hopeless``, is the last one,
+    number of vectors. The second of two steps, each to a point and a loss that are ``hopeless``, is the last one,
     unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
@@ -108,7 +108,7 @@ def refine(
         trail = [*trail[-PATIENCE:], point] if 1.0 - loss / before < CREEP else [point]
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
-        hope = strides or not hopeless(before, loss)
+        hope = not hopeless(point, loss) or strides
         if not (hope or hoped):
             return Refined(point, loss, Outcome.LEFT_BEHIND, spent)
         hoped = hope

@@ -6,6 +6,9 @@ degrees of freedom as the branch has free numbers, or less where they cannot be 
 distribution of the likelihood ratio, 1938). So of branches that are not needed 95 % are found. One that is needed is
 taken for spare only where it shows no more than the noise does in all but 5 % of measurements.
 
+A refit ends as soon as a branch shows: where the square of the residual stays too large even if all the steps that a
+refit may take did as much as the last two.
+
 Only branches are tried of which some number may as well be zero, or all knots of a curve: the others show too clearly.
 """
 
@@ -13,13 +16,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.fit.coordinates import Coordinates, search_coordinates
-from dashpot.fit.kept_curves import refinement
+from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.prior import refine_beside_priors
 from dashpot.fit.scored import ScoredRun
@@ -51,18 +54,20 @@ def spare_branches(
     candidates = _candidates(fitted, coordinates, errors)
     if not candidates:
         return ()
-    present, found = _refitted(fitted, objective_of(fitted), chosen, noise), []
-    objective, among = objective_of(present), search_coordinates(present)
+    objective = objective_of(fitted)
+    present, found = _refitted(fitted, objective, chosen, noise), []
+    among = search_coordinates(present)
     error = max(effective_error(objective, among, among.start, noise), _exact(objective.runs))
-    whole = _square(objective)
+    whole = _square(objective, present)
     for name, numbers in reversed(candidates.items()):
         without = _without(present, name)
         if not without.root.members:
             break  # a network has a branch
         with suppress(InputError):  # another branch asks for it, or a node needs it
-            less = _refitted(without, objective_of(without), chosen, noise)
-            square = _square(objective_of(less))
-            if square - whole <= _quantile(numbers) * error**2:
+            objective, most = objective_of(without), whole + _quantile(numbers) * error**2
+            less = _refitted(without, objective, chosen, noise, most)
+            square = _square(objective, less)
+            if square <= most:
                 present, whole = less, square
                 found.append(name)
     return tuple(found[::-1])
@@ -80,11 +85,37 @@ def _exact(runs: Sequence[ScoredRun]) -> float:
 
 
 def _refitted(
-    spec: NetworkSpec, objective: Objective, chosen: Callable[[Slot], bool], noise: float | None
+    spec: NetworkSpec,
+    objective: Objective,
+    chosen: Callable[[Slot], bool],
+    noise: float | None,
+    most: float | None = None,
 ) -> NetworkSpec:
+    """The network with its numbers refitted, or left where a square of no more than ``most`` N^2 is out of reach."""
     whole = refinement(spec, objective, chosen)
-    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, noise)
+    hopeless = _never if most is None else OutOfReach(whole, objective.total, most)
+    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, noise, hopeless=hopeless)
     return whole.at(found.point)
+
+
+def _never(point: Array, loss: float) -> bool:
+    return False
+
+
+@dataclass
+class OutOfReach:
+    """Whether the square of the residual stays above ``most`` N^2 if as many steps as a refit may take all do as the
+    last one."""
+
+    whole: Refinement
+    total: int
+    most: float
+    last: float = np.inf
+
+    def __call__(self, point: Array, loss: float) -> bool:
+        square = self.whole.of_data(point, loss) ** 2 * self.total
+        before, self.last = self.last, square
+        return REFIT_STEPS * (before - square) < square - self.most and square > self.most
 
 
 def _candidates(fitted: NetworkSpec, coordinates: Coordinates, errors: Array) -> dict[str, int]:
@@ -106,9 +137,11 @@ def _candidates(fitted: NetworkSpec, coordinates: Coordinates, errors: Array) ->
     return found
 
 
-def _square(objective: Objective) -> float:
-    """The sum of the squares of the residual in N^2; infinite for a network that cannot be solved."""
-    return float(objective.losses(objective.network.start)[0]) ** 2 * objective.total
+def _square(objective: Objective, spec: NetworkSpec) -> float:
+    """The sum of the squares of the residual in N^2 of a network like that of the objective; infinite where it cannot
+    be solved."""
+    values = np.array([slot.value.number for slot in spec.slots()])
+    return float(objective.losses(values)[0]) ** 2 * objective.total
 
 
 def _quantile(numbers: int) -> float:
