@@ -15,7 +15,7 @@ from dashpot.fit.alike import repeated
 from dashpot.fit.enough_steps import EnoughSteps, Team
 from dashpot.fit.last_moved import LastMoved
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.shelf import Shelf
+from dashpot.fit.shelf import TIMES_FOR_STEPS, Shelf
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
@@ -65,7 +65,8 @@ class Objective:
         self.teams = _teams(self.runs)
         self.steps = EnoughSteps(network, self.runs)
         # no methods of its own: what is large goes with the last reference, not when garbage is collected
-        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
+        times = TIMES_FOR_STEPS if isinstance(network, CompiledSystem) else 1.0
+        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs), times)
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.scratch = Scratch()
         self.total = sum(
