@@ -167,8 +167,10 @@ class _Conduct:
         return found
 
     def _apart(self, ready: Sequence[ModelPlan], done: Mapping[str, ModelResult]) -> dict[str, ModelResult]:
-        """Several models, each as a piece of work, on processes with as many threads as all of them: where one has no more
-        to do, those of another have its core."""
+        """Several models, each as a piece of work, in processes with as many threads as all of them.
+
+        Where one has no more to do, the others have its core.
+        """
         each = [(plan, {name: done[name] for name in plan.needs}) for plan in ready]
         found, here = {}, self.here if isinstance(self.jobs, Executor) else 1
         for number, future in finished(
