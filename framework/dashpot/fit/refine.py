@@ -19,6 +19,7 @@ from dashpot.fit.rising_step import rising_step
 Array = NDArray[np.float64]
 
 OWN_METHOD = "gauss_newton"  # its name in files
+TOLERANCE = 1e-7  # of the loss in a step, the last one
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 BOXES = (0.7, 0.2, 0.05)  # smaller ones, each with the two smallest dampings
 CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
@@ -54,7 +55,7 @@ def refine(
     coordinates: Coordinates,
     start: Array,
     steps: int = 40,
-    tolerance: float = 1e-7,
+    tolerance: float = TOLERANCE,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
     hopeless: Callable[[Array, float], bool] = lambda point, loss: False,

@@ -7,7 +7,7 @@ distribution of the likelihood ratio, 1938). So of branches that are not needed 
 taken for spare only where it shows no more than the noise does in all but 5 % of measurements.
 
 A refit ends as soon as a branch shows: where the square of the residual stays too large even if all the steps that a
-refit may take did as much as the last two.
+refit may take did as much as the last two. It also ends where all of them together could not move it by ``SETTLED``.
 
 Only branches are tried of which some number may as well be zero, or all knots of a curve: the others show too clearly.
 """
@@ -25,6 +25,7 @@ from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.kept_curves import Refinement, refinement
 from dashpot.fit.objective import Objective
 from dashpot.fit.prior import refine_beside_priors
+from dashpot.fit.refine import TOLERANCE
 from dashpot.fit.scored import ScoredRun
 from dashpot.fit.uncertainty import effective_error
 from dashpot.model.network import Branch, NetworkSpec, Slot
@@ -34,6 +35,7 @@ Array = NDArray[np.float64]
 
 MISSED = 0.05  # of the branches that are not needed
 REFIT_STEPS = 40  # of a network with a branch less, which begins near to where it ends
+SETTLED = 0.1  # e^2: to which the square is taken, a fortieth of what decides of a branch with one free number
 EXACT = 1e-6  # of the swing of the force: where there is no noise nothing is told from what a refit leaves over
 
 
@@ -55,17 +57,15 @@ def spare_branches(
     if not candidates:
         return ()
     objective = objective_of(fitted)
-    present, found = _refitted(fitted, objective, chosen, noise), []
-    among = search_coordinates(present)
-    error = max(effective_error(objective, among, among.start, noise), _exact(objective.runs))
-    whole = _square(objective, present)
+    present, found = _refitted(fitted, objective, chosen, noise, _error(objective, fitted, noise)), []
+    error, whole = _error(objective, present, noise), _square(objective, present)
     for name, numbers in reversed(candidates.items()):
         without = _without(present, name)
         if not without.root.members:
             break  # a network has a branch
         with suppress(InputError):  # another branch asks for it, or a node needs it
             objective, most = objective_of(without), whole + _quantile(numbers) * error**2
-            less = _refitted(without, objective, chosen, noise, most)
+            less = _refitted(without, objective, chosen, noise, error, most)
             square = _square(objective, less)
             if square <= most:
                 present, whole = less, square
@@ -80,6 +80,12 @@ def _without(spec: NetworkSpec, name: str) -> NetworkSpec:
     return replace(spec, root=replace(spec.root, members=kept), ends=ends)
 
 
+def _error(objective: Objective, spec: NetworkSpec, noise: float | None) -> float:
+    """What a sample counts for in N."""
+    among = search_coordinates(spec)
+    return max(effective_error(objective, among, among.start, noise), _exact(objective.runs))
+
+
 def _exact(runs: Sequence[ScoredRun]) -> float:
     return EXACT * float(np.sqrt(np.mean([np.var(run.force[run.first :]) for run in runs])))
 
@@ -89,12 +95,18 @@ def _refitted(
     objective: Objective,
     chosen: Callable[[Slot], bool],
     noise: float | None,
+    error: float,
     most: float | None = None,
 ) -> NetworkSpec:
     """The network with its numbers refitted, or left where a square of no more than ``most`` N^2 is out of reach."""
     whole = refinement(spec, objective, chosen)
+    square = float(whole.loss.losses(whole.coordinates.to_values(whole.coordinates.start))[0]) ** 2 * objective.total
+    # half of a change of the square is one of the loss
+    enough = 0.5 * SETTLED * error**2 / REFIT_STEPS / square if 0.0 < square < np.inf else 0.0
     hopeless = _never if most is None else OutOfReach(whole, objective.total, most)
-    found, _ = refine_beside_priors(whole, objective, REFIT_STEPS, noise, hopeless=hopeless)
+    found, _ = refine_beside_priors(
+        whole, objective, REFIT_STEPS, noise, tolerance=max(enough, TOLERANCE), hopeless=hopeless
+    )
     return whole.at(found.point)
 
 
