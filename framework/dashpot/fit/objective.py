@@ -132,9 +132,9 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
-        return self.moved(team, values, moves, partial(self._solved_moved, values, moves, team))
+        return self.moved(team, values, moves, partial(self._solved_moved, team, values))
 
-    def _solved_moved(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+    def _solved_moved(self, team: Team, values: Array, moves: Array) -> Iterator[tuple[int, Array]]:
         lanes = np.concatenate([values[None], values + moves])
         solution = self._solved_around(team, lanes)
         if not self.steps.tell(team, solution, values):
