@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +13,6 @@ Array = NDArray[np.float64]
 
 # below this share of a step the powers of the place in it are averaged by their series, which needs so many terms
 SHORT, TERMS = 1.0, 20
-KEPT = 64  # lengths of steps whose weights stay known: a Jacobian has one in all rows of all runs
 
 
 def smoothed(values: Array, lags: Array, dt: float) -> Array:
@@ -49,7 +47,6 @@ def _followed(values: Array, slope: Array, steps: float) -> Array:
     return np.concatenate([values[:1], lfilter([1.0], [1.0, -fading], push, zi=[fading * values[0]])[0]])
 
 
-@lru_cache(maxsize=KEPT)
 def weights(steps: float) -> tuple[float, float, float, float]:
     """What 1, p, p^2 and p^3 (p: the place in a step, 0 to 1) leave at its end: the integral of r exp(-r (1 - p)) p^k.
 
