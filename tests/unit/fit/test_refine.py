@@ -205,6 +205,24 @@ def test_a_refinement_without_hope_is_left_behind():
     assert without_hope(2.0 * DAMPING)[0] is Outcome.LEFT_BEHIND
 
 
+def test_points_that_are_equal_are_simulated_once():
+    branches = "rub: {element: dahl, stiffness: {start: 1e5, bounds: [1e3, 1e6]}, limit: {start: 60, bounds: [1, 1e3]}}"
+    _, objective, coordinates = ready(branches, runs())
+    asked = []
+
+    class Watched:
+        linearise = objective.linearise
+
+        def losses(self, values):
+            asked.append(values)
+            return objective.losses(values)
+
+    found = refine(Watched(), coordinates, coordinates.start)
+    assert all(len(np.unique(values, axis=0)) == len(values) for values in asked)
+    # at the end steps are shorter than all boxes
+    assert len(asked[1]) > len(asked[-1]) and found.evaluations > sum(map(len, asked))
+
+
 def test_hope_is_asked_for_with_each_point_and_its_loss():
     branches = "rub: {element: dahl, stiffness: {start: 1e5, bounds: [1e3, 1e6]}, limit: {start: 60, bounds: [1, 1e3]}}"
     _, objective, coordinates = ready(branches, runs())
